@@ -67,7 +67,7 @@ impl Messages {
     }
 }
 
-/// Number of lines of the module above it.
+/// A text and its place in the module.
 struct Block<'a> {
     text: &'a Text<'a>,
     /// Number of lines of the module above it.

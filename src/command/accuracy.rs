@@ -128,17 +128,17 @@ pub struct Arguments {
 #[derive(Clone, Debug)]
 struct Methods(Vec<Formula>);
 
-/// Where results go.
+/// The places where results go.
 struct Places {
     csv: Option<PathBuf>,
     pictures: Vec<PathBuf>,
 }
 
-/// Samples of a run at most: all of them are compared, of many runs.
+/// A run may have at most this many samples: the samples of many runs are kept and compared.
 const MOST_SAMPLES: f64 = 1e5;
 
 impl Arguments {
-    /// Does the study and reports it.
+    /// Carries out the study and reports it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         found.tell(terminal);
@@ -170,7 +170,7 @@ impl Arguments {
         engine.check()?;
         let finding = Finding::of(&study, self.accuracy);
 
-        // Files first: whoever closes the pipe after ten lines still has them.
+        // Files come first: a user who closes the pipe after ten lines still has them.
         let results = self.results(&study, &finding, &places)?;
         let (prints, files): (Vec<_>, Vec<_>) =
             results.into_iter().partition(|(path, _)| is_standard(path));
@@ -208,7 +208,7 @@ impl Arguments {
         terminal.end(printed, outcome)
     }
 
-    /// What is run, and how often.
+    /// The settings that are run, and how often.
     fn effort(&self, model: &Model) -> Result<Effort, Error> {
         let duration = self.duration.unwrap_or(model.run.duration);
         let every = self.every.unwrap_or(model.run.every).min(duration);
@@ -258,7 +258,7 @@ impl Arguments {
         })
     }
 
-    /// Whether `--of` can be anything at all, before anything is computed.
+    /// Checks `--of` before anything is computed.
     fn check_of(&self, model: &Model) -> Result<(), Error> {
         let Some(name) = &self.of else { return Ok(()) };
         let outputs = || model.outputs.iter().map(|o| o.name.as_str());
@@ -273,7 +273,7 @@ impl Arguments {
         Err(unknown_of(name, &all))
     }
 
-    /// What `--of` names.
+    /// The error that `--of` names.
     fn measure(&self, readings: &[Reading]) -> Result<Measure, StudyError> {
         let name = match self.of.as_deref() {
             None | Some("worst") if readings.is_empty() => return Ok(Measure::State),
@@ -342,7 +342,7 @@ impl Arguments {
         })
     }
 
-    /// Where results go: what is asked for, and the usual files.
+    /// The places of results: those that are requested, and the usual files.
     fn places(&self, found: &Found) -> Result<Places, Error> {
         let usual = |extension: &str| {
             let file = format!("{}-accuracy.{extension}", found.model.name);
@@ -367,7 +367,7 @@ impl Arguments {
         Ok(Places { csv, pictures })
     }
 
-    /// Every result with its place, in the order in which they are written.
+    /// Writes every result to its place, in the order of this list.
     fn results(
         &self,
         study: &Study,
@@ -393,7 +393,7 @@ impl Arguments {
         }
         Ok(results)
     }
-    /// The command that makes this study, without where files go.
+    /// The command that makes this study, without the options for files.
     fn command(&self) -> String {
         let mut words = vec!["bryant accuracy".to_owned(), quoted(&self.model)];
         let mut option = |name: &str, value: Option<String>| {
@@ -427,7 +427,7 @@ impl Methods {
     }
 }
 
-/// A word as a shell reads it.
+/// A word quoted for a shell.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=".contains(c);
     match word.chars().all(plain) && !word.is_empty() {
@@ -436,14 +436,14 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// A picture as a page links it: as seen from the directory of the page, where both are absolute or both are not.
+/// The link of a picture in a page: relative to the directory of the page if both paths are absolute or both are relative.
 fn link(page: &Path, picture: &Path) -> String {
     let text = |path: &Path| path.to_string_lossy().replace('\\', "/");
     let directory = page.parent().unwrap_or(Path::new(""));
     let common = directory.components().zip(picture.components());
     let common = common.take_while(|(a, b)| a == b).count();
     let up = directory.components().skip(common);
-    // up from a directory that is itself up from here leads nobody knows where
+    // the parent of a directory `..` is not known
     let unknown = up.clone().any(|part| part == Component::ParentDir);
     if unknown || page.is_absolute() != picture.is_absolute() {
         return text(picture);
@@ -493,7 +493,7 @@ fn steps(text: &str) -> Result<Range, String> {
     })
 }
 
-/// An error that is wished for: between 0 and 1, possibly in %.
+/// A requested error: between 0 and 1, possibly in %.
 pub(super) fn accuracy(text: &str) -> Result<f64, String> {
     match quantity::quantity(text, "") {
         Ok(value) if value > 0.0 && value < 1.0 => Ok(value),

@@ -48,7 +48,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Reads and reports.
+    /// Reads the model and reports.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         if let Some(force) = &self.skeleton {
             return terminal.print(&skeleton(&find_without_sources(&self.model)?, force)?);
@@ -81,7 +81,7 @@ impl Arguments {
     }
 }
 
-/// A sentence where no criterion of the model can be computed, and where some cannot.
+/// A sentence that says which criteria of the model cannot be computed, if there are any.
 fn unjudged(limits: &Limits, all: &[Judged]) -> Option<String> {
     let missing = all.iter().filter_map(|one| match &one.response {
         Err(Missing::Place(place)) => Some(format!("{} ({place})", one.criterion.name)),
@@ -135,7 +135,7 @@ fn system_freedoms(model: &Model, system: &System) -> usize {
     reference + joints.sum::<usize>()
 }
 
-/// Operations of the generated methods. That of the outputs calls that of the accelerations where it needs them.
+/// The operations of the generated methods. The method of the outputs calls that of the accelerations if it needs them.
 struct Costs {
     route: Route,
     accelerations: Count,
@@ -281,7 +281,7 @@ fn defaults(model: &Model) -> Vec<f64> {
     model.parameters.iter().map(|p| p.default).collect()
 }
 
-/// Which joints the freedoms of an element follow.
+/// The joints that the freedoms of an element follow.
 fn following(system: &System, element: usize) -> String {
     let freedoms = system.elements[element].joint.freedoms().iter();
     let leaders = freedoms.filter_map(|freedom| freedom.follows.as_ref());
@@ -290,7 +290,7 @@ fn following(system: &System, element: usize) -> String {
     named.collect()
 }
 
-/// Two spaces per generation.
+/// Two spaces for each generation.
 fn indent(system: &System, mut element: usize) -> String {
     let mut depth = 0;
     while let Some(parent) = system.elements[element].parent {

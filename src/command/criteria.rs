@@ -59,7 +59,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Reads, and judges.
+    /// Reads the recording and judges it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let (Some(path), Some(standard), Some(dummy), false) =
             (&self.recording, &self.standard, &self.dummy, self.list)
@@ -87,14 +87,14 @@ impl Arguments {
     }
 }
 
-/// Places as they are called: `head_x` is `head-x`.
+/// Places by their usual names: `head_x` becomes `head-x`.
 pub(super) fn places(given: &[(String, String)]) -> Vec<(String, String)> {
     let each = given.iter();
     each.map(|(place, of)| (place.replace('_', "-"), of.clone()))
         .collect()
 }
 
-/// An error where a channel cannot be used, so that a criterion would be wrong.
+/// Fails if a channel cannot be used, because a criterion would then be wrong.
 fn usable(verdict: &Verdict) -> Result<(), Error> {
     let wrong = verdict.rows.iter().find_map(|row| match &row.value {
         Err(Missing::Unusable(why)) => Some((row.criterion.name, why)),

@@ -89,7 +89,7 @@ fn mass(text: &str) -> Result<f64, quantity::QuantityError> {
 }
 
 impl Arguments {
-    /// Makes the body, and writes it.
+    /// Makes the body and writes it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let sex = match self.sex {
             Some(SexName::F) => Sex::Female,
@@ -144,7 +144,7 @@ impl Arguments {
     }
 }
 
-/// A posture with another angle, as "thighs=-80 deg".
+/// The posture with another angle, given as "thighs=-80 deg".
 fn with(posture: Posture, given: &str) -> Result<Posture, Error> {
     let (name, angle) = given.split_once('=').ok_or_else(|| {
         Error::Input(format!(

@@ -260,7 +260,7 @@ pub struct Arguments {
     precision: Option<u8>,
 }
 
-/// `REGULATION, DUMMY`
+/// A regulation and a dummy from `REGULATION, DUMMY`.
 fn standard_and_dummy(text: &str) -> Result<(String, String), String> {
     match text.split_once(',') {
         Some((standard, dummy)) => Ok((standard.trim().to_owned(), dummy.trim().to_owned())),
@@ -268,19 +268,19 @@ fn standard_and_dummy(text: &str) -> Result<(String, String), String> {
     }
 }
 
-/// Engines.
+/// The names of the engines.
 const BUILT_IN: &str = "built-in";
 const RUSTC: &str = "rustc";
 
-/// Rows of a table at most, as in a model: all of them are kept until the end.
+/// A table has at most this many rows, as in a model: all of them are kept until the end.
 const MOST_ROWS: f64 = 1e6;
 
-/// How long computing a run may take where nothing else is asked for \[s\].
+/// Time that the computation of a run may take if the user gives none \[s\].
 pub(super) const TIME_LIMIT: f64 = 300.0;
-/// How long it may take at most to find out what makes a run slow \[s\].
+/// Time that the search for the cause of a slow run may take \[s\].
 const LOOKING: f64 = 10.0;
 
-/// Fixed step where none is given \[s\]: what crash simulations customarily take.
+/// Fixed step if the user gives none \[s\]: the customary step of crash simulations.
 const CUSTOMARY_STEP: f64 = 1e-4;
 
 impl Arguments {
@@ -329,7 +329,7 @@ impl Arguments {
         }
 
         let verdict = responses.verdict(&recording);
-        // Files first: whoever closes the pipe after ten lines still has them.
+        // Files come first: a user who closes the pipe after ten lines still has them.
         let mut written = files.write(&self, &found.model, &job, &recording)?;
         if let Some(path) = &self.report {
             let of_run = (&recording, &trust);
@@ -382,7 +382,7 @@ impl Arguments {
         terminal.end(printed, outcome)
     }
 
-    /// Says what the run took and what it can be trusted for; an error where it cannot, or did not come to its end.
+    /// Prints the cost of the run and how far it can be trusted; an error if it cannot be trusted or did not reach its end.
     fn conclude(
         &self,
         recording: &Recording,
@@ -451,12 +451,12 @@ impl Arguments {
         })
     }
 
-    /// Whether a method with a Jacobian is asked for, or may be chosen.
+    /// Whether a method with a Jacobian is requested, or may be chosen.
     fn may_be_stiff(&self) -> bool {
         self.accuracy.is_some() || self.method.as_deref() == Some(Formula::Rodas5.name())
     }
 
-    /// The integrator and its steps, where anything is said of them.
+    /// The integrator and its steps, if the user says anything about them.
     fn integrator(&self) -> Result<Option<Method>, Error> {
         let named = self.method.as_deref().and_then(Formula::named);
         Ok(match (named, self.step, self.tolerance) {
@@ -478,7 +478,7 @@ impl Arguments {
         })
     }
 
-    /// The run, and what is known of its error.
+    /// The run, and the knowledge about its error.
     fn record(
         &self,
         engine: &dyn Runs,
@@ -592,7 +592,7 @@ impl Arguments {
     }
 }
 
-/// A verdict for programs; null where the criteria are not judged.
+/// A verdict for programs; null if the criteria are not judged.
 fn judged_json(verdict: &Option<crate::criteria::Verdict>) -> serde_json::Value {
     verdict
         .as_ref()
@@ -605,7 +605,7 @@ fn view() -> impl TypedValueParser<Value = View> {
         .map(|name| View::named(&name).unwrap_or_default())
 }
 
-/// The share of a balance that may be missing: like an accuracy, or off.
+/// The share of a balance that may be missing: a number like an accuracy, or off.
 fn energy_limit(text: &str) -> Result<f64, String> {
     match text {
         "off" => Ok(f64::INFINITY),
@@ -621,7 +621,7 @@ pub(super) fn time_limit(text: &str) -> Result<f64, String> {
     }
 }
 
-/// An error where the run went to its end but cannot be trusted: since when, because of what, and what to do.
+/// An error if the run reached its end but cannot be trusted: since when, why, and what to do.
 fn doubtful(recording: &Recording) -> Result<(), Error> {
     let Some(first) = recording.doubts.first() else {
         return Ok(());
@@ -633,7 +633,7 @@ fn doubtful(recording: &Recording) -> Result<(), Error> {
             .iter()
             .map(|doubt| format!("  {}", doubt.message)),
     );
-    // what follows from a cause needs no remedy of its own
+    // only the first cause needs a remedy: the others follow from it
     lines.push(format!("  help: {}", first.remedy));
     Err(Error::Run(RunError {
         kind: ErrorKind::Run,
@@ -665,7 +665,7 @@ fn with_tolerances() -> String {
     estimating.map(Formula::name).collect::<Vec<_>>().join(", ")
 }
 
-/// What decided the length of a step, by the names of the model.
+/// The cause of the length of a step, with the names of the model.
 fn cause(cause: Cause, header: &Header) -> String {
     let named = |names: &[String], index: usize| names.get(index).cloned().unwrap_or_default();
     match cause {
@@ -696,7 +696,7 @@ fn cause(cause: Cause, header: &Header) -> String {
     }
 }
 
-/// The table of a run as Apache Parquet; units, model, digest and version stand in its metadata.
+/// The table of a run as Apache Parquet; its metadata have units, model, digest and version.
 fn parquet(
     out: &mut dyn std::io::Write,
     model: &str,
@@ -720,7 +720,7 @@ fn parquet(
     write_numbers(out, model, &numbers.collect::<Vec<_>>(), &metadata)
 }
 
-/// Names a joint in a singular position as the cause of a failure, where there is one.
+/// Names a joint in a singular position as the cause of a failure, if there is one.
 fn look_for_singular_joint(model: &Model, job: &Job, recording: &mut Recording) {
     let given = job.start.as_ref().map(|start| &start.state);
     let last = Some(&recording.last_state).filter(|state| !state.is_empty());
@@ -736,7 +736,7 @@ fn look_for_singular_joint(model: &Model, job: &Job, recording: &mut Recording) 
     }
 }
 
-/// What the run took, in one line.
+/// The cost of the run, in one line.
 fn report(recording: &Recording) -> String {
     let Ok(report) = &recording.result else {
         return String::new();
@@ -760,7 +760,7 @@ fn report(recording: &Recording) -> String {
     )
 }
 
-/// What stopped the run: time, element, cause, and how far the samples go.
+/// The failure of the run: time, element, cause, and how far the samples go.
 fn failure(error: &RunError, recording: &Recording) -> String {
     let what = error
         .message
@@ -796,13 +796,13 @@ fn failure(error: &RunError, recording: &Recording) -> String {
     lines.join("\n")
 }
 
-/// The element, or the reference joint, whose coordinate or velocity is at fault.
+/// The element or reference joint that has the failing coordinate or velocity.
 fn element(error: &RunError) -> Option<&str> {
     let (owner, _) = error.coordinate.as_deref()?.rsplit_once('.')?;
     Some(owner)
 }
 
-/// A length of time in the unit in which it is read most easily.
+/// A length of time in the unit that is easiest to read.
 fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s >= 1.0 => (s, "s"),
@@ -811,7 +811,7 @@ fn duration(seconds: f64) -> String {
         0.0 => return "0 s".into(),
         s => (s * 1e9, "ns"),
     };
-    // Three digits tell all that a length of time on a busy machine has to tell.
+    // Times on a busy machine are not more precise than three digits.
     let decimals = (2 - value.log10().floor() as i32).clamp(0, 3) as usize;
     let text = format!("{value:.decimals$}");
     match text.contains('.') {

@@ -69,7 +69,7 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 impl Arguments {
-    /// Settles, and writes.
+    /// Searches the state of rest and writes it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         found.tell(terminal);
@@ -127,7 +127,7 @@ impl Arguments {
         for line in text(&settled, worst, &rests).lines() {
             match &self.output {
                 Some(path) if !is_standard(path) => terminal.print(&format!("{line}\n"))?,
-                // the state is what is printed
+                // the state goes to standard output, so the line goes to standard error
                 _ => terminal.note(line),
             }
         }
@@ -155,10 +155,10 @@ impl Arguments {
     }
 }
 
-/// How long a run from the state is looked at \[s\].
+/// A run from the state is examined for this time \[s\].
 const LOOKED: f64 = 1e-4;
 
-/// Whether a run that starts there cannot be trusted: what is wrong with the place, such as a curve that is left.
+/// Fails if a run that starts there cannot be trusted, because something is wrong with the position, such as a curve that is exceeded.
 fn doubt(engine: &Prepared, set: &[(String, f64)], settled: &Settled) -> Result<(), Error> {
     let job = Job {
         duration: Some(LOOKED),
@@ -191,7 +191,7 @@ fn doubt(engine: &Prepared, set: &[(String, f64)], settled: &Settled) -> Result<
     }
 }
 
-/// Why there is no state of rest, if there is none.
+/// The reason why there is no state of rest, if there is none.
 fn refuse(settled: &Settled, worst: &str) -> Result<(), Error> {
     let g = settled.acceleration / G;
     match settled.end {
@@ -230,12 +230,12 @@ fn text(settled: &Settled, worst: &str, rests: &[(String, f64)]) -> String {
     text
 }
 
-/// The model with outputs for what is watched, and what they are.
+/// The model with outputs for the quantities of interest.
 struct Watched {
     model: Model,
-    /// Contacts, belts and springs by name, and the first of three outputs of each.
+    /// Contacts, belts and springs by name, and the index of the first of three outputs of each.
     forces: Vec<(String, usize)>,
-    /// Elements by name; an output of each, from here on.
+    /// Elements by name, and the index of the output of the first.
     elements: (usize, Vec<String>),
 }
 
@@ -302,12 +302,12 @@ impl Watched {
         outputs
     }
 
-    /// The largest acceleration of a centre of gravity \[m/s²\], and of which element.
+    /// The largest acceleration of a centre of gravity \[m/s²\], and the name of its element.
     fn acceleration(&self, outputs: &[f64]) -> (f64, &str) {
         let (first, names) = &self.elements;
         let mut worst = (0.0, names.first().map_or("", String::as_str));
         for (value, name) in outputs[*first..].iter().zip(names) {
-            // a number that is none is no rest
+            // NaN is not rest
             if value.is_nan() || *value > worst.0 {
                 worst = (
                     if value.is_nan() {
@@ -322,7 +322,7 @@ impl Watched {
         worst
     }
 
-    /// Contacts, belts and springs that carry something, with their forces \[N\].
+    /// Contacts, belts and springs that carry load, with their forces \[N\].
     fn rests_on(&self, outputs: &[f64]) -> Vec<(String, f64)> {
         let force = |first: usize| {
             outputs[first..first + 3]

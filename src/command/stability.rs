@@ -78,7 +78,7 @@ impl Arguments {
         drop(progress);
 
         let missing = cases.len() - outcomes.len();
-        // a page of some of the cases would look like one of all
+        // a page with some of the cases would look like a page with all of them
         let page = self.markdown.as_ref().filter(|_| missing == 0);
         let command = match self.full {
             true => "bryant stability --full --markdown FILE.md",

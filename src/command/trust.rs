@@ -1,4 +1,4 @@
-//! What is known of the error of a run, for people and as JSON.
+//! What is known about the error of a run, for people and as JSON.
 
 use super::Error;
 use crate::accuracy::check::{Checked, FAR, PROMISED, Verdict};
@@ -8,33 +8,33 @@ use crate::accuracy::target::{Accurate, Difference};
 use bryant_runtime::program::{ErrorKind, Header, RunError};
 use serde_json::{Value, json};
 
-/// Outputs that a list names at most.
+/// A list names at most this many outputs.
 const NAMED: usize = 8;
-/// Differences below this share are those of rounding: runs of doubles cannot know more.
+/// Differences below this share are rounding errors: runs in double precision cannot know more.
 const ROUNDING: f64 = 1e-12;
 
-/// What is known of the error of a run.
+/// What is known about the error of a run.
 pub struct Trust {
     outputs: Vec<String>,
-    /// How it was computed, where that was chosen for it.
+    /// How the run was computed, if the program chose that.
     setting: Option<Setting>,
-    /// The error that was asked for.
+    /// The requested error.
     wanted: Option<f64>,
-    /// Runs that the choice took.
+    /// Number of runs for the choice.
     runs: usize,
     estimate: Option<Difference>,
     /// How far the first of several runs was from its check.
     first: Option<Difference>,
-    /// What a second run says, by its setting.
+    /// The setting of the second run, and its verdict.
     check: Option<(Setting, Verdict)>,
-    /// The difference from the second run beyond which the run is not to be trusted.
+    /// The run cannot be trusted if it differs from the second run by more than this.
     limit: f64,
-    /// Whether sharper runs would have taken too long.
+    /// Whether there was not enough time for sharper runs.
     out_of_time: bool,
 }
 
 impl Trust {
-    /// Of a run that nothing is known of yet; `chosen` says that somebody chose its method.
+    /// For a run about which nothing is known yet; `chosen` says that the user chose its method.
     pub fn new(header: &Header, chosen: bool) -> Self {
         Trust {
             outputs: header.outputs.iter().map(|o| o.name.clone()).collect(),
@@ -49,7 +49,7 @@ impl Trust {
         }
     }
 
-    /// Of a run that was to be as accurate as `wanted`.
+    /// For a run that should be as accurate as `wanted`.
     pub fn of_accurate(accurate: &Accurate, wanted: f64) -> Self {
         Trust {
             setting: Some(accurate.setting),
@@ -61,7 +61,7 @@ impl Trust {
         }
     }
 
-    /// Of a run that was checked without being asked.
+    /// For a run that was checked by default.
     pub fn of_checked(checked: &Checked) -> Self {
         Trust {
             setting: checked.first.is_some().then_some(checked.setting),
@@ -74,12 +74,12 @@ impl Trust {
         }
     }
 
-    /// The setting that was chosen for it, if one was.
+    /// The setting that the program chose, if it chose one.
     pub fn setting(&self) -> Option<Setting> {
         self.setting
     }
 
-    /// The same with what a second run says.
+    /// The same with the verdict of a second run.
     pub fn verified(self, opinion: Setting, verdict: Verdict) -> Self {
         Trust {
             check: Some((opinion, verdict)),
@@ -87,7 +87,8 @@ impl Trust {
         }
     }
 
-    /// How far each response that was asked for is from that of the run it was compared with, relative to itself; `None` where there is none.
+    /// The difference of each requested response from the run that this one was compared with, relative to itself; `None` if there is no
+    /// such run.
     pub fn responses(&self) -> Option<&[f64]> {
         let checked = match &self.check {
             Some((_, Verdict::Apart(difference))) => Some(difference),
@@ -115,7 +116,7 @@ impl Trust {
             lines.extend(self.estimate.iter().flat_map(vanishing));
         }
         if let (Some(first), Some(setting)) = (&self.first, &self.setting) {
-            // what it was sharpened for
+            // the reason why it was repeated sharper
             let away = match first.worst <= PROMISED && first.worst_response > PROMISED {
                 true => format!("{} of a response", percent(first.worst_response)),
                 false => worst(first),
@@ -152,7 +153,7 @@ impl Trust {
         lines
     }
 
-    /// That responses are not as accurate as the run is to be.
+    /// A line that says that responses are not as accurate as the run should be.
     fn by_response(&self) -> Option<String> {
         let estimated = self.estimate.as_ref().map(|e| e.worst_response);
         let checked = match &self.check {
@@ -170,7 +171,7 @@ impl Trust {
         })
     }
 
-    /// The outputs that are furthest apart, where there are several.
+    /// The outputs that differ most, if there are several.
     fn by_output(&self, difference: &Difference) -> Vec<String> {
         let mut apart: Vec<(&String, f64)> = self
             .outputs
@@ -194,7 +195,7 @@ impl Trust {
         }
     }
 
-    /// An error where the run is not as accurate as wanted, or as promised.
+    /// Fails if the run is not as accurate as requested or promised.
     pub fn check(&self) -> Result<(), Error> {
         let error = |message| {
             Err(Error::Run(RunError {
@@ -287,7 +288,7 @@ impl Trust {
     }
 }
 
-/// A difference and the output that it is of.
+/// A difference, and the output that has it.
 fn worst(difference: &Difference) -> String {
     match difference.output.as_str() {
         _ if difference.worst < ROUNDING => share(difference.worst),
@@ -296,7 +297,7 @@ fn worst(difference: &Difference) -> String {
     }
 }
 
-/// The outputs that only a bound is known of, a line each.
+/// The outputs of which only a bound is known, a line each.
 fn vanishing(difference: &Difference) -> Vec<String> {
     let lines = difference.vanishing.iter().map(|vanishing| {
         format!(
@@ -307,7 +308,7 @@ fn vanishing(difference: &Difference) -> Vec<String> {
     lines.collect()
 }
 
-/// A share, but none below what runs of doubles can know.
+/// A share; one that is below the precision of runs of doubles is printed as a bound.
 fn share(error: f64) -> String {
     match error < ROUNDING {
         true => format!("less than {} (rounding)", percent(ROUNDING)),
@@ -327,7 +328,7 @@ mod tests {
     use std::cell::Cell;
     use std::time::Duration;
 
-    /// A model whose runs are as asked for once, and then those of another job.
+    /// A model that runs the first job as requested, and every later job as `then` changes it.
     struct Once {
         engine: Engine,
         taken: Cell<bool>,
@@ -358,7 +359,7 @@ mod tests {
         Trust::of_checked(&check::run(&once, &Job::default(), false, &mut |_| {}))
     }
 
-    /// What is promised and cannot be checked is no success; what there is no time for is said.
+    /// A promise that cannot be checked is an error; a check that takes too long is only reported.
     #[test]
     fn a_check_that_fails_is_an_error_and_one_without_time_is_not() {
         let good = checked(Job::clone);

@@ -1,4 +1,4 @@
-//! What a report shows beside a run: curves of a test, and a second run with other parameters.
+//! The additions of a report to a run: curves of a test, and a second run with other parameters.
 
 use super::super::Error;
 use super::super::compare::{channel, recording};
@@ -18,13 +18,13 @@ use bryant_runtime::program::Job;
 use bryant_signal::{Channel, unit};
 use serde_json::{Value, json};
 
-/// Samples of a curve at most; of more, every second one and so on is shown.
+/// A curve shows at most this many samples; of more samples, every second one and so on is shown.
 const MOST_SAMPLES: usize = 4000;
 
-/// The curves of a test that belong to outputs, in the units of these.
+/// The curves of a test that belong to outputs, in the units of the outputs.
 ///
 /// # Errors
-/// The recording cannot be read, or has no channel of an output; a channel is of another quantity.
+/// The recording cannot be read, or has no channel of an output, or a channel has another quantity.
 pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<Vec<Value>, Error> {
     let Some(path) = &arguments.measured else {
         return Ok(Vec::new());
@@ -83,7 +83,7 @@ pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<V
     curves.collect()
 }
 
-/// The motion and the curves of the run with other parameters; null where none is asked for.
+/// The motion and the curves of the run with other parameters; null if no such run is requested.
 ///
 /// # Errors
 /// There is no such parameter, or the run fails or cannot be trusted.
