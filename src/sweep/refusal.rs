@@ -1,4 +1,4 @@
-//! Why a row of parameters is refused, and why its run is not to be trusted.
+//! The reasons why a row of parameters is refused, and why its run cannot be trusted.
 
 use crate::equations::Engine;
 use bryant_runtime::CurveKind;
@@ -18,7 +18,7 @@ pub fn parameters(engine: &Engine, job: &Job, row: &[f64]) -> Vec<f64> {
     values
 }
 
-/// What the parameters of a row do not keep, in the words of the model; `None` where they keep everything.
+/// The condition of the model that the parameters of a row violate; `None` if they violate none.
 pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
     let info = engine.info();
     let values = parameters(engine, job, row);
@@ -35,7 +35,7 @@ pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
     Some((*condition).to_owned())
 }
 
-/// Why a run that reached its end is not to be trusted, in words; `None` where it is.
+/// The reason why a run that reached its end cannot be trusted; `None` if it can.
 pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
     let info = engine.info();
     Some(match doubt? {
