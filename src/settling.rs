@@ -60,7 +60,7 @@ const RELATIVE: f64 = 1e-4;
 const ABSOLUTE: f64 = 1e-6;
 /// The longest step of a motion \[s\].
 const LONGEST_STEP: f64 = 0.01;
-/// After this many stops the model follows its accelerations, for at most this many steps.
+/// Each time after this many stops the model follows its accelerations, for at most this many steps.
 const STOPS: u32 = 10;
 const FOLLOWED: u32 = 300;
 /// Length of the first of these steps \[s²\], and the distance that the accelerations alone may move the model in one step \[m, rad\]: a
