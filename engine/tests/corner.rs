@@ -1,8 +1,9 @@
-//! No step passes a corner of a force curve and comes back unseen: a soft layer over a hard ground, that a motion meets near its turn.
+//! No step passes over a corner of a force curve unseen and comes back: a soft layer over a hard ground, met by a motion near its turning
+//! point.
 //!
-//! x is a penetration, an angle or an elongation, ẍ = −g − F(x) with F of slope 10⁻³ up to x = 1 and of 10⁵ behind. Without the hard ground
-//! the motion would turn a little behind the corner, and a step of a tenth of a second goes over all that. In pieces x is a harmonic
-//! oscillation about a point, and so known in closed form.
+//! x is a penetration, an angle or an elongation. ẍ = −g − F(x), where F has the slope 10⁻³ up to x = 1 and 10⁵ beyond. Without the hard
+//! ground the motion would turn slightly beyond the corner, and a step of a tenth of a second passes over all of that. Piece by piece x is
+//! a harmonic oscillation about a point, so it is known in closed form.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -32,30 +33,30 @@ const SLOPES: [f64; 2] = [1e-3, (1000.0 - 1e-3) / (1.01 - 1.0)];
 
 /// Speeds at the start.
 fn speeds(count: usize) -> Vec<f64> {
-    // at the corner, were there no force: from ones that are turned in a trifle
+    // speeds at the corner without a force, from those that are turned very soon beyond it
     let at_corner = (0..count).map(|i| 0.1 * 5f64.powf(i as f64 / (count - 1) as f64));
     let reach = 2.0 * GRAVITY * (1.0 - START);
     let mut speeds: Vec<f64> = at_corner.map(|v| (reach + v * v).sqrt()).collect();
-    // and some that do not come there
+    // and some that do not reach it
     speeds.extend([0.99, 0.9].map(|share| share * reach.sqrt()));
     speeds
 }
 
-/// x after a time from the start, with as many of the two slopes as are there.
+/// x after a time from the start, with one or both slopes.
 fn closed_form(speed: f64, slopes: [f64; 2]) -> f64 {
     let (mut x, mut v, mut left) = (START, speed, DURATION);
     let mut behind = false;
     loop {
         let (slope, force_at_corner) = (slopes[usize::from(behind)], slopes[0]);
         let omega = slope.sqrt();
-        // F = F(1) + slope (x − 1) is −g there
+        // where F = F(1) + slope (x − 1) equals −g
         let rest = 1.0 - (GRAVITY + force_at_corner) / slope;
         // x = rest + size cos(ωt − phase)
         let (a, b) = (x - rest, v / omega);
         let (size, phase) = (a.hypot(b), b.atan2(a));
         let turn = (1.0 - rest) / size;
         let until = match turn < 1.0 {
-            // up through the corner before the turn, down after it
+            // upwards through the corner before the turn, downwards after it
             true if behind => (phase + turn.acos()) / omega,
             true if v > 0.0 => (phase - turn.acos()) / omega,
             _ => f64::INFINITY,
@@ -101,7 +102,7 @@ forces:
 outputs: [{ name: angle, of: wheel/wheel, what: angle }]
 run: { duration: 0.75 s, every: 0.75 s }
 ";
-/// Its place is x + 1, but for the wheel, whose angle is x.
+/// The coordinate of each shape is x + 1, except for the wheel, whose angle is x.
 const SHAPES: [(&str, &str, &str, f64); 4] = [
     (
         "contact",
@@ -136,10 +137,10 @@ fn engine(scene: &str, law: &str) -> Engine {
     Engine::new(Config::new().lists(&scene.model)).expect("no functions")
 }
 
-/// The least that a corner passed unseen does to an end.
+/// The least change of the end by a corner that was passed unseen.
 const MISSED: f64 = 0.03;
 
-/// What is wrong with an end, if anything is: errors of a run are far smaller than what a corner passed unseen does.
+/// The error of an end, if there is one: errors of a run are far smaller than the change by a corner that was passed unseen.
 fn judged(speed: f64, end: f64, tolerance: f64) -> Option<String> {
     let exact = closed_form(speed, SLOPES);
     let away = (end - exact).abs();
@@ -204,12 +205,13 @@ fn no_run_passes_a_corner_unseen() {
     none(&wrong, count);
 }
 
-/// Fixed steps \[s\]: as long as the run, and ones that the hard ground turns within. With ω² = 10⁵ 1/s² the last resolves it: ω h = 0.03.
+/// Fixed steps \[s\]: as long as the run, and some within which the hard ground turns the motion. With ω² = 10⁵ 1/s² the last one resolves
+/// this: ω h = 0.03.
 const STEPS: [f64; 5] = [0.75, 0.2, 0.05, 0.01, RESOLVED];
 const RESOLVED: f64 = 1e-4;
 
-/// Whether a run in fixed steps ended as if it had not seen the hard ground that it met, to 2 % of what that does: how well it resolves what it sees is a
-/// matter of its steps. Without the ground all methods are exact but for 10⁻³ N/m.
+/// Whether a run in fixed steps ended as if it had not seen the hard ground that it met, to 2 % of the ground's effect. How well the run
+/// resolves what it sees depends on its steps. Without the ground all methods are exact except for 10⁻³ N/m.
 fn unseen(speed: f64, end: f64) -> Option<String> {
     let [hard, soft] = [SLOPES, [SLOPES[0]; 2]].map(|slopes| closed_form(speed, slopes));
     let meets = (hard - soft).abs() > MISSED;

@@ -1,5 +1,5 @@
-//! Laws of joints that remember or drive, on one coordinate of inertia 1 of every kind, against closed forms: curves of unloading, friction that holds,
-//! motors, drives.
+//! Joint laws with memory or drive, on one coordinate of inertia 1 of every kind, against closed forms: unloading curves, friction that
+//! holds, motors, drives.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 
 const TOLERANCE: f64 = 1e-10;
 
-/// What a coordinate may be of.
+/// The kind of the coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Of {
     PlaneHinge,
@@ -98,7 +98,7 @@ outputs:
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 
-/// Time, q and q̇ at so many samples, and the number of steps.
+/// Time, q and q̇ at this many samples, and the number of steps.
 fn run(engine: &Engine, duration: f64, samples: usize) -> (Vec<[f64; 3]>, f64) {
     let machine = engine.over::<f64>();
     let settings = Settings {
@@ -118,18 +118,18 @@ fn run(engine: &Engine, duration: f64, samples: usize) -> (Vec<[f64; 3]>, f64) {
     (rows, report.steps as f64)
 }
 
-/// Each step errs by at most the tolerance in q and in q̇, which is felt by q after some time of the motion.
+/// The bound of the error: each step errs by at most the tolerance in q and in q̇, and q feels the latter after some time of motion.
 fn bound(steps: f64, time: f64) -> f64 {
     steps * TOLERANCE * time.max(1.0)
 }
 
-/// A mass that is thrown with `v` at a spring of stiffness k, which unloads along slope s and keeps its set on both sides.
+/// A mass that is thrown with `v` at a spring of stiffness k, which unloads along the slope s and keeps a set on both sides.
 fn thrown(v: f64, k: f64, s: f64, t: f64) -> f64 {
     let (loading, line) = (k.sqrt(), s.sqrt());
     let quarter = FRAC_PI_2 / loading + FRAC_PI_2 / line;
     let mut left = t;
     let (mut sets, mut v) = ([0.0, 0.0], v);
-    // each side is loaded along the curve once, and left with less
+    // each side is loaded along the curve once, and left with a smaller speed
     for side in 0..2 {
         let sign = [1.0, -1.0][side];
         let most = v / loading;
@@ -144,14 +144,14 @@ fn thrown(v: f64, k: f64, s: f64, t: f64) -> f64 {
         left -= quarter;
         sets[side] = set;
         v *= (k / s).sqrt();
-        // the way back to where the other side begins
+        // the way back to the beginning of the other side
         let way = set / v;
         if left < way {
             return sign * (set - v * left);
         }
         left -= way;
     }
-    // from then on between the two sets, on lines that it never leaves
+    // then it moves between the two sets, on lines that it never leaves
     let (bounce, across) = (PI / line, (sets[0] + sets[1]) / v);
     let depth = v / line;
     // it just passed 0 on its way up
@@ -224,7 +224,7 @@ fn lanes_and_gradients_know_the_sets() {
                 assert_eq!(found.rows[i].status, Status::Done);
                 let expected = thrown(2.0, *k, *s, duration);
                 let apart = (found.responses[i] - expected).abs();
-                // some hundred steps, each as wrong as the tolerance, times the rate of 20
+                // some hundred steps, each with an error of the tolerance, times the rate of 20
                 assert!(apart <= 1e4 * TOLERANCE, "{k}, {s}: {apart:e}");
             }
         }
@@ -253,7 +253,7 @@ fn lanes_and_gradients_know_the_sets() {
 
 #[test]
 fn what_unloading_gives_back_is_the_area_below_its_curve() {
-    // half a cycle leaves √(E_u/E_l) of the speed: down the line to u, and along u
+    // half a cycle keeps √(E_u/E_l) of the speed: down the line to u, and along u
     let (k, s, u, v) = (100.0f64, 400.0, 25.0, 2.0f64);
     let most = v / k.sqrt();
     let foot = most * (1.0 - k / s);
@@ -270,7 +270,7 @@ fn what_unloading_gives_back_is_the_area_below_its_curve() {
             .map(|w| w[1][1])
             .collect();
         assert!(peaks.len() >= 4, "{of:?}: {peaks:?}");
-        // half a sample beside the top of a parabola
+        // half a sample beside the vertex of a parabola
         let sampled = 0.5 * k * most * 0.5e-4f64.powi(2);
         for (n, peak) in peaks.iter().enumerate() {
             let expected = most * ratio.powi(n as i32) * [1.0, -1.0][n % 2];
@@ -290,7 +290,7 @@ fn what_is_held_does_not_creep() {
         let held = format!("{rub}, friction_displacement: 1e-3, motor: 1.8");
         let (rows, steps) = run(&scene(of, &held, [0.0; 2], ""), 100.0, 100);
         for [t, q, rate] in rows.into_iter().filter(|row| row[0] > 9.0) {
-            // 0.9 of the friction bends the bristle by 0.9 of its displacement; what is left of the start is e⁻⁹⁰
+            // 0.9 of the friction bends the bristle by 0.9 of its displacement; e⁻⁹⁰ of the start is left
             let bound = bound(steps, 1.0);
             assert!(
                 (q - 0.9e-3).abs() <= bound,
@@ -298,7 +298,7 @@ fn what_is_held_does_not_creep() {
             );
             assert!(rate.abs() <= bound, "{of:?} at {t}: {rate}");
         }
-        // by speed it creeps with 0.9 of that, 1/200 s late
+        // friction by speed creeps with 0.9 of that, 1/200 s late
         let creeps = format!("{rub}, motor: 1.8");
         let (rows, steps) = run(&scene(of, &creeps, [0.0; 2], ""), 100.0, 100);
         for [t, q, _] in rows.into_iter().filter(|row| row[0] > 0.5) {
@@ -308,7 +308,7 @@ fn what_is_held_does_not_creep() {
                 "{of:?} at {t}: {q}"
             );
         }
-        // beyond it slides under the whole friction
+        // beyond this it slides under the full friction
         let slides = format!("{rub}, friction_displacement: 1e-3, motor: 2.2");
         let (rows, steps) = run(&scene(of, &slides, [0.0; 2], ""), 2.0, 20);
         let rate = |t: f64| {
@@ -343,14 +343,14 @@ fn a_bristle_straightens_while_its_force_does_not_act() {
         ControlFlow::Continue(())
     })
     .unwrap_or_else(|failure| panic!("{failure}"));
-    // braked by 2 m/s² for half a second, it springs back within z_b and rests; then straight by e⁻¹⁰
+    // after braking by 2 m/s² for half a second it springs back within z_b and rests; then it is straight up to e⁻¹⁰
     assert!(bristle[1].abs() < 1e-3 && bristle[1] != 0.0, "{bristle:?}");
     let left = bristle[1] * (-10.0f64).exp();
     assert!((bristle[2] - left).abs() <= 1e-9, "{bristle:?} {left}");
 }
 
-/// A stone that nothing holds on an arm, and one that is a system of its own, begin with the same motion. Both fly alike, and the arm swings as if
-/// alone, though the coordinates of the first are relative to it.
+/// A stone that nothing holds on an arm, and a stone that is a system of its own, begin with the same motion. Both fly in the same way, and
+/// the arm swings as if it were alone, although the coordinates of the first stone are relative to the arm.
 #[test]
 fn a_free_joint_lets_go() {
     let bodies = "mass: 0.5, cg: [0.02, 0.01, 0], inertia: [0.01, 0.012, 0.008]";
@@ -411,7 +411,7 @@ run: {{ duration: 0.4 s, every: 0.05 s }}
             pairs.push([1, 2].map(|k| position(format!("{what}{k} {axis}"))));
         }
     }
-    // relative coordinates divide by the cosine of the second angle, which stays above a half
+    // relative coordinates are divided by the cosine of the second angle, which stays above a half
     let bound = bound(steps as f64, 10.0);
     for (k, row) in rows.iter().enumerate() {
         for &[a, b] in &pairs {
@@ -429,7 +429,7 @@ fn motors_and_drives_move_as_their_formulas_say() {
             t * t * t / 3.0
         }),
         ("motor: -0.6", [0.0; 2], &|t| -0.3 * t * t),
-        // at constant voltage: from 0.5 at rest to nothing at 0.4 rad/s
+        // at constant voltage the motor goes from 0.5 at rest to 0 at 0.4 rad/s
         ("motor: 0.5, damping: 0.5 / 0.4", [0.0; 2], &|t| {
             0.4 * (t - 0.8 * (1.0 - (-t / 0.8).exp()))
         }),

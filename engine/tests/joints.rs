@@ -1,5 +1,5 @@
-//! Joints with coordinates of their own, by what is known otherwise: the published motion of a stiff mechanism, the same mechanism in absolute
-//! coordinates, one body in the place of welded ones, and closed forms.
+//! Joints with coordinates of their own, against independent results: the published motion of a stiff mechanism, the same mechanism in
+//! absolute coordinates, one body in place of welded ones, and closed forms.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -35,8 +35,8 @@ fn same(found: f64, expected: f64, scale: f64) {
     );
 }
 
-/// A flyball governor: a shaft on a hinge, a slider on it, two rods on hinges, each tied to the slider by a stiff spring and damper. Rods and shaft
-/// are 0.01 m square of 3000 kg/m³, the masses at the tips are points, the slider a cube.
+/// A flyball governor: a shaft on a hinge, a slider on it, and two rods on hinges, each connected to the slider by a stiff spring and
+/// damper. Rods and shaft have a cross-section of 0.01 m × 0.01 m and 3000 kg/m³, the masses at the tips are points, the slider is a cube.
 fn governor() -> String {
     let (rod, tip) = (0.3, 5.0);
     let mass = rod + tip;
@@ -91,7 +91,7 @@ fn the_flyball_governor_moves_as_published() {
         ControlFlow::Continue(())
     });
     report.unwrap_or_else(|failure| panic!("{failure}"));
-    // slider height [m], rod angle [rad], shaft speed [rad/s], with the digits that are given
+    // slider height [m], rod angle [rad], shaft speed [rad/s], with the published digits
     let published = [
         (
             0.5,
@@ -108,7 +108,7 @@ fn the_flyball_governor_moves_as_published() {
             .find(|(t, _)| (t - time).abs() < 1e-9)
             .expect("a row");
         for (found, (value, digit)) in row.1.iter().zip(expected) {
-            // the last digit is rounded, and the motion amplifies what two programs round differently
+            // the last digit is rounded, and the motion amplifies the different rounding of two programs
             assert!(
                 (found - value).abs() <= 2.0 * digit,
                 "{found} for {value} at {time} s"
@@ -188,8 +188,8 @@ fn relative_coordinates_say_the_same_as_absolute_ones() {
     }
 }
 
-/// Two bodies, the second welded to the first, or both as one: masses at (0.1, 0, 0) and (0.3, 0, 0.2) of the frame, without moments of their own but
-/// for the first. The pair is carried by a hinge, and carries a ball.
+/// Two bodies, the second welded to the first, or both as one body: masses at (0.1, 0, 0) and (0.3, 0, 0.2) of the frame; only the first
+/// has moments of inertia of its own. The pair is carried by a hinge, and carries a ball joint.
 fn pair(welded: bool) -> String {
     let bodies = match welded {
         true => "
@@ -249,7 +249,8 @@ fn welded_bodies_are_one() {
 
 #[test]
 fn a_joint_holds_what_it_does_not_let_go() {
-    // An arm about z with the mass m at (r, 0, h) turns at Ω: a = −Ω² r along x. What it needs at its joint is m (a − g), and of that the moment.
+    // An arm about z with the mass m at (r, 0, h) turns at Ω: a = −Ω² r along x. Its joint carries the force m (a − g) and the moment of
+    // this force.
     let values = at_start(
         "
 model: turntable

@@ -1,6 +1,7 @@
-//! Scenes of real size: machine code has the bits of the interpreter in every method, over doubles and over lanes of every width, at states
-//! with contacts, stops and belts at work, with slopes and without; rows of parameters have the same bits in lanes of every width; and what is asked for otherwise gives the same bits: outputs of which some are wanted, memory that
-//! is renewed by guards that are known.
+//! Scenes of real size. Machine code has the bits of the interpreter in every method, over doubles and over lanes of every width, at states
+//! with contacts, stops and belts at work, with derivatives and without. Rows of parameters have the same bits in lanes of every width.
+//! Other ways to request the same results give the same bits: a selection of outputs, and memory that is updated with known event
+//! functions.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -23,7 +24,7 @@ fn engine(name: &str) -> Engine {
     Engine::new(Config::new().matrices(false).lists(&model)).unwrap()
 }
 
-/// Weyl's sequence: evenly in −1 to 1.
+/// Weyl's sequence: evenly distributed in −1 to 1.
 struct Weyl(f64);
 
 impl Weyl {
@@ -33,7 +34,7 @@ impl Weyl {
     }
 }
 
-/// A scalar by the numbers of its lanes, and back as bits.
+/// Makes a scalar from the numbers of its lanes, and returns its bits.
 struct Lanes<T> {
     of: fn(&[f64; MOST_LANES]) -> T,
     bits: fn(T) -> Vec<u64>,
@@ -46,7 +47,7 @@ fn bits(value: f64) -> u64 {
     }
 }
 
-/// States around the start, the farther the more bodies overlap; speeds up to metres and radians per second.
+/// States around the start. The farther away, the more bodies overlap; speeds are up to metres and radians per second.
 fn state<T: Real>(
     model: &dyn Dynamics<T>,
     lanes: &Lanes<T>,
@@ -118,7 +119,7 @@ fn check<T: Real>(name: &str, lanes: &Lanes<T>) {
     }
 }
 
-/// Memory that is renewed, with and without guards that are known.
+/// Updates memory, with and without known event functions.
 fn renewed<T: Real>(name: &str, lanes: &Lanes<T>, models: [&dyn Dynamics<T>; 2], t: T, y: &[T]) {
     let mut plain = y.to_vec();
     models[1].renew(t, &mut plain);
@@ -133,7 +134,7 @@ fn renewed<T: Real>(name: &str, lanes: &Lanes<T>, models: [&dyn Dynamics<T>; 2],
     }
 }
 
-/// Outputs of which some are wanted, in any order, one twice; then others.
+/// A selection of outputs in any order, one of them twice; then another selection.
 fn some_outputs<T: Real>(name: &str, lanes: &Lanes<T>, engine: &Engine, t: T, y: &[T]) {
     let count = engine.info().outputs.len();
     let [mut some, mut all] = [(); 2].map(|()| vec![T::from_f64(0.0); count]);
@@ -191,14 +192,14 @@ impl OfAnyWidth for Check {
     }
 }
 
-/// Other numbers than these.
+/// Numbers that differ from these.
 fn slopes(numbers: &[f64; MOST_LANES]) -> [f64; MOST_LANES] {
     let mut turned = *numbers;
     turned.rotate_left(5);
     turned
 }
 
-/// A value with eight slopes, each of which is that of a dual number alone.
+/// A value with eight derivatives, each of which equals that of a single dual number.
 #[test]
 fn slopes_side_by_side() {
     let columns = Lanes {
@@ -229,7 +230,7 @@ fn slopes_side_by_side() {
     }
 }
 
-/// Columns of the Jacobian are slopes over dual numbers that are interpreted, one by one.
+/// Columns of the Jacobian equal the derivatives over interpreted dual numbers, one by one.
 fn jacobian(scene: &str) {
     let engine = engine(scene);
     let (model, dual) = (engine.over::<f64>(), engine.interpreted::<Dual<f64>>());
@@ -266,7 +267,7 @@ fn jacobian(scene: &str) {
     }
 }
 
-/// What searches look at together differs from width to width, and what comes of it does not.
+/// How many places a search examines at once differs with the width, but its results do not.
 #[test]
 fn rows_have_the_same_bits_in_every_width() {
     for scene in SCENES {
@@ -331,8 +332,8 @@ fn lanes_of_every_width() {
     }
 }
 
-/// Singles tell times apart by 10⁻⁸ s at 0.1 s: shorter steps on the way to a kink move nothing, and a run of them would never end. By steps of
-/// tolerance a run of this scene takes some thousands.
+/// Single precision resolves times to 10⁻⁸ s at 0.1 s: shorter steps on the way to a kink would change nothing, and such a run would never
+/// end. With steps by the tolerance, a run of this scene takes some thousands.
 #[test]
 fn singles_do_not_creep_along_kinks() {
     let engine = engine("occupant");
@@ -351,7 +352,7 @@ fn singles_do_not_creep_along_kinks() {
             let done = simulate::run(&model, &start, &settings, None, &mut |_| {
                 ControlFlow::Continue(())
             });
-            // a tolerance that singles cannot keep ends a run, and says so
+            // a tolerance that single precision cannot keep ends the run with a message
             let enough = match &done {
                 Ok(report) => report.steps + report.rejected < 50_000,
                 Err(failure) => matches!(failure.reason, Reason::StepTooSmall { .. }),

@@ -1,4 +1,4 @@
-//! The bits of engines: every method of every bundled model over every scalar, beside the generated Rust.
+//! The bits of the engine: every method of every bundled model, over every scalar, compared with the generated Rust.
 //!
 //! | file | over |
 //! |---|---|
