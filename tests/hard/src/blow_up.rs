@@ -1,4 +1,4 @@
-//! Runs that cannot be trusted say so, since when and because of what; runs that can do not.
+//! Runs that cannot be trusted report this, with the time and the reason; runs that can be trusted do not.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -43,13 +43,13 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Where |R(−x)| = 1 for the first time, R the polynomial of these coefficients of 1, z, z² …
+/// The first x with |R(−x)| = 1, where R is the polynomial with these coefficients of 1, z, z² …
 fn real_limit(coefficients: &[f64]) -> f64 {
     let inside = |x: f64| {
         let value = coefficients.iter().rev().fold(0.0, |sum, c| sum * -x + c);
         value.abs() <= 1.0
     };
-    // The limit of each is between 1 and 10; below it there is no other.
+    // The limit of each polynomial is between 1 and 10, and there is none below.
     let (mut low, mut high) = (1.0, 10.0);
     while inside(low + 1e-3) && low < 10.0 {
         low += 1e-3;
@@ -87,7 +87,7 @@ const POLYNOMIALS: [(Formula, &[f64]); 4] = [
     ),
 ];
 
-/// What a run says of itself: its failure, or its doubts.
+/// The messages of a run: its failure, or its doubts.
 fn said(run: &Run) -> String {
     match &run.result {
         Err(error) => format!("failed: {}", error.message),
@@ -106,7 +106,7 @@ fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let limit = real_limit(polynomial) / rate;
         bench.variant(formula.name());
         let below = bench.run(&scene, &fixed(formula, 0.9 * limit))?;
-        // what so large a step makes of the energy of the first swing is another matter
+        // the effect of such a large step on the energy of the first swing does not matter here
         bench.states(
             "0.9 of the limit: not doubted because of the step",
             below.result.is_ok() && below.doubts.iter().all(|doubt| doubt.kind != "step"),
@@ -122,7 +122,7 @@ fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "unstable",
         );
         if let Some(doubt) = of_step {
-            // the step over the largest stable one, by the limit in the direction where it is largest
+            // the step over the largest stable one, by the limit in the direction where the limit is largest
             let largest = formula.stability_limit().unwrap_or(f64::NAN) / rate;
             let found = 1.2 * limit / doubt.amount;
             bench.at_most(
@@ -157,7 +157,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         );
         if let Some(doubt) = doubt {
             let growth = (h.powi(4) / 4.0).ln_1p();
-            // E/E₀ − 1 = 2 % of E, the largest energy; all of it is kinetic or gone through the spring twice in a period
+            // E/E₀ − 1 = 2 % of E, the largest energy; twice in a period all of it is kinetic or has gone into the spring
             let expected = -(0.98f64).ln() / growth * h;
             let pi = std::f64::consts::PI;
             bench.at_least(
@@ -182,7 +182,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let run = bench.run(&scene!("left-curves"), &Job::default())?;
     for (name, since) in [
-        // beyond by more than the width: 0.1 + 0.1 rad at 1 rad/s
+        // more than the width beyond the curve: 0.1 + 0.1 rad at 1 rad/s
         ("line", Some(0.2)),
         ("held", Some(0.1)),
         ("told", None),

@@ -1,8 +1,7 @@
 //! Friction that holds, contacts that close and open.
 //!
-//! As with stiff scenes, N steps under control of their error change a speed v by at most N · tolerance · (1 + v) · ω, ω the
-//! frequency of the stiffest spring that acts. Where a motion is at rest and damped, errors of steps die out again: what is
-//! left is a few steps' tolerance.
+//! As for stiff scenes, N steps with error control change a speed v by at most N · tolerance · (1 + v) · ω, with ω the frequency of the
+//! stiffest acting spring. If a motion is at rest and damped, errors of steps decay: the tolerance of a few steps remains.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -73,12 +72,12 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Friction, and the thresholds of its two laws (`scenes/incline.yaml`).
+/// The coefficient of friction, and the thresholds of its two laws (`scenes/incline.yaml`).
 const MU: f64 = 0.4;
 const BRISTLE: f64 = 1e-4;
 const CREEP: f64 = 1e-2;
 
-/// Way downhill of one of the blocks at every sample.
+/// Downhill displacement of one of the blocks at every sample.
 fn way(run: &Run, block: &str, slope: f64) -> Result<Vec<f64>, Trouble> {
     let (sin, cos) = slope.sin_cos();
     let x = run.state(&format!("{block}.x"))?;
@@ -261,7 +260,7 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 ..with_kinks(formula, Tolerances::uniform(tolerance), locate)
             };
             let run = bench.succeed(&scene, &job)?;
-            // Without the ceiling the ball would be above it for 2 v₀/g; against it δ'' = −g − ω² δ brings it back sooner.
+            // Without the ceiling the ball would be above it for 2 v₀/g; with it, δ'' = −g − ω² δ brings it back sooner.
             let ahead = |excess: f64| {
                 let entry = (2.0 * gravity * excess.max(0.0)).sqrt();
                 2.0 * entry / gravity - 2.0 / omega * (entry * omega / gravity).atan()
@@ -272,7 +271,7 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             let found = z[z.len() - 1];
             let contact = if excess > 0.0 { omega } else { 1.0 };
             let error = steps(&run)? * tolerance * (1.0 + speed) * contact;
-            // an error of the height moves the entry, and with it the time above
+            // an error of the height changes the time of entry, and so the time above
             let height = error / contact * (1.0 + speed / gravity);
             let shift =
                 [excess - height, excess + height].map(|e| (ahead(e) - ahead(excess)).abs());
@@ -346,7 +345,7 @@ fn ten_contacts(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "steps of both × tolerance × (1 + v) ω, for 2 s",
         );
         let angles = ten.state("beam/body.phi")?.into_iter().map(f64::abs);
-        // Feet at ±x carry alike but for rounding: moments of ε k δ x, and the feet drive the angle back.
+        // Feet at ±x carry the same load up to rounding: moments of ε k δ x, and the feet return the angle.
         let moment = f64::EPSILON * 1e6 * 0.02;
         let stiffness: f64 = (0..10)
             .map(|i| 1e5 * (0.2 * f64::from(i) - 0.9).powi(2))
@@ -409,7 +408,7 @@ fn over_the_corner(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         );
         let energy = run.energy()?;
         let speed = steps(&run)? * tolerance * (1.0 + 3.0) * omega;
-        // T = ½ v·M v changes by M v·δv; the momentum is that of 2 kg at 1 m/s, as much again of the turning
+        // T = ½ v·M v changes by M v·δv; the momentum is that of 2 kg at 1 m/s, and the same for the rotation
         bench.at_most(
             "change of the kinetic energy",
             (energy.end - energy.start).abs(),

@@ -57,7 +57,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// A free body with its centre of gravity in its origin; `rest` follows.
+/// A free body with its centre of gravity at its origin, and the rest of the text.
 fn body(name: &str, coordinates: &str, inertia: [f64; 3], rate: [f64; 3], rest: &str) -> Scene {
     let text = format!(
         "model: {name}
@@ -73,7 +73,7 @@ systems:
     Scene::new(name, text)
 }
 
-/// Where a point of the body is, and something longer than its lever.
+/// The position of a point of the body, and a length above its lever arm.
 const POINT: [f64; 3] = [0.1, 0.2, 0.3];
 const LONGEST: f64 = 0.4;
 
@@ -187,7 +187,7 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let taken = steps(&run)?;
         bench.at_least("steps", taken, count, "", "as many as the case is about");
         let energy = run.energy()?;
-        // of v, relative to v, and E ~ v²
+        // the error of v relative to v, and E ~ v²
         bench.at_most(
             "change of the energy over the energy",
             (energy.end / energy.start - 1.0).abs(),
@@ -223,7 +223,7 @@ fn jacobi(u: f64, m: f64) -> [f64; 3] {
         phi = 0.5 * (phi + (ratio * phi.sin()).asin());
     }
     let (sin, cos) = phi.sin_cos();
-    // 1 − m sn², without a difference of what is nearly equal
+    // 1 − m sn², without a difference of almost equal numbers
     [sin, cos, ((1.0 - m) + m * cos * cos).sqrt()]
 }
 
@@ -236,10 +236,10 @@ fn quarter(m: f64) -> f64 {
     0.5 * std::f64::consts::PI / a
 }
 
-/// Moments of inertia of what flips, and its motion in its own axes.
+/// Moments of inertia of the flipping body, and its motion in its own axes.
 const MOMENTS: [f64; 3] = [0.01, 0.02, 0.03];
 
-/// ω in the body's axes at a time, started at (a, 0, b), and the time between two flips.
+/// ω in the body's axes at a time after the start at (a, 0, b), and the time between two flips.
 fn euler(a: f64, b: f64, t: f64) -> ([f64; 3], f64) {
     let [i, j, k] = MOMENTS;
     let energy = i * a * a + k * b * b;
@@ -248,7 +248,7 @@ fn euler(a: f64, b: f64, t: f64) -> ([f64; 3], f64) {
     let m = (j - i) * (energy * k - momentum) / ((k - j) * (momentum - energy * i));
     let [sn, cn, dn] = jacobi(rate * t, m);
     let middle = ((energy * k - momentum) / (j * (k - j))).sqrt();
-    // with a and b positive ω₂ grows from 0 where (J₃ − J₁) ω₃ ω₁ > 0
+    // for positive a and b, ω₂ grows from 0 where (J₃ − J₁) ω₃ ω₁ > 0
     ([a * cn, middle * sn, b * dn], 2.0 * quarter(m) / rate)
 }
 
@@ -264,9 +264,9 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         duration / 1000.0
     );
     let scene = body("dzhanibekov", "quaternion", MOMENTS, [a, 0.0, b], &rest);
-    // What an error of the start becomes, in whichever direction; one of ω₂ does no more than shift the motion. It shifts the flips,
-    // further with each: errors grow linearly with the flips that are left, (1 + 2 + … + n)/n on average. At the start they grow most, for
-    // the closer to the middle axis, the less they change the period.
+    // The growth of an error of the start, in any direction; an error of ω₂ only shifts the motion. It shifts the flips, by more with each
+    // flip: errors grow linearly with the number of remaining flips, (1 + 2 + … + n)/n on average. They grow most at the start, because the
+    // period changes less the closer the motion is to the middle axis.
     let nudge = 1e-7;
     let growth = largest((0..=1000).flat_map(|i| {
         let t = duration * f64::from(i) / 1000.0;
@@ -322,13 +322,13 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// By how much a step may change ω in the body's axes: by the errors of its three components, and as the quaternion errs by a_θ in
-/// each of four, by 2 a_θ, which is a turn of 4 a_θ.
+/// The largest change of ω in the body's axes in a step: the errors of its three components, and, as the quaternion errs by a_θ in each of
+/// four numbers, by 2 a_θ in total, a rotation by 4 a_θ.
 fn of_a_step(of: &Tolerances, rate: f64) -> f64 {
     of.relative * rate + 3f64.sqrt() * of.angular_velocities + 4.0 * rate * of.angles
 }
 
-/// A vector of absolute axes in those of a body: Aᵀ v.
+/// A vector in absolute axes, converted to the axes of a body: Aᵀ v.
 fn turned_back([w, x, y, z]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
     let rows = [
         [
@@ -360,13 +360,13 @@ fn spins(bench: &mut Bench<'_>) -> Result<(), Trouble> {
   - { name: pz, of: top/body, at: [0, 0, 1], what: position, component: z }
 run: { duration: 0.1 s, every: 1 ms }
 ";
-    // L = (J₁ ω₁, 0, J₃ ω₃), at an angle to the axis, which is z at first
+    // L = (J₁ ω₁, 0, J₃ ω₃) is at an angle to the axis of the top, which is z at first
     let momentum: [f64; 2] = [across * wobble, along * spin];
     let size = momentum[0].hypot(momentum[1]);
     let [sin, cos] = momentum.map(|l| l / size);
     let rate = size / across;
     let exact = |t: f64| {
-        // z turned about L by L/J₁ t: the part along L stays, the rest goes round
+        // z rotated about L by L/J₁ t: its part along L stays, the rest rotates
         let (s, c) = (rate * t).sin_cos();
         let beside = [-sin * cos, 0.0, sin * sin];
         let third = [0.0, -sin, 0.0];
@@ -385,7 +385,7 @@ run: { duration: 0.1 s, every: 1 ms }
             bench.variant(format!("{coordinates}, {}", name(formula, tolerance)));
             let tolerances = Tolerances::of(tolerance);
             let run = bench.succeed(&scene, &adaptive(formula, tolerances))?;
-            // of angles and quaternions, and of three components or angles of which none is faster than the wobble but one
+            // errors of angles and quaternions, and of three components or angles, of which at most one is faster than the wobble
             let turned = 4.0 * tolerances.angles;
             let rates = spin + 2.0 * wobble;
             let rate_error = tolerances.relative * rates + 3.0 * tolerances.angular_velocities;
@@ -466,7 +466,7 @@ run: { duration: 1 s, every: 5 ms }
     };
     let quaternions = bench.succeed(&of("quaternion"), &job)?;
     let angles = bench.succeed(&of("bryant"), &job)?;
-    // sin φ₂ = 2 (x z + w y) above 0.9 while the floor presses
+    // sin φ₂ = 2 (x z + w y) is above 0.9 while the floor pushes
     let force = quaternions.output("force")?;
     let pressed = quaternions.states.iter().zip(&force).filter(|(y, force)| {
         let sine: f64 = 2.0 * (y[4] * y[6] + y[3] * y[5]);
@@ -479,7 +479,7 @@ run: { duration: 1 s, every: 5 ms }
         "",
         "the chart changes there",
     );
-    // Height and speed have the frequency √(k/m) in the contact; where nothing holds, an error of speed goes on for all of the run.
+    // Height and speed oscillate with √(k/m) in the contact; without contact, an error of speed acts for the whole run.
     let (omega, rate, duration) = (2e3f64.sqrt(), 12.0, 1.0);
     let count = steps(&quaternions)? + steps(&angles)?;
     let turning = of_a_step(&tolerances, rate) + omega * 4.0 * tolerances.angles;

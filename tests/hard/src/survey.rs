@@ -7,13 +7,13 @@ use crate::error::{backward, forward};
 use crate::evaluate::Accelerations;
 use crate::random::Random;
 
-/// Elements up to which a system is solved in double-double too.
+/// Up to this number of elements a system is also solved in double-double.
 const SOLVED: usize = 20;
 
-/// States at which a chain is looked at.
+/// Number of states of each chain.
 const STATES: usize = 3;
 
-/// What the worst of a family were, each over its n·ε.
+/// The worst errors of a family, each over its n·ε.
 #[derive(Clone, Debug, Default)]
 pub struct Survey {
     plain: f64,
@@ -22,13 +22,13 @@ pub struct Survey {
     chains: usize,
 }
 
-/// The larger; a NaN wins and stays.
+/// The larger value; NaN is kept.
 fn worst(a: f64, b: f64) -> f64 {
     if a.is_nan() || b <= a { a } else { b }
 }
 
 impl Survey {
-    /// Takes a chain in random states.
+    /// Measures a chain in random states.
     ///
     /// # Errors
     /// The chain is refused, or singular in double-double.
@@ -61,7 +61,7 @@ impl Survey {
         Ok(())
     }
 
-    /// Notes the checks.
+    /// Records the checks.
     pub fn note(self, bench: &mut Bench<'_>) {
         let states = format!("{} chains in {STATES} random states", self.chains);
         let because = |what: &str| format!("100 n ε, {what}; the worst of {states}");
