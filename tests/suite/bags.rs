@@ -163,7 +163,7 @@ fn a_ball_that_passes_the_middle_of_a_bag_is_told() {
     assert!(column(&table, "speed").iter().all(|speed| *speed == 6.0));
 }
 
-/// H = γ/(γ − 1) ṁ R T_in fills a slack bag at the pressure around it: V = m R T_in/p_a once what was in it counts no more.
+/// H = γ/(γ − 1) ṁ R T_in fills a slack bag at the ambient pressure: V = m R T_in/p_a, once the initial gas is negligible.
 #[test]
 fn a_slack_bag_fills_at_the_pressure_around_it() {
     let filling = FLIGHT

@@ -1,4 +1,4 @@
-//! Pictures of a run and of a study: from where they show a model, and as what they are written.
+//! Pictures of a run and of a study: their views, and their formats.
 
 use super::called::call;
 use super::directory;
