@@ -230,8 +230,8 @@ outputs:
     ))
 }
 
-/// The acceleration: from 0 up to 4 in 1 s, constant for 2 s, down to 0 in 1 s. With the speed 6 it comes to rest at 2, after 12 − (2/3 + 2
-/// + 2) = 22/3; with 12, at its last point 4 (symmetric about 2), after 24.
+/// The acceleration: from 0 up to 4 in 1 s, constant for 2 s, down to 0 in 1 s. With the speed 6 it comes to rest at 2,
+/// after 12 − (2/3 + 2 + 2) = 22/3; with 12, at its last point 4 (symmetric about 2), after 24.
 #[test]
 fn a_pulse_is_followed_up_to_the_end() {
     let points = "points: [[0, 0], [1, -4], [3, -4], [4, 0]]";

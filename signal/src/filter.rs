@@ -46,7 +46,7 @@ pub struct UnknownClass(pub String);
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FilterError {
     /// The samples are too far apart for the class.
-    #[error("{class} needs a sample every {:.3} ms at least, and here is one every {:.3} ms", 1e3 * class.longest_interval(), 1e3 * interval)]
+    #[error("{class} needs a sample every {:.3} ms at least, but there is one every {:.3} ms", 1e3 * class.longest_interval(), 1e3 * interval)]
     TooCoarse {
         /// The class.
         class: Class,
@@ -54,7 +54,7 @@ pub enum FilterError {
         interval: f64,
     },
     /// There are too few samples.
-    #[error("a filter needs ten samples at least, and here are {0}")]
+    #[error("a filter needs ten samples at least, but there are only {0}")]
     TooFew(usize),
     /// Samples are missing.
     #[error("the sample at {0} s is missing, and a filter needs all")]

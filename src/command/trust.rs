@@ -225,7 +225,7 @@ impl Trust {
                         "give a smaller --step or --tolerance, or leave the choice of the method to the program".into()
                     }
                     _ if self.out_of_time => {
-                        format!("--accuracy {} goes on as long as it takes", percent(PROMISED))
+                        format!("--accuracy {} repeats the run as long as necessary", percent(PROMISED))
                     }
                     Pace::Tolerance(tolerance) if self.first.is_some() => format!(
                         "errors of {tolerance:e} in a step have grown by a factor of {:.0e}: the motion is chaotic, or about \

@@ -16,25 +16,25 @@ use zeno::{Command, Fill, PathBuilder, Stroke, Transform};
 pub enum RasterError {
     /// The style has an unknown rule.
     #[error(
-        "the picture cannot be drawn as points: its style has \"{0}\"\n  help: write it as .svg"
+        "the picture cannot be drawn as pixels: its style has \"{0}\"\n  help: write it as .svg"
     )]
     Style(String),
     /// Width and height in pixels.
     #[error(
-        "the picture cannot be drawn as points: {} x {} are too many or none\n  help: write it as .svg",
+        "the picture cannot be drawn as pixels: its size {} x {} is too large, or 0\n  help: write it as .svg",
         .0[0],
         .0[1]
     )]
     Size([f64; 2]),
     /// The coordinates of a shape are too far outside, or not finite.
     #[error(
-        "the picture cannot be drawn as points: a shape lies at ({}, {})\n  help: write it as .svg",
+        "the picture cannot be drawn as pixels: a shape lies at ({}, {})\n  help: write it as .svg",
         .0[0],
         .0[1]
     )]
     Place([f32; 2]),
     /// The font cannot be read.
-    #[error("the picture cannot be drawn as points: its font: {0}\n  help: write it as .svg")]
+    #[error("the picture cannot be drawn as pixels: its font: {0}\n  help: write it as .svg")]
     Font(String),
 }
 

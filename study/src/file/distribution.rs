@@ -219,7 +219,7 @@ fn bell(reader: &Reader, at: At<'_>, fact: &ParameterFact, kind: &str) -> Option
     let mass = normal::between(ends[0], ends[1]);
     if empty || mass.is_nan() || mass < 1e-290 {
         let message = format!(
-            "between its ends the distribution of \"{}\" has nothing",
+            "the distribution of \"{}\" has no probability between its ends",
             fact.name
         );
         reader.add(at.problem(message, format!("`min` and `max` lie around the {middle}")));

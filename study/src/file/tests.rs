@@ -389,7 +389,7 @@ fn ranges_keep_to_the_bounds_of_the_model() {
         ),
         (
             "friction: { normal: { mean: 0, deviation: 1e-3 }, min: 0.9, max: 1 }",
-            "has nothing",
+            "has no probability",
         ),
         (
             "friction: { triangular: { from: 0, mode: 2, to: 1 } }",

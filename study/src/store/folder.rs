@@ -272,7 +272,7 @@ fn same(path: &Path, there: &Identity, here: &Identity) -> Result<(), FolderErro
         differs.push("how responses are read off runs, or results kept, in this version".into());
     }
     let help = if other_study && differs.len() == 1 {
-        "name another folder, or give the study back what it had when these results were made (its `study.json` has it)"
+        "name another folder, or restore the study as it was when these results were made (see its `study.json`)"
     } else {
         "name another folder; these results are completed by the program and the model that began them"
     };
