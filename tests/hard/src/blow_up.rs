@@ -12,8 +12,8 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::BlowUp,
         name: "fixed steps above the limit of stability",
-        law: "On ẏ = λ y with λ < 0 a method is stable for h |λ| below a limit of its own, where |R(−h |λ|)| = 1; above it the run is \
-              doubted, and the limit named.",
+        law: "For ẏ = λ y with λ < 0 a method is stable for h |λ| below its limit, where |R(−h |λ|)| = 1; above it the run is \
+              doubted, and the message names the limit.",
         run: steps_above_the_limit,
     },
     Case {
@@ -24,21 +24,22 @@ pub const CASES: &[Case] = &[
     },
     Case {
         group: Group::BlowUp,
-        name: "curves left behind",
-        law: "A curve that is followed beyond its points by more than its own width, or held where nobody said so, is doubted; one that was told \
-              to hold, or is a line through 0, is not; one that must not be left ends the run.",
+        name: "curves that are exceeded",
+        law: "A run is doubted if the argument of a curve exceeds its points by more than the width of the curve, or if a curve \
+              keeps its last value without a setting that says so. It is not doubted if the setting says so, or if the curve is \
+              a line through 0. A curve that may not be extended ends the run.",
         run: curves_left_behind,
     },
     Case {
         group: Group::BlowUp,
         name: "inertia that vanishes in motion",
-        law: "det S = m² a² b² sin² θ of two links without inertia of their own: where they come in line the accelerations are not determined.",
+        law: "Two links without moments of inertia have det S = m² a² b² sin² θ: when they are in line, the accelerations are not determined.",
         run: inertia_that_vanishes,
     },
     Case {
         group: Group::BlowUp,
         name: "no false alarm",
-        law: "Scenes whose results are right, among the hardest here, are not doubted.",
+        law: "Difficult scenes with correct results are not doubted.",
         run: no_false_alarm,
     },
 ];
@@ -126,11 +127,11 @@ fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             let largest = formula.stability_limit().unwrap_or(f64::NAN) / rate;
             let found = 1.2 * limit / doubt.amount;
             bench.at_most(
-                "the limit that is named, away from the method's over ω",
+                "deviation of the limit in the message from the method's limit over ω",
                 (found / largest - 1.0).abs(),
                 2.0 / 15.0,
                 "",
-                "λ is a double root, so that λᵏ k grows too, by 1/k a step in coordinates and in velocities: k = 15 steps are waited for",
+                "λ is a double root, so λᵏ k also grows, by 1/k for each step in coordinates and in velocities: the message comes after k = 15 steps",
             );
         }
     }
@@ -165,7 +166,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 doubt.since,
                 0.5 * expected - h,
                 "s",
-                "half of 2 % · 4/h³: half of the energy at least is kinetic or work at any time",
+                "half of 2 % · 4/h³: at any time at least half of the energy is kinetic or work",
             );
             bench.at_most(
                 "since when",
@@ -204,7 +205,7 @@ fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         if let (Some(doubt), Some(since)) = (doubt, since) {
             let longest = run.report()?.largest_step;
             bench.at_most(
-                "since when, away from where the wheel comes there",
+                "deviation of its time from when the wheel comes there",
                 (doubt.since - since).abs(),
                 longest,
                 "s",
@@ -223,7 +224,7 @@ fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     );
     if let Err(error) = &run.result {
         bench.at_most(
-            "when, away from where the wheel comes there",
+            "deviation of the time from when the wheel comes there",
             (error.t.unwrap_or(f64::NAN) - 0.1).abs(),
             0.01,
             "s",
@@ -275,7 +276,7 @@ fn no_false_alarm(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "not doubted",
             run.doubts.is_empty(),
             said(&run),
-            "its results are right",
+            "its results are correct",
         );
     }
     Ok(())

@@ -23,16 +23,16 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::Length,
         name: "energy of a double pendulum",
-        law: "What has no losses keeps its energy but for the error of the method, which in a given time is O(h^p): half a step, \
-              2^p times less. The semi-implicit method is symplectic: its error swings and does not grow (Hairer, Lubich & Wanner, \
-              IX.8).",
+        law: "A system without losses keeps its energy except for the error of the method, which in a given time is O(h^p): with \
+              half the step it is 2^p times smaller. The semi-implicit method is symplectic: its error oscillates and does not \
+              grow (Hairer, Lubich & Wanner, IX.8).",
         run: double_pendulum,
     },
     Case {
         group: Group::Length,
         name: "momentum of free flight",
-        law: "Nothing acts on a chain of ten general bodies that tumble about each other: its linear momentum, and its angular momentum \
-              about the origin, stay. They are S v along the motions of the whole, with S by d'Alembert's principle.",
+        law: "No force acts on a tumbling chain of ten general bodies: its linear momentum, and its angular momentum about the \
+              origin, are constant. They are S v along the motions of the whole chain, with S by d'Alembert's principle.",
         run: free_flight,
     },
 ];
@@ -69,7 +69,7 @@ fn oscillator(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             f64::from(power) - 0.25,
             "",
             format!(
-                "{power} by the order, more where terms beyond it cancel; less a quarter, as the term after the first is h² times as large"
+                "{power} by the order, more if further terms cancel; less a quarter, because the next term is smaller by h²"
             ),
         );
     }
@@ -178,7 +178,7 @@ fn free_flight(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             worst,
             8.0 * steps * f64::EPSILON,
             "",
-            "8 ε for each step, in which v is rounded once and a rotation made of four numbers that are; errors of the method, \
+            "8 ε for each step, in which v is rounded once, and so are the four numbers of a rotation; errors of the method, \
              (2 rad/s · h)⁹, are far below",
         );
     }

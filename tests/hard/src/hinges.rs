@@ -15,8 +15,8 @@ use std::fmt::Write;
 pub const CASES: &[Case] = &[Case {
     group: Group::MassAndShape,
     name: "hinges, sliders, lists and welds",
-    law: "S v̇ = r: v̇ by the cheapest formulation, in f64, is the solution of a nearby system. S and r are those of the columns of the \
-          joints in absolute axes, in double-double.",
+    law: "S v̇ = r: v̇ by the cheapest formulation in f64 is the solution of a nearby system. S and r are computed from the \
+          columns of the joints in absolute axes, in double-double.",
     run: hinges,
 }];
 
@@ -191,7 +191,7 @@ fn hinges(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             plain,
             100.0,
             "",
-            format!("100 n ε, asked for; the worst of {states}"),
+            format!("100 n ε, required; the worst of {states}"),
         );
         bench.at_most(
             "backward error over n ε, S scaled to a diagonal of ones",
@@ -199,7 +199,7 @@ fn hinges(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             100.0,
             "",
             format!(
-                "100 n ε, the same asked of each velocity by its own size; the worst of {states}"
+                "100 n ε, required for each velocity relative to its own size; the worst of {states}"
             ),
         );
     }

@@ -76,11 +76,11 @@ fn energy_over_a_million_steps(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         // A step rounds each of two numbers to ε/2 of the state, and so changes the energy by at most 2 ε of it. The phase of the samples
         // and the rounding of h do not change the energy of a circle.
         bench.at_most(
-            format!("ln E/E₀ away from {expected:.3e}"),
+            format!("deviation of ln E/E₀ from {expected:.3e}"),
             (seen - expected).abs(),
             2.0 * steps * f64::EPSILON,
             "",
-            "2 ε for each step: what two roundings of the state can do, all in one direction",
+            "2 ε for each step: the effect of two roundings of the state, all in one direction",
         );
     }
 

@@ -13,15 +13,15 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::MassAndShape,
         name: "mass ratios along a chain",
-        law: "S v̇ = r, whatever the masses: the errors are those of a nearby S and r, by the residual of d'Alembert's principle \
-              body by body in double-double.",
+        law: "S v̇ = r for any masses: the errors are those of a nearby S and r. They follow from the residual of d'Alembert's \
+              principle, body by body in double-double.",
         run: mass_ratios,
     },
     Case {
         group: Group::MassAndShape,
         name: "needles, plates, points and joints that coincide",
-        law: "S v̇ = r, whatever the shapes: the errors are those of a nearby S and r, by the residual of d'Alembert's principle \
-              body by body in double-double.",
+        law: "S v̇ = r for any shapes: the errors are those of a nearby S and r. They follow from the residual of d'Alembert's \
+              principle, body by body in double-double.",
         run: shapes,
     },
     singular::REFUSED,

@@ -19,8 +19,9 @@ use std::f64::consts::TAU;
 pub(crate) const CASES: &[HardCase] = &[HardCase {
     group: Group::NonSmoothness,
     name: "a thousand scenes that meet something in flight, or nothing",
-    law: "Balls, ellipsoids, plates with edges and corners, belts and stops, 1 mm to 1 m large, at 0.1 to 500 m/s: what is met turns the motion, and \
-          what is not met leaves it as it is. Whether anything is met follows from the free flight in closed form.",
+    law: "Balls, ellipsoids, plates with edges and corners, belts and stops of 1 mm to 1 m, at 0.1 to 500 m/s: a law that is met \
+          turns the motion back, and a law that is not met does not change it. Whether a law is met follows from the free flight \
+          in closed form.",
     run: meetings,
 }];
 
@@ -168,18 +169,18 @@ fn meetings(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             met += usize::from(case.met == Met::Yes);
         }
         bench.at_most(
-            format!("scenes of {SCENES} with another end than that of their flight"),
+            format!("scenes of {SCENES} whose end is wrong"),
             wrong as f64,
             0.0,
             "",
-            "what is met turns the motion by a tenth or more, what is not met by nothing",
+            "a law that is met changes the motion by a tenth or more, others do not change it",
         );
         bench.at_least(
             format!("scenes of {SCENES} that meet something"),
             met as f64,
             (SCENES / 5) as f64,
             "",
-            "otherwise the family would say nothing",
+            "otherwise the family would show nothing",
         );
     }
     Ok(())

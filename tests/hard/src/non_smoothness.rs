@@ -16,52 +16,53 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::NonSmoothness,
         name: "a block that sticks on a slope for 100 s",
-        law: "Bristles are deflected by z_b tan α/μ and hold: nothing moves any more (docs/forces/friction.md). Friction by speed lets \
-              the block creep with v_s tan α/μ, no more and no less.",
+        law: "Bristles are deflected by z_b tan α/μ and hold: nothing moves any more (docs/forces/friction.md). With friction by \
+              speed the block creeps with exactly v_s tan α/μ.",
         run: sticks,
     },
     Case {
         group: Group::NonSmoothness,
         name: "joints that friction holds for 20 s",
-        law: "Under a force Q below the friction M of their joints, bristles are deflected by z_b Q/M and hold: nothing moves any more \
-              (docs/forces/joint.md). Friction by speed lets a joint creep with v Q/M, no more and no less.",
+        law: "Under a force Q below the friction M of a joint, its bristles are deflected by z_b Q/M and hold: nothing moves any \
+              more (docs/forces/joint.md). With friction by speed a joint creeps with exactly v Q/M.",
         run: brakes,
     },
     Case {
         group: Group::NonSmoothness,
         name: "a sliding block stops without chatter",
-        law: "Coulomb: it stops after v²/(2 μ g), springs back by less than the bristles were deflected, and lies still.",
+        law: "By Coulomb's law it stops after v²/(2 μ g), springs back by less than the deflection of the bristles, and then rests.",
         run: stops,
     },
     Case {
         group: Group::NonSmoothness,
         name: "grazing contact",
-        law: "A ball thrown at a ceiling misses it, just touches it, or dips in by a nanometre: parabola, half an oscillation, parabola.",
+        law: "A ball that is thrown at a ceiling misses it, just touches it, or enters it by a nanometre: its motion is a \
+              parabola, half an oscillation, and a parabola.",
         run: grazes,
     },
     Case {
         group: Group::NonSmoothness,
         name: "bouncing until rest",
-        law: "Bounces get lower and closer without end; the ball comes to rest at the depth m g/k, after a finite number of steps.",
+        law: "Infinitely many bounces become lower and faster; the ball comes to rest at the depth m g/k after a finite number of steps.",
         run: bounces_until_rest,
     },
     Case {
         group: Group::NonSmoothness,
         name: "ten contacts at once",
-        law: "Ten feet that touch in the same instant carry like one of ten times the stiffness, and nothing turns.",
+        law: "Ten feet that touch at the same time act like one foot with ten times the stiffness, and nothing rotates.",
         run: ten_contacts,
     },
     Case {
         group: Group::NonSmoothness,
         name: "a box at rest for a million steps",
-        law: "Nothing moves: what rounding stirs up is all the energy there is.",
+        law: "Nothing moves: all kinetic energy comes from rounding.",
         run: box_at_rest,
     },
     Case {
         group: Group::NonSmoothness,
         name: "over the corner of a plane that ends",
-        law: "The force fades towards the edges, and the edges push by what the stored energy loses (docs/forces/contact.md): the kinetic \
-              energy before and after is the same.",
+        law: "The force fades towards the edges, and the edges exert a force that takes up the decrease of the stored energy \
+              (docs/forces/contact.md): the kinetic energy before and after is the same.",
         run: over_the_corner,
     },
     Case {
@@ -111,12 +112,12 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             (held[last] - held[first]).abs(),
             10.0 * limit.positions + rounding,
             "m",
-            "x − z is kept by every step but for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
+            "x − z is constant in every step up to rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
         );
         let deflection = run.header.auxiliaries.first().cloned().unwrap_or_default();
         let deflection = run.state(&deflection)?[last].abs();
         bench.at_most(
-            "deflection of the bristles away from z_b tan α/μ",
+            "deviation of the bristles' deflection from z_b tan α/μ",
             (deflection - BRISTLE * slope.tan() / MU).abs(),
             10.0 * limit.positions + rounding,
             "m",
@@ -126,7 +127,7 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let speed = CREEP * slope.tan() / MU;
         let duration = run.times[last] - run.times[first];
         bench.at_most(
-            "friction by speed: creep away from v_s tan α/μ",
+            "friction by speed: deviation of the creep from v_s tan α/μ",
             ((crept[last] - crept[first]) / duration - speed).abs(),
             10.0 * tolerance * (1.0 + speed),
             "m/s",
@@ -157,22 +158,22 @@ fn brakes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 (held[last] - held[first]).abs(),
                 10.0 * limit.positions + rounding,
                 "m or rad",
-                "θ − z is kept by every step but for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
+                "θ − z is constant in every step up to rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
             );
             let bristle = run.state(&format!("joint {joint}: bristle"))?[last];
             bench.at_most(
-                format!("{joint}: deflection of the bristles away from z_b Q/M"),
+                format!("{joint}: deviation of the bristles' deflection from z_b Q/M"),
                 (bristle.abs() - BRISTLE * share).abs(),
                 10.0 * limit.positions + rounding + BRISTLE * held[last].powi(2),
                 "m or rad",
-                "ten steps' tolerance, steps × ε, and what the arm has turned by makes of its torque",
+                "ten steps' tolerance, steps × ε, and the effect of the arm's rotation on its torque",
             );
         }
         let crept = run.state("creeps/cage.position")?;
         let duration = run.times[last] - run.times[first];
         let speed = CREEP * cage;
         bench.at_most(
-            "friction by speed: creep away from v Q/M",
+            "friction by speed: deviation of the creep from v Q/M",
             ((crept[last] - crept[first]) / duration - speed).abs(),
             10.0 * tolerance * (1.0 + speed),
             "m/s",
@@ -200,11 +201,11 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let v = run.state("holds.vx")?;
         let end = x[x.len() - 1];
         bench.at_most(
-            "stopping distance away from v²/(2 μ g)",
+            "deviation of the stopping distance from v²/(2 μ g)",
             (end - x[0] - speed * speed / (2.0 * MU * 9.81)).abs(),
             2.0 * BRISTLE,
             "m",
-            "while the bristles bend and while they spring back, z_b each",
+            "z_b while the bristles bend, and z_b while they spring back",
         );
         bench.at_most(
             "way back",
@@ -220,7 +221,7 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             damping,
             0.9,
             "",
-            "so that they swing back once and no more",
+            "so that they swing back only once",
         );
         let still = 10.0 * tolerance;
         let turns = v
@@ -280,7 +281,7 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 (found - exact).abs(),
                 2.0 * error + speed * largest(shift),
                 "m",
-                "steps × tolerance × (1 + v), times ω while it touches, and what an error of the height at touch makes of the time above",
+                "steps × tolerance × (1 + v), times ω during contact, and the effect of an error of the height at touch on the time above",
             );
         }
     }
@@ -304,7 +305,7 @@ fn bounces_until_rest(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         // of the ball on the plate
         let omega = 1e3;
         bench.at_most(
-            "way from where it rests",
+            "distance from the position of rest",
             (last[1] - 0.1 + depth).abs(),
             10.0 * (limit.positions + tolerance / omega),
             "m",
@@ -404,7 +405,7 @@ fn over_the_corner(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "it comes without touching, touches, and leaves",
             first == 0.0 && last == 0.0 && most > 10.0,
             format!("{first:.0} N, at most {most:.0} N, {last:.0} N"),
-            "the kinetic energy at both ends is all there is",
+            "at both ends all energy is kinetic",
         );
         let energy = run.energy()?;
         let speed = steps(&run)? * tolerance * (1.0 + 3.0) * omega;

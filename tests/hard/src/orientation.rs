@@ -14,8 +14,8 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::Orientation,
         name: "driven exactly through ±90°",
-        law: "A body that turns steadily about y passes the poles of its second Bryant angle every half turn: p(t) = p(0) turned by ω t, \
-              whatever the orientation is written in.",
+        law: "A body that rotates steadily about y passes the poles of its second Bryant angle every half turn: p(t) is p(0) \
+              rotated by ω t in any coordinates.",
         run: through_the_poles,
     },
     Case {
@@ -27,32 +27,32 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::Orientation,
         name: "a tumbling tree for 100 000 steps",
-        law: "In free flight energy, momentum and angular momentum are kept.",
+        law: "In free flight energy, momentum and angular momentum are conserved.",
         run: tumbles,
     },
     Case {
         group: Group::Orientation,
         name: "Dzhanibekov's flips",
-        law: "A body thrown about its middle axis turns over and over; in its own axes ω follows Jacobi's elliptic functions (Landau & \
+        law: "A body that rotates about its middle axis flips again and again; in its own axes ω follows Jacobi's elliptic functions (Landau & \
               Lifshitz I, § 37).",
         run: flips,
     },
     Case {
         group: Group::Orientation,
         name: "spin at 10 000 rad/s",
-        law: "The axis of a free symmetric top goes round its angular momentum L at the rate L/J₁.",
+        law: "The axis of a free symmetric top rotates about its angular momentum L at the rate L/J₁.",
         run: spins,
     },
     Case {
         group: Group::Orientation,
         name: "a quaternion after a million steps",
-        law: "It is put back to length 1 after every step.",
+        law: "Its length is restored to 1 after every step.",
         run: stays_a_unit,
     },
     Case {
         group: Group::Orientation,
         name: "a change of chart in the middle of a contact",
-        law: "Which chart the angles are in is nothing that a force may feel.",
+        law: "Forces must not depend on the chart of the angles.",
         run: chart_in_contact,
     },
 ];
@@ -128,7 +128,7 @@ fn through_the_poles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 largest(errors),
                 1e-10,
                 "m",
-                "the demand; some thousand steps × tolerance × ω T are as much",
+                "the demand; about a thousand steps × tolerance × ω T give the same",
             );
         }
     }
@@ -158,7 +158,7 @@ fn angles_and_quaternions(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         apart(&quaternions, &angles),
         1e-10,
         "m",
-        "the demand; a thousand steps × tolerance × growth are as much",
+        "the demand; a thousand steps × tolerance × growth give the same",
     );
     Ok(())
 }
@@ -185,7 +185,13 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         };
         let run = bench.succeed(&scene, &job)?;
         let taken = steps(&run)?;
-        bench.at_least("steps", taken, count, "", "as many as the case is about");
+        bench.at_least(
+            "steps",
+            taken,
+            count,
+            "",
+            "the number of steps in the name of the case",
+        );
         let energy = run.energy()?;
         // the error of v relative to v, and E ~ v²
         bench.at_most(
@@ -200,7 +206,7 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             energy.momentum_gap.unwrap_or(f64::NAN),
             taken * 2.0 * tolerance * 10.0,
             "",
-            "steps × tolerance × (1 + 1/v), ten elements' worth of lever",
+            "steps × tolerance × (1 + 1/v), with the lever arm of ten elements",
         );
     }
     Ok(())
@@ -400,8 +406,9 @@ run: { duration: 0.1 s, every: 1 ms }
                 largest(errors),
                 steps(&run)? * (turned + momentum_error * (2.0 + 0.5 * sin * rate * duration)),
                 "",
-                "steps × (δθ + δL/L (2 + sin α · L/J₁ · T/2)): a step turns the body by δθ ≤ 4 a_θ and L by δL/L ≤ δω/ω + 2 δθ; the axis goes on about \
-                 the turned L, too fast or too slow by δL/J₁ for half of T on average, on a cone of the half angle α",
+                "steps × (δθ + δL/L (2 + sin α · L/J₁ · T/2)): a step rotates the body by δθ ≤ 4 a_θ and L by δL/L ≤ δω/ω + 2 \
+                 δθ; the axis continues about the rotated L, too fast or too slow by δL/J₁ for half of T on average, on a cone \
+                 of the half angle α",
             );
         }
     }
@@ -426,7 +433,7 @@ fn stays_a_unit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             (square.sqrt() - 1.0).abs()
         });
         bench.at_most(
-            "length away from 1",
+            "deviation of the length from 1",
             largest(norms),
             4.0 * f64::EPSILON,
             "",
@@ -490,8 +497,8 @@ run: { duration: 1 s, every: 5 ms }
         apart(&quaternions, &angles),
         error * 2e3,
         "m, N",
-        "steps of both × (r v + a_v + √(k/m) a_x, of turning and of moving) × (1/√(k/m) + T): an error of speed moves things linearly in time \
-         at most; as a force times k",
+        "steps of both × (r v + a_v + √(k/m) a_x, of turning and of moving) × (1/√(k/m) + T): an error of speed causes a \
+         displacement that is at most linear in time; for a force, times k",
     );
     Ok(())
 }

@@ -14,21 +14,23 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::NonSmoothness,
         name: "a ball that flies at another, at 0.1 to 500 m/s",
-        law: "Equal masses in an elastic impact exchange their speeds. While nothing acts, the error is 0 and steps grow: a ball must not fly \
-              through the other within one.",
+        law: "Equal masses exchange their speeds in an elastic impact. While no force acts, the error is 0 and steps grow: a \
+              ball must not fly through the other within one step.",
         run: bullets,
     },
     Case {
         group: Group::NonSmoothness,
         name: "a threshold that is passed for a moment",
-        law: "A switch fires when its quantity passes a threshold, however soon it comes back; what it switches moves the swing by 0.1 rad.",
+        law: "A switch fires when its quantity exceeds a threshold, however short the time above it is; the switched force moves \
+              the swing by 0.1 rad.",
         run: thresholds,
     },
     Case {
         group: Group::NonSmoothness,
         name: "a switch that is flown past, at 0.5 to 500 m/s",
-        law: "A distance falls and rises in straight lines, and its switch fires when it is below 1 mm to 0.5 m. Free flight makes no error, so a step may be \
-              as long as all of it. From the switch on 100 N move a mass of 1 kg by 50 t² m.",
+        law: "A distance decreases and increases linearly, and its switch fires when it is below a limit between 1 mm and 0.5 m. \
+              Free flight has no error, so a single step may cover all of it. After the switch 100 N move a mass of 1 kg by 50 \
+              t² m.",
         run: flown_past,
     },
 ];
@@ -80,7 +82,7 @@ fn bullets(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             missed as f64,
             0.0,
             "",
-            "the target has all of the speed, or none where the ball flew through it",
+            "the target gets the whole speed, or none if the ball flew through it",
         );
     }
     Ok(())
@@ -114,7 +116,7 @@ fn thresholds(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             missed as f64,
             0.0,
             "",
-            "the swing is elsewhere without the push, by up to 0.1 rad",
+            "without the push the swing differs by up to 0.1 rad",
         );
     }
     Ok(())
@@ -168,7 +170,7 @@ fn flown_past(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             missed as f64,
             0.0,
             "",
-            "without the push the ball stays within half a metre, with it it moves by 0.5 to 50 m",
+            "without the push the ball stays within half a metre, with the push it moves by 0.5 to 50 m",
         );
     }
     Ok(())

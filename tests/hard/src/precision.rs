@@ -15,37 +15,38 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::ScaleAndPrecision,
         name: "grams and millimetres",
-        law: "A scene told in other units, or in numbers a thousand times larger, moves as before.",
+        law: "A scene in other units, or with numbers that are a thousand times larger, has the same motion.",
         run: units,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "an origin 1000 km away",
-        law: "Only distances act: a scene moved as a whole moves as before, but for the rounding of its larger coordinates.",
+        law: "Forces depend on distances only: a scene that is shifted as a whole has the same motion, except for the rounding \
+              of its larger coordinates.",
         run: far_away,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "single precision",
-        law: "Errors are those of 24 bits: larger than those of 53 by 2²⁹, and no larger.",
+        law: "Errors are those of 24 bits: they are larger than those of 53 bits by 2²⁹, and not by more.",
         run: single_precision,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "order, root and direction of a tree",
-        law: "The elements of a tree may be told in any order and from any root, and the scene be turned in space: the motion is the same.",
+        law: "The motion does not depend on the order of a tree's elements, on its root, or on a rotation of the scene in space.",
         run: order_root_direction,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "time reversed",
-        law: "Without losses, velocities turned round lead back to the start.",
+        law: "Without losses, reversed velocities lead back to the start.",
         run: time_reversed,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "two systems in one scene",
-        law: "Systems that nothing couples move as they do alone.",
+        law: "Systems without coupling move as each does alone.",
         run: two_systems,
     },
 ];
@@ -213,7 +214,7 @@ fn units(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             apart(&si, &other, &names)?,
             steps(&si)? * f64::EPSILON * SPEED * OMEGA,
             "m, rad",
-            "steps × ε v ω: every number is rounded once more, and each step rounds",
+            "steps × ε v ω: every number is rounded once more, and so is each step",
         );
     }
     Ok(())

@@ -17,8 +17,8 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::Stiffness,
         name: "pressed against a stop of 1e6 N·m/rad on 1e-3 kg·m²",
-        law: "The wheel comes to rest at the depth M/k. An explicit method cannot take steps longer than about 3/ω = 0.1 ms there, and \
-              must find that out by itself; one for stiff problems may.",
+        law: "The wheel comes to rest at the depth M/k. There an explicit method cannot take steps longer than about 3/ω = 0.1 \
+              ms, and its error control must find this limit. A method for stiff problems has no such limit.",
         run: pressed,
     },
     Case {
@@ -30,13 +30,14 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::Stiffness,
         name: "a ball on a plate of 1e9 N/m",
-        law: "Nothing is lost: each jump reaches the height of the first.",
+        law: "No energy is lost: each jump reaches the height of the first.",
         run: hard_ball,
     },
     Case {
         group: Group::Stiffness,
         name: "a belt that snaps taut at 10 m/s",
-        law: "From slack to slack is half an oscillation: tension v √(k m) at most, π √(m/k) long, and the mass leaves as fast as it came.",
+        law: "Between slack and slack there is half an oscillation: it lasts π √(m/k), the largest tension is v √(k m), and the \
+              mass leaves with the speed that it came with.",
         run: snapping_belt,
     },
 ];
@@ -70,12 +71,12 @@ fn pressed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             let taken = steps(&run).unwrap_or(f64::NAN);
             let left = errors_left(&tolerances, omega, omega / taken, fastest);
             bench.at_most(
-                "way from the place of rest",
+                "distance from the position of rest",
                 largest(away),
                 left + 2.0 / 1e6,
                 "rad",
-                "Σ ((1 + k z) a_θ + k z (r θ' + a_ω)/ω) exp(−k z): what is left of the errors k steps ago, z = ω h of the steps taken, and the way \
-                 to go",
+                "Σ ((1 + k z) a_θ + k z (r θ' + a_ω)/ω) exp(−k z): the remaining errors of the steps k steps ago, z = ω h of the \
+                 steps, and the remaining way",
             );
         }
     }
@@ -122,7 +123,7 @@ fn thrown(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 grown.ln().max(0.0) / steps(&run)?,
                 2.0 * tolerance,
                 "",
-                "each step may err by tolerance × (1 + θ'), always to the same side; one beyond its limit of stability would double its error",
+                "each step may err by tolerance × (1 + θ'), always in the same direction; a step above its limit of stability would double the error",
             );
             if tolerance < 1e-6 {
                 let away = speeds.iter().map(|speed| (speed - rate).abs());
@@ -131,7 +132,7 @@ fn thrown(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                     largest(away),
                     steps(&run)? * error_of_rate(&tolerances, rate, omega),
                     "rad/s",
-                    "steps × (r θ' + a_ω + ω a_θ): nothing makes them grow where energy is kept",
+                    "steps × (r θ' + a_ω + ω a_θ): they do not grow if energy is conserved",
                 );
             }
         }
@@ -171,7 +172,7 @@ fn hard_ball(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             largest(away),
             steps(&run)? * error_of_speed(&tolerances, speed, omega),
             "m/s",
-            "steps × (r v + a_v + ω a_x): nothing makes them grow where energy is kept",
+            "steps × (r v + a_v + ω a_x): they do not grow if energy is conserved",
         );
     }
     Ok(())
@@ -197,7 +198,7 @@ fn snapping_belt(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         // An error of speed during slack changes the time at which the belt becomes taut.
         let flown = error_of_speed(&tolerances, speed, 0.0) * omega * taut;
         let error = steps(&run)? * (error_of_speed(&tolerances, speed, omega) + flown);
-        let because = "steps × ((r v + a_v) (1 + ω t) + ω a_x), t the time in the slack; an oscillation turns errors and does not let them grow";
+        let because = "steps × ((r v + a_v) (1 + ω t) + ω a_x), t the time of slack; an oscillation rotates errors and does not amplify them";
         let exact = |t: f64| match t {
             t if t <= taut => (speed * t, speed, 0.0),
             t if t <= taut + half => {

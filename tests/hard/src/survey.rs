@@ -64,20 +64,20 @@ impl Survey {
     /// Records the checks.
     pub fn note(self, bench: &mut Bench<'_>) {
         let states = format!("{} chains in {STATES} random states", self.chains);
-        let because = |what: &str| format!("100 n ε, {what}; the worst of {states}");
+        let because = |what: &str| format!("100 n ε{what}; the worst of {states}");
         bench.at_most(
             "backward error over n ε",
             self.plain,
             100.0,
             "",
-            because("asked for"),
+            because(", required"),
         );
         bench.at_most(
             "backward error over n ε, S scaled to a diagonal of ones",
             self.scaled,
             100.0,
             "",
-            because("the same asked of each element by its own size (Demmel 1989)"),
+            because(", required for each element relative to its own size (Demmel 1989)"),
         );
         if self.forward > 0.0 || self.forward.is_nan() {
             bench.at_most(
@@ -86,7 +86,7 @@ impl Survey {
                 200.0,
                 "",
                 because(
-                    "twice, of S and of r, to first order (Higham 2002, theorem 7.2), against the solution in double-double",
+                    " for each of S and r, to first order (Higham 2002, theorem 7.2), against the solution in double-double",
                 ),
             );
         }

@@ -9,9 +9,9 @@ use bryant_generator::description::expression::{Expression, Function, Kind, Oper
 /// The reader of quantities.
 pub const QUANTITIES: Case = Case {
     group: Group::Garbage,
-    name: "soups of quantities",
-    law: "Any text is an expression, or a mistake with a place inside it; and an expression written at random has the value that \
-          it was written from, within c·κ·ε.",
+    name: "random texts as quantities",
+    law: "Any text is an expression, or gives an error with a place inside it. A random expression has the value that it was \
+          made from, within c·κ·ε.",
     run: quantities,
 };
 
@@ -116,7 +116,7 @@ fn quantities(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "c·κ·ε: 4 ε for each operation on the sum of the absolute values",
     );
     for (what, count) in [("refused", refused), ("read", read)] {
-        bench.at_least(what, count as f64, 1000.0, "", "every way out is taken");
+        bench.at_least(what, count as f64, 1000.0, "", "every outcome occurs");
     }
     Ok(())
 }

@@ -10,8 +10,8 @@ use bryant_generator::model::{Curve, Extrapolate};
 /// Curves from random, very bad points.
 pub const CURVES: Case = Case {
     group: Group::Garbage,
-    name: "curves of no length",
-    law: "A curve is refused with its place, or goes through its points, from both sides, with finite values between them.",
+    name: "curves with invalid points",
+    law: "A curve is refused with its place, or goes through its points from both sides and has finite values between them.",
     run: curves,
 };
 
@@ -71,10 +71,10 @@ fn curves(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         count,
         "refused, or through its points",
-        "what a curve is",
+        "the definition of a curve",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }

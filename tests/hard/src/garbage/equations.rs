@@ -20,9 +20,9 @@ use bryant_generator::model::{Dimension, Model, Reference};
 pub const RANDOM_MODELS: Case = Case {
     group: Group::Garbage,
     name: "random models",
-    law: "S and r_s are those of Lagrange's equations, which are derived without any of what the equations are derived with; \
-          vᵀ r_k is the power of the forces, and the rate of the kinetic energy their sum; accelerations are those of Cholesky's \
-          factors of S, and the same in quaternions.",
+    law: "S and r_s are those of Lagrange's equations, which are derived independently; vᵀ r_k is the power of the forces, and \
+          the sum of all powers is the rate of the kinetic energy; accelerations are those by Cholesky's factors of S, and they \
+          are the same in quaternions.",
     run: random_models,
 };
 
@@ -53,8 +53,8 @@ fn random_models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         count,
         "the same by every derivation",
-        "20 times the scatter of eight evaluations with every operation rounded at random, which is κ·ε of each value; of solving \
-         with S, the componentwise bound of Higham (Accuracy and Stability, 10.1) besides",
+        "20 times the scatter of eight evaluations with every operation rounded at random, which is κ·ε of each value; for the \
+         solution with S, plus the componentwise bound of Higham (Accuracy and Stability, 10.1)",
     );
     // models that the language refuses, such as a belt whose ends coincide, are not compared
     bench.at_most(
@@ -67,7 +67,7 @@ fn random_models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         refused.len() as f64,
         0.2 * count as f64,
         "",
-        "the others must be enough to see something",
+        "the others must suffice to show something",
     );
     Ok(())
 }

@@ -11,18 +11,18 @@ use bryant_generator::description::tree::{Kind, Node, Source, Span};
 /// Every scalar of valid models is replaced.
 pub const IN_THE_TEXT: Case = Case {
     group: Group::Garbage,
-    name: "no numbers in the place of every number",
-    law: "A number that makes no sense is refused with its place, or the equations have a finite value at the start, or their \
-          rates have none, which a run reports before it delivers a sample.",
+    name: "invalid numbers in place of every number",
+    law: "A meaningless number is refused with its place, or all values of the equations at the start are finite, or a rate is \
+          not finite, which a run reports before its first sample.",
     run: in_the_text,
 };
 
 /// Parameters of valid models are set at run time.
 pub const AT_RUN_TIME: Case = Case {
     group: Group::Garbage,
-    name: "parameters at the ends of what a number can be",
-    law: "Whatever a parameter is set to within its bounds, the equations have a finite value at the start, or something that a \
-          run looks at has none.",
+    name: "parameters near the limits of floating-point numbers",
+    law: "For any parameter within its bounds, all values of the equations at the start are finite, or a value that a run \
+          evaluates is not.",
     run: at_run_time,
 };
 
@@ -91,7 +91,7 @@ fn in_the_text(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         5000,
         "refused with place and remedy, or finite, or reported",
-        "nobody is told a number that is none",
+        "no NaN is accepted without a message",
     );
     // all of these must happen, or the case would show nothing
     for (what, count) in [
@@ -99,7 +99,7 @@ fn in_the_text(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         ("accepted, finite", finite),
         ("accepted, not finite and reported", reported),
     ] {
-        bench.at_least(what, f64::from(count), 10.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 10.0, "", "every outcome occurs");
     }
     Ok(())
 }
@@ -155,10 +155,10 @@ fn at_run_time(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         50,
         "finite, or reported",
-        "nobody is told a number that is none",
+        "no NaN is accepted without a message",
     );
     for (what, count) in [("finite", finite), ("not finite and reported", reported)] {
-        bench.at_least(what, f64::from(count), 1.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 1.0, "", "every outcome occurs");
     }
     Ok(())
 }

@@ -10,8 +10,8 @@ use bryant_runtime::{Adaptive, Formula, Method, Pace, Tolerances};
 /// Settings of runs.
 pub const SETTINGS: Case = Case {
     group: Group::Garbage,
-    name: "runs of no length, steps of none, tolerances of none",
-    law: "A run with settings that make no sense is refused or fails with a message, or ends within its limit of steps with finite \
+    name: "runs with invalid settings",
+    law: "A run with meaningless settings is refused, fails with a message, or ends within its limit of steps with finite \
           numbers.",
     run: settings,
 };
@@ -19,9 +19,9 @@ pub const SETTINGS: Case = Case {
 /// Parameters of runs.
 pub const PARAMETERS: Case = Case {
     group: Group::Garbage,
-    name: "runs of denormal masses and of pulses of 1e9 m/s²",
-    law: "A run with parameters that make no sense is refused or fails with a message, or ends within its limit of steps with \
-          finite numbers.",
+    name: "runs with extreme parameters",
+    law: "A run with meaningless parameters is refused, fails with a message, or ends within its limit of steps with finite \
+          numbers.",
     run: parameters,
 };
 
@@ -100,7 +100,7 @@ impl Ends {
                 ),
                 Some(first) => format!("{} wrong: {first}", self.wrong.len()),
             },
-            "never a hang, a panic or a number that is none",
+            "no hang, no panic, no NaN",
         );
         for (what, count, least) in [
             ("refused or failed", self.refused + self.failed, least[0]),

@@ -12,16 +12,16 @@ use bryant_generator::model::Model;
 /// Damaged models, and text that is made to cost time or stack.
 pub const MODELS: Case = Case {
     group: Group::Garbage,
-    name: "text that is no model",
-    law: "Any text is a model, or gets problems with places inside it, a thousand at most, in messages that do not grow with it.",
+    name: "text that is not a model",
+    law: "Any text is a model, or it gets at most a thousand problems with places inside it, in messages whose length does not grow with the text.",
     run: models,
 };
 
 /// Damaged tables.
 pub const TABLES: Case = Case {
     group: Group::Garbage,
-    name: "tables that are none",
-    law: "A text of columns is points with finite numbers, or gets a problem with a place inside it.",
+    name: "text that is not a table",
+    law: "A text with columns gives points with finite numbers, or a problem with a place inside it.",
     run: tables,
 };
 
@@ -117,7 +117,7 @@ fn models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "every error has a place and a remedy",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }
@@ -369,10 +369,10 @@ fn tables(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         count,
         "points, or a problem",
-        "no number that is none reaches a curve",
+        "no NaN reaches a curve",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }

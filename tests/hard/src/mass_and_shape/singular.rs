@@ -13,8 +13,9 @@ use bryant_generator::model::{Dimension, Model};
 pub const REFUSED: Case = Case {
     group: Group::MassAndShape,
     name: "singular models are refused",
-    law: "What can move without kinetic energy has no acceleration: such a model is refused when it is read, with the element \
-          that moves and the axis that it turns about. A part of it less, and it is accepted.",
+    law: "A motion without kinetic energy has no defined acceleration: a model with such a motion is refused when it is read, \
+          and the message names the element that moves and its axis of rotation. Similar models without such a motion are \
+          accepted.",
     run: refused,
 };
 
@@ -23,7 +24,7 @@ pub const RANDOM: Case = Case {
     group: Group::MassAndShape,
     name: "refused if and only if singular",
     law: "Chains of points, needles, plates and bodies, with joints and centres of gravity that coincide or are in line, are \
-          refused exactly where L D Lᵀ of S in double-double, at random positions, has a pivot that is 0 to rounding.",
+          refused if and only if L D Lᵀ of S in double-double, at random positions, has a pivot that is 0 up to rounding.",
     run: random,
 };
 
@@ -259,7 +260,7 @@ fn refused(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                     (said, first_line(&text))
                 }
             };
-            let because = "a motion has no kinetic energy, or one that rounding hides";
+            let because = "a motion has no kinetic energy, or so little that rounding hides it";
             let criterion = format!("refused, saying “{}”", way.said.join(" … "));
             bench.states(criterion, refused, seen, because);
         }
