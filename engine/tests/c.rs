@@ -547,7 +547,7 @@ fn a_force_in_rust_has_no_c() {
     assert_eq!(none.functions, ["drag"]);
 }
 
-/// Whether the processor has fused multiply-adds that the compiler can be asked for by `-mfma`.
+/// Whether the processor has fused multiply-adds and the compiler accepts `-mfma`.
 fn is_fused() -> bool {
     #[cfg(target_arch = "x86_64")]
     return is_x86_feature_detected!("fma");

@@ -56,7 +56,7 @@ fn closed_form(speed: f64, slopes: [f64; 2]) -> f64 {
         let (size, phase) = (a.hypot(b), b.atan2(a));
         let turn = (1.0 - rest) / size;
         let until = match turn < 1.0 {
-            // up through the corner before the turn, down after it
+            // upwards through the corner before the turn, downwards after it
             true if behind => (phase + turn.acos()) / omega,
             true if v > 0.0 => (phase - turn.acos()) / omega,
             _ => f64::INFINITY,

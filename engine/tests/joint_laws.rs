@@ -411,7 +411,7 @@ run: {{ duration: 0.4 s, every: 0.05 s }}
             pairs.push([1, 2].map(|k| position(format!("{what}{k} {axis}"))));
         }
     }
-    // relative coordinates divide by the cosine of the second angle, which stays above a half
+    // relative coordinates are divided by the cosine of the second angle, which stays above a half
     let bound = bound(steps as f64, 10.0);
     for (k, row) in rows.iter().enumerate() {
         for &[a, b] in &pairs {

@@ -8,7 +8,7 @@ use bryant_generator::{Config, model};
 use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, simulate};
 use std::ops::ControlFlow;
 
-/// All laws act at the start: angles beyond stops, curves that are not odd, contacts that touch, belts that are taut.
+/// All laws act at the start: angles are beyond stops, curves are not odd, contacts touch, belts are taut.
 const SCENE: &str = "
 model: twins
 dimension: 3
@@ -137,7 +137,7 @@ fn mechanisms_whose_sides_are_mirror_images_move_so() {
         ControlFlow::Continue(())
     });
     let steps = report.unwrap_or_else(|failure| panic!("{failure}")).steps as f64;
-    // at the start rounding through a factorisation; later the tolerance of every step, times accelerations per displacement of 1e6
+    // at the start, rounding in a factorisation; later the tolerance of every step, times accelerations per displacement of 1e6
     for (values, relative) in samples.iter().zip([1e-9, steps * 1e-11 * 1e3]) {
         let named = |name: String| {
             let found = machine.info().outputs.iter().position(|o| o.name == name);
@@ -197,7 +197,7 @@ fn what_starts_as_mirror_images_accelerates_so() {
             values[found.unwrap_or_else(|| panic!("{name}"))]
         })
     };
-    // accelerations are of the order of 1e3, rounding 1e-16 of that through a factorisation of condition 1e3
+    // accelerations are about 1e3; their rounding is 1e-16 of that, through a factorisation of condition 1e3
     let tolerance = |v: [f64; 3]| 1e-9 * (1.0 + v.iter().fold(0.0f64, |m, x| m.max(x.abs())));
     for (name, signs) in [
         ("foot", [1.0, -1.0, 1.0]),

@@ -59,7 +59,7 @@ forces:
     friction_speed: 1
 ";
 
-/// A model with outputs of three components each, by name.
+/// A model with three components of each output, by name.
 struct Seen {
     engine: Engine,
     names: Vec<String>,
@@ -201,7 +201,7 @@ fn what_an_observer_sees_are_the_rates_of_what_he_sees() {
                 let turning = seen.at("angular acceleration", t, &y);
                 let found = seen.rate("angular velocity", t, &y);
                 equal(&what("angular velocity"), found, turning, size(turning));
-                // a vector has its length in all axes
+                // a vector has the same length in all axes
                 let other = size(seen.at("in other axes", t, &y));
                 assert!((other - size(acceleration)).abs() < 1e-12 * other);
             }
@@ -414,7 +414,7 @@ outputs:
 
 #[test]
 fn the_one_turn_between_two_bodies_has_its_angle() {
-    // two turns about the same axis, (1, 2, 2)/3: by 0.4 and by 0.4 + angle
+    // two rotations about the same axis, (1, 2, 2)/3: by 0.4 and by 0.4 + angle
     for angle in [1e-7, 0.3, 1.5, 3.0, std::f64::consts::PI - 1e-7] {
         let bryant = |angle: f64| {
             // A = cos I + sin [n]× + (1 − cos) n nᵀ

@@ -45,7 +45,7 @@ fn bound(growth: f64) -> f64 {
 }
 
 #[test]
-fn a_bead_on_a_rod_that_turns_flies_out_as_the_hyperbolic_cosine() {
+fn a_bead_on_a_turning_rod_moves_as_a_hyperbolic_cosine() {
     // r̈ = ω² r
     let scene = format!(
         "model: bead\ndimension: 3\n{}systems:\n  - name: s\n    reference: {{ on: table, at: [0, 0, 0.3] }}\n    \
@@ -84,8 +84,8 @@ fn pendulum(angle: f64) -> String {
 }
 
 #[test]
-fn a_pendulum_on_a_turntable_rests_and_swings_about_where_gravity_and_rotation_balance() {
-    // θ̈ = ω² sin θ cos θ − (g/l) sin θ: at rest where cos θ = g/(ω² l), small oscillations by ω sin θ
+fn a_pendulum_on_a_turntable_swings_about_its_balance() {
+    // θ̈ = ω² sin θ cos θ − (g/l) sin θ: at rest if cos θ = g/(ω² l); small oscillations with ω sin θ
     let (omega, ratio) = (5.0f64, 9.81 / 0.8);
     let rest = (ratio / (omega * omega)).acos();
     for (t, outputs) in run(&pendulum(rest)) {
@@ -164,7 +164,7 @@ fn on_table(wheel: bool, dimension: u32, [first, second]: [&str; 2]) -> String {
 }
 
 #[test]
-fn a_vehicle_that_turns_carries_as_a_body_does_that_nothing_brakes() {
+fn a_turning_vehicle_carries_as_a_body_without_resistance() {
     let in_space = [
         ["{ hinge: y }", "ball"],
         ["{ hinge: [1, -2, 0.5], zero: 30 deg }", "{ hinge: x }"],

@@ -107,7 +107,7 @@ fn constant_braking_ends_at_the_speed_over_it() {
         (10.0, 5.0),
         (13.9, 8.3),
         (-10.0, -5.0),
-        // never
+        // it never stops
         (10.0, -5.0),
         (10.0, 0.0),
         (0.0, 3.0),
@@ -257,7 +257,7 @@ fn a_pulse_is_followed_up_to_the_end() {
                 }
                 let before = outputs(&model, 0.999 * stop);
                 assert!(before[1] * given[0] > 0.0 && before[1].abs() < given[0].abs());
-                // by the speed: T; by the factor: −∬; by the stretch: T' = 0 in x/stretch at the touch, v₀ is kept
+                // by the speed: T; by the factor: −∬; by the stretch: T' = 0 in x/stretch at the touch, and v₀ is kept
                 let by = |k: usize, dual: &mut dyn Adjustable<Dual<f64>>| {
                     let mut all = given.map(Dual::constant);
                     all[k].slope = 1.0;
@@ -296,7 +296,7 @@ fn a_pulse_is_followed_up_to_the_end() {
                     let left = 0.5 * times * stretch;
                     assert!((found[1] / left - 1.0).abs() <= 1e-12, "{found:?}");
                 }
-                // it goes on upwards: 0.5 + 2 s²
+                // the curve goes on upwards: 0.5 + 2 s²
                 _ => {
                     let left = 2.5 * times * stretch;
                     assert!((found[1] / left - 1.0).abs() <= 1e-12, "{found:?}");
@@ -314,7 +314,7 @@ fn a_smooth_pulse_is_followed_up_to_the_end() {
         "{ curve: c, times: times, stretch: stretch }",
         "",
     );
-    // the slopes of cubics held at both ends are 0
+    // the slopes of cubics are 0 at held ends
     let mut model = engine.over::<f64>();
     for (times, stretch) in [(1.0, 1.0), (8.0, 0.3), (0.01, 40.0)] {
         for end in [0.2f64, 0.6, 0.95] {
@@ -624,7 +624,7 @@ outputs:
                 }
                 let moved = side != 0.0 || theirs[1] != 0.0;
                 if ours[1] == 0.0 && ours[2] == 0.0 && moved && i > 0 {
-                    // either it turned since the last time, or it is about to touch 0
+                    // either it turned since the last time, or it is about to reach 0
                     let steep = 1e3 * given[1].abs() * 0.002 * stretch;
                     let back = sign_of(side) * theirs[1];
                     assert!(

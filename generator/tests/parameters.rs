@@ -1,4 +1,4 @@
-//! Run-time parameters cost what depends on them, and nothing twice: what they alone decide is computed once.
+//! Run-time parameters cost only the operations that depend on them: values that depend on parameters alone are computed once.
 
 use bryant_generator::dynamics::derive;
 use bryant_generator::effect::general;
@@ -12,7 +12,7 @@ fn written(path: &str) -> Model {
 }
 
 #[test]
-fn nothing_that_parameters_alone_decide_is_computed_at_every_state() {
+fn what_parameters_alone_decide_is_computed_once() {
     for path in [
         "models/child-seat.yaml",
         "models/sled-pendulum.yaml",
@@ -25,7 +25,7 @@ fn nothing_that_parameters_alone_decide_is_computed_at_every_state() {
         for model in [written.clone(), general(&written)] {
             let equations = derive(&model);
             for (method, count) in emit::repeated(&model, &equations, &emit::Options::default()) {
-                // where a run starts is computed once, and so is whether it may
+                // the start of a run is computed once, and so is whether it is allowed
                 let once = ["new", "initial_conditions", "initial_memory", "conditions"];
                 if !once.contains(&method) {
                     assert!(count.is_empty(), "{path}: {method}: {count}");

@@ -79,7 +79,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn a_run_that_cannot_come_to_its_end_is_given_up_before_its_limit() {
+    fn a_hopeless_run_is_given_up_before_its_time_limit() {
         let limit = 60.0;
         let fresh = || Patience::new(Some(Duration::from_secs(60)), [0.0, 1.0]);
         // 10 s for a hundredth of the run: 1000 s in all is more than ten times the limit

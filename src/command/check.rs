@@ -22,8 +22,8 @@ use std::fmt::Write as _;
 /// Read a model and say what is in it, or report everything that is wrong with it
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
-Nothing is compiled. The operations are those of one evaluation of the equations; a sine, a cosine or a curve is not in
-their number and listed beside it.
+Nothing is compiled. The operations are those of one evaluation of the equations; sines, cosines and curves are not
+counted among them and are listed beside.
 
 Examples:
   bryant check my.yaml
@@ -34,7 +34,7 @@ pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,
 
-    /// Print a Rust file to begin with for this user force, whose file need not exist yet
+    /// Print a first Rust file for this user force, whose file need not exist yet
     #[arg(long, value_name = "FORCE", conflicts_with = "json")]
     skeleton: Option<String>,
 
@@ -48,7 +48,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Reads and reports.
+    /// Reads the model and reports.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         if let Some(force) = &self.skeleton {
             return terminal.print(&skeleton(&find_without_sources(&self.model)?, force)?);
@@ -81,7 +81,7 @@ impl Arguments {
     }
 }
 
-/// A sentence where no criterion of the model can be computed, and where some cannot.
+/// A sentence that says which criteria of the model cannot be computed, if there are any.
 fn unjudged(limits: &Limits, all: &[Judged]) -> Option<String> {
     let missing = all.iter().filter_map(|one| match &one.response {
         Err(Missing::Place(place)) => Some(format!("{} ({place})", one.criterion.name)),
@@ -105,7 +105,7 @@ fn skeleton(model: &Model, force: &str) -> Result<String, Error> {
         let names: Vec<&str> = users.map(|f| f.name.as_str()).collect();
         let help = match (nearest(force, &names), names.is_empty()) {
             (Some(near), _) => format!("did you mean \"{near}\"?"),
-            (None, false) => format!("there is {}", names.join(", ")),
+            (None, false) => format!("there are: {}", names.join(", ")),
             (None, true) => "add a force `- user: NAME`; see docs/forces/user.md".to_owned(),
         };
         let force = force.escape_debug();
@@ -135,7 +135,7 @@ fn system_freedoms(model: &Model, system: &System) -> usize {
     reference + joints.sum::<usize>()
 }
 
-/// Operations of the generated methods. That of the outputs calls that of the accelerations where it needs them.
+/// The operations of the generated methods. The method of the outputs calls that of the accelerations if it needs them.
 struct Costs {
     route: Route,
     accelerations: Count,
@@ -268,7 +268,7 @@ fn defaults(model: &Model) -> Vec<f64> {
     model.parameters.iter().map(|p| p.default).collect()
 }
 
-/// Which joints the freedoms of an element follow.
+/// The joints that the freedoms of an element follow.
 fn following(system: &System, element: usize) -> String {
     let freedoms = system.elements[element].joint.freedoms().iter();
     let leaders = freedoms.filter_map(|freedom| freedom.follows.as_ref());
@@ -277,7 +277,7 @@ fn following(system: &System, element: usize) -> String {
     named.collect()
 }
 
-/// Two spaces per generation.
+/// Two spaces for each generation.
 fn indent(system: &System, mut element: usize) -> String {
     let mut depth = 0;
     while let Some(parent) = system.elements[element].parent {

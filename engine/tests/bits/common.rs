@@ -115,7 +115,7 @@ impl Users {
     }
 }
 
-/// A call of one lane, in words.
+/// The call of one lane, in words.
 struct Lane<'a> {
     users: &'a Users,
     arguments: &'a [f64],
@@ -147,7 +147,7 @@ impl OfAnyWidth for Lane<'_> {
     }
 }
 
-/// A call of one lane over dual numbers.
+/// The call of one lane over dual numbers.
 struct WithSlope<'a>(Lane<'a>);
 
 impl OfAnyWidth for WithSlope<'_> {
@@ -198,7 +198,7 @@ pub fn compare<T: Real, O: Of<T>>(expected: &mut dyn Adjustable<T>, found: &mut 
                 }
             }
             if state % 5 == 3 {
-                // Zeros of both signs.
+                // Zeros of both signs are included.
                 for entry in y.iter_mut().step_by(3) {
                     *entry = O::near(
                         if random.next() < 0.0 { 0.0 } else { -0.0 },
@@ -452,7 +452,7 @@ pub fn check<M: Model<f64>, T: Real, O: Of<T>>(name: &str) {
     compare::<T, O>(&mut *expected, &mut engine.interpreted::<T>());
 }
 
-/// A test for each bundled model: `models!(f)` calls `f::<Mechanism>(name)`.
+/// Makes a test for each bundled model: `models!(f)` calls `f::<Mechanism>(name)`.
 macro_rules! models {
     ($check:ident: $($module:ident $name:literal;)*) => {
         $(

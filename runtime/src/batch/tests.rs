@@ -564,7 +564,7 @@ fn finals(settings: Settings, varied: usize, estimate: bool) -> Job {
 }
 
 #[test]
-fn fixed_steps_converge_with_their_order_and_estimates_tell_the_error() {
+fn fixed_steps_have_their_order_and_estimate_their_error() {
     // at 0.7 s, near ωt = 3π/4, neither phase nor amplitude of any of them hides its error
     let frequencies: Vec<f64> = (0..11).map(|i| 3.2 + 0.03 * f64::from(i)).collect();
     let found = |method, step| {
@@ -597,7 +597,7 @@ fn fixed_steps_converge_with_their_order_and_estimates_tell_the_error() {
 }
 
 #[test]
-fn over_kinks_the_error_falls_like_the_step_or_faster_and_no_more_is_taken_for_granted() {
+fn the_error_estimate_over_kinks_assumes_first_order() {
     let all: Vec<f64> = scenarios(24).concat();
     let found = |step, estimate| {
         let settings = fixed(Method::Rk4, step);

@@ -324,8 +324,9 @@ fn leaving_a_curve_names_the_force_and_the_time() {
             "{text}"
         );
         assert!(
-            text.contains("the curve \"spring: curve\" is left by")
-                && text.contains("beyond its last point, 0.450"),
+            text.contains(
+                "the argument of the curve \"spring: curve\" exceeds the last point (0.450)"
+            ),
             "{text}"
         );
     }
@@ -532,7 +533,7 @@ fn default_settings_are_the_defaults_of_their_parts() {
 }
 
 #[test]
-fn a_step_ends_where_a_guard_changes_its_sign_and_memory_changes_between_steps_only() {
+fn steps_end_at_events_and_memory_changes_between_steps() {
     let tolerance = 1e-10;
     let settings = Settings {
         method: at_tolerance(tolerance),

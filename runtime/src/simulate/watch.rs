@@ -270,14 +270,20 @@ impl fmt::Display for Doubt {
             }
             Suspicion::Curve { curve, argument } => match self.info.curves.get(curve) {
                 Some(curve) => write!(f, "since t = {since} {}", Beyond { curve, argument }),
-                None => write!(f, "since t = {since} a curve is left"),
+                None => write!(
+                    f,
+                    "since t = {since} the argument of a curve is outside of its points"
+                ),
             },
             Suspicion::Missed { onset, steps } => {
                 let onset = self.info.onsets.get(onset).copied().unwrap_or("?");
-                let which = if steps == 1 { "a step" } else { "steps" };
+                let which = match steps {
+                    1 => "a step",
+                    _ => "the first of several steps",
+                };
                 write!(
                     f,
-                    "at t = {since} {which} went over what begins and ends within: \"{onset}\""
+                    "at t = {since} {which} passed over an event that begins and ends within the step: \"{onset}\""
                 )
             }
             Suspicion::Flexion { bearing } => {
@@ -306,30 +312,33 @@ impl fmt::Display for Doubt {
             Suspicion::Energy { share, effect, .. } => {
                 write!(
                     f,
-                    "since t = {since} the balance of energy has a gap, {} % of the largest energy in it",
+                    "since t = {since} the balance of energy has a gap of {} % of the largest energy in it",
                     Short(100.0 * share)
                 )?;
                 match effect.and_then(|effect| self.info.powers.get(effect)) {
-                    Some(effect) => write!(f, "; the largest power then is of \"{effect}\""),
-                    None => write!(f, "; \"{name}\" is fastest then"),
+                    Some(effect) => write!(
+                        f,
+                        "; the largest power at that time is that of \"{effect}\""
+                    ),
+                    None => write!(f, "; \"{name}\" moves fastest at that time"),
                 }
             }
             Suspicion::Unexplained { .. } => write!(
                 f,
-                "since t = {since} \"{name}\" is not what its rate within the steps makes of it: forces begin and end between the places \
-                 that the steps look at"
+                "since t = {since} \"{name}\" does not agree with the integral of its rate within the steps: forces begin and end between \
+                 the stages of the steps"
             ),
             Suspicion::Momentum { share, .. } => write!(
                 f,
-                "since t = {since} the momentum of what moves freely has a gap, {} % of what there can be; \"{name}\" is \
-                 fastest then",
+                "since t = {since} the balance of momentum of freely moving bodies has a gap of {} % of the largest possible momentum; \
+                 \"{name}\" moves fastest at that time",
                 Short(100.0 * share)
             ),
         }
     }
 }
 
-/// How a curve is left, in words.
+/// By how much the argument of a curve exceeds its points, and how the curve is extended, in words.
 pub(crate) struct Beyond<'a> {
     pub curve: &'a CurveInfo,
     pub argument: f64,
@@ -342,26 +351,25 @@ impl fmt::Display for Beyond<'_> {
             let (name, left) = (curve.name, 100.0 * (1.0 - curve.last));
             return write!(
                 f,
-                "the {name} is pressed to less than {} % of its volume, and its law ends there",
+                "the {name} is compressed to less than {} % of its volume, where its law is no longer valid",
                 Short(left)
             );
         }
         let how = match curve.extrapolate {
-            Extrapolate::Linear => "which goes on as a line",
-            Extrapolate::Hold => "whose outermost value is held",
-            Extrapolate::Error => "which may not be left",
+            Extrapolate::Linear => "the curve is extended as a straight line",
+            Extrapolate::Hold => "the curve keeps its outermost value",
+            Extrapolate::Error => "the curve may not be extended",
         };
         let (side, end) = match *argument < curve.first {
-            true => ("below its first point", curve.first),
-            false => ("beyond its last point", curve.last),
+            true => ("is below the first point", curve.first),
+            false => ("exceeds the last point", curve.last),
         };
         let (name, beyond) = (curve.name, (argument - end).abs());
         write!(
             f,
-            "the curve \"{name}\" is left by {} {side}, {}, up to {}, {how}",
-            Short(beyond),
+            "the argument of the curve \"{name}\" {side} ({}) by {}, and {how}",
             Short(end),
-            Short(*argument)
+            Short(beyond)
         )
     }
 }

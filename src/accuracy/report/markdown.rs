@@ -1,4 +1,4 @@
-//! A study as a section of a page: what it found, the picture, the front.
+//! A study as a section of a page: its finding, the picture, the front.
 
 use super::text::{digits, error, known};
 use crate::accuracy::finding::Finding;
@@ -6,7 +6,7 @@ use crate::accuracy::point::{Measure, Status};
 use crate::accuracy::study::Study;
 use std::fmt::Write as _;
 
-/// The section; `picture` is the link to the diagram, `command` what made it all.
+/// The section; `picture` is the link to the diagram, `command` the command that made it.
 pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command: &str) -> String {
     let readings = &study.reference.readings;
     let of = study.of.name(readings);
@@ -41,7 +41,7 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
             why.lines().next().unwrap_or_default()
         );
     }
-    // beside the error that was asked for, unless that is it
+    // the error in the state stands beside the error asked for, unless they are the same
     let state = !matches!(study.of, Measure::State);
     let (heading, rule) = match state {
         true => (" error in the state |", "---:|"),

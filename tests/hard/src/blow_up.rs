@@ -1,4 +1,4 @@
-//! Runs that cannot be trusted say so, since when and because of what; runs that can do not.
+//! Runs that cannot be trusted report this, with the time and the reason; runs that can be trusted do not.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -46,13 +46,13 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Where |R(−x)| = 1 for the first time, R the polynomial of these coefficients of 1, z, z² …
+/// The first x with |R(−x)| = 1, where R is the polynomial with these coefficients of 1, z, z² …
 fn real_limit(coefficients: &[f64]) -> f64 {
     let inside = |x: f64| {
         let value = coefficients.iter().rev().fold(0.0, |sum, c| sum * -x + c);
         value.abs() <= 1.0
     };
-    // The limit of each is between 1 and 10; below it there is no other.
+    // The limit of each polynomial is between 1 and 10, and there is none below.
     let (mut low, mut high) = (1.0, 10.0);
     while inside(low + 1e-3) && low < 10.0 {
         low += 1e-3;
@@ -90,7 +90,7 @@ const POLYNOMIALS: [(Formula, &[f64]); 4] = [
     ),
 ];
 
-/// What a run says of itself: its failure, or its doubts.
+/// The messages of a run: its failure, or its doubts.
 fn said(run: &Run) -> String {
     match &run.result {
         Err(error) => format!("failed: {}", error.message),
@@ -109,7 +109,7 @@ fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let limit = real_limit(polynomial) / rate;
         bench.variant(formula.name());
         let below = bench.run(&scene, &fixed(formula, 0.9 * limit))?;
-        // what so large a step makes of the energy of the first swing is another matter
+        // the effect of such a large step on the energy of the first swing does not matter here
         bench.states(
             "0.9 of the limit: not doubted because of the step",
             below.result.is_ok() && below.doubts.iter().all(|doubt| doubt.kind != "step"),
@@ -125,15 +125,15 @@ fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "unstable",
         );
         if let Some(doubt) = of_step {
-            // the step over the largest stable one, by the limit in the direction where it is largest
+            // the step over the largest stable one, by the limit in the direction where the limit is largest
             let largest = formula.stability_limit().unwrap_or(f64::NAN) / rate;
             let found = 1.2 * limit / doubt.amount;
             bench.at_most(
-                "the limit that is named, away from the method's over ω",
+                "deviation of the limit in the message from the method's limit over ω",
                 (found / largest - 1.0).abs(),
                 2.0 / 15.0,
                 "",
-                "λ is a double root, so that λᵏ k grows too, by 1/k a step in coordinates and in velocities: k = 15 steps are waited for",
+                "λ is a double root, so λᵏ k also grows, by 1/k for each step in coordinates and in velocities: the message comes after k = 15 steps",
             );
         }
     }
@@ -160,7 +160,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         );
         if let Some(doubt) = doubt {
             let growth = (h.powi(4) / 4.0).ln_1p();
-            // E/E₀ − 1 = 2 % of E, the largest energy; all of it is kinetic or gone through the spring twice in a period
+            // E/E₀ − 1 = 2 % of E, the largest energy; twice in a period all of it is kinetic or has gone into the spring
             let expected = -(0.98f64).ln() / growth * h;
             let pi = std::f64::consts::PI;
             bench.at_least(
@@ -168,7 +168,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 doubt.since,
                 0.5 * expected - h,
                 "s",
-                "half of 2 % · 4/h³: half of the energy at least is kinetic or work at any time",
+                "half of 2 % · 4/h³: at any time at least half of the energy is kinetic or work",
             );
             bench.at_most(
                 "since when",
@@ -185,7 +185,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let run = bench.run(&scene!("left-curves"), &Job::default())?;
     for (name, since) in [
-        // beyond by more than the width: 0.1 + 0.1 rad at 1 rad/s
+        // more than the width beyond the curve: 0.1 + 0.1 rad at 1 rad/s
         ("line", Some(0.2)),
         ("held", Some(0.1)),
         ("told", None),
@@ -207,7 +207,7 @@ fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         if let (Some(doubt), Some(since)) = (doubt, since) {
             let longest = run.report()?.largest_step;
             bench.at_most(
-                "since when, away from where the wheel comes there",
+                "deviation of its time from when the wheel comes there",
                 (doubt.since - since).abs(),
                 longest,
                 "s",
@@ -226,7 +226,7 @@ fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     );
     if let Err(error) = &run.result {
         bench.at_most(
-            "when, away from where the wheel comes there",
+            "deviation of the time from when the wheel comes there",
             (error.t.unwrap_or(f64::NAN) - 0.1).abs(),
             0.01,
             "s",
@@ -278,7 +278,7 @@ fn no_false_alarm(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "not doubted",
             run.doubts.is_empty(),
             said(&run),
-            "its results are right",
+            "its results are correct",
         );
     }
     Ok(())

@@ -1,8 +1,7 @@
 //! Friction that holds, contacts that close and open.
 //!
-//! As with stiff scenes, N steps under control of their error change a speed v by at most N · tolerance · (1 + v) · ω, ω the
-//! frequency of the stiffest spring that acts. Where a motion is at rest and damped, errors of steps die out again: what is
-//! left is a few steps' tolerance.
+//! As for stiff scenes, N steps with error control change a speed v by at most N · tolerance · (1 + v) · ω, with ω the frequency of the
+//! stiffest acting spring. If a motion is at rest and damped, errors of steps decay: the tolerance of a few steps remains.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -76,12 +75,12 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Friction, and the thresholds of its two laws (`scenes/incline.yaml`).
+/// The coefficient of friction, and the thresholds of its two laws (`scenes/incline.yaml`).
 const MU: f64 = 0.4;
 const BRISTLE: f64 = 1e-4;
 const CREEP: f64 = 1e-2;
 
-/// Way downhill of one of the blocks at every sample.
+/// Downhill displacement of one of the blocks at every sample.
 fn way(run: &Run, block: &str, slope: f64) -> Result<Vec<f64>, Trouble> {
     let (sin, cos) = slope.sin_cos();
     let x = run.state(&format!("{block}.x"))?;
@@ -120,7 +119,7 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let deflection = run.header.auxiliaries.first().cloned().unwrap_or_default();
         let deflection = run.state(&deflection)?[last].abs();
         bench.at_most(
-            "deflection of the bristles away from z_b tan α/μ",
+            "deviation of the bristles' deflection from z_b tan α/μ",
             (deflection - BRISTLE * slope.tan() / MU).abs(),
             10.0 * limit.positions + rounding,
             "m",
@@ -130,7 +129,7 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let speed = CREEP * slope.tan() / MU;
         let duration = run.times[last] - run.times[first];
         bench.at_most(
-            "friction by speed: creep away from v_s tan α/μ",
+            "friction by speed: deviation of the creep from v_s tan α/μ",
             ((crept[last] - crept[first]) / duration - speed).abs(),
             10.0 * tolerance * (1.0 + speed),
             "m/s",
@@ -165,18 +164,18 @@ fn brakes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             );
             let bristle = run.state(&format!("joint {joint}: bristle"))?[last];
             bench.at_most(
-                format!("{joint}: deflection of the bristles away from z_b Q/M"),
+                format!("{joint}: deviation of the bristles' deflection from z_b Q/M"),
                 (bristle.abs() - BRISTLE * share).abs(),
                 10.0 * limit.positions + rounding + BRISTLE * held[last].powi(2),
                 "m or rad",
-                "ten steps' tolerance, steps × ε, and what the arm has turned by makes of its torque",
+                "ten steps' tolerance, steps × ε, and the effect of the arm's rotation on its torque",
             );
         }
         let crept = run.state("creeps/cage.position")?;
         let duration = run.times[last] - run.times[first];
         let speed = CREEP * cage;
         bench.at_most(
-            "friction by speed: creep away from v Q/M",
+            "friction by speed: deviation of the creep from v Q/M",
             ((crept[last] - crept[first]) / duration - speed).abs(),
             10.0 * tolerance * (1.0 + speed),
             "m/s",
@@ -204,11 +203,11 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let v = run.state("holds.vx")?;
         let end = x[x.len() - 1];
         bench.at_most(
-            "stopping distance away from v²/(2 μ g)",
+            "deviation of the stopping distance from v²/(2 μ g)",
             (end - x[0] - speed * speed / (2.0 * MU * 9.81)).abs(),
             2.0 * BRISTLE,
             "m",
-            "while the bristles bend and while they spring back, z_b each",
+            "z_b while the bristles bend, and z_b while they spring back",
         );
         bench.at_most(
             "way back",
@@ -264,7 +263,7 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 ..with_kinks(formula, Tolerances::uniform(tolerance), locate)
             };
             let run = bench.succeed(&scene, &job)?;
-            // Without the ceiling the ball would be above it for 2 v₀/g; against it δ'' = −g − ω² δ brings it back sooner.
+            // Without the ceiling the ball would be above it for 2 v₀/g; with it, δ'' = −g − ω² δ brings it back sooner.
             let ahead = |excess: f64| {
                 let entry = (2.0 * gravity * excess.max(0.0)).sqrt();
                 2.0 * entry / gravity - 2.0 / omega * (entry * omega / gravity).atan()
@@ -275,7 +274,7 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             let found = z[z.len() - 1];
             let contact = if excess > 0.0 { omega } else { 1.0 };
             let error = steps(&run)? * tolerance * (1.0 + speed) * contact;
-            // an error of the height moves the entry, and with it the time above
+            // an error of the height changes the time of entry, and so the time above
             let height = error / contact * (1.0 + speed / gravity);
             let shift =
                 [excess - height, excess + height].map(|e| (ahead(e) - ahead(excess)).abs());
@@ -284,7 +283,7 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 (found - exact).abs(),
                 2.0 * error + speed * largest(shift),
                 "m",
-                "steps × tolerance × (1 + v), times ω while it touches, and what an error of the height at touch makes of the time above",
+                "steps × tolerance × (1 + v), times ω during contact, and the effect of an error of the height at touch on the time above",
             );
         }
     }
@@ -308,7 +307,7 @@ fn bounces_until_rest(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         // of the ball on the plate
         let omega = 1e3;
         bench.at_most(
-            "way from where it rests",
+            "distance from the position of rest",
             (last[1] - 0.1 + depth).abs(),
             10.0 * (limit.positions + tolerance / omega),
             "m",
@@ -349,7 +348,7 @@ fn ten_contacts(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "steps of both × tolerance × (1 + v) ω, for 2 s",
         );
         let angles = ten.state("beam/body.phi")?.into_iter().map(f64::abs);
-        // Feet at ±x carry alike but for rounding: moments of ε k δ x, and the feet drive the angle back.
+        // Feet at ±x carry the same load up to rounding: moments of ε k δ x, and the feet return the angle.
         let moment = f64::EPSILON * 1e6 * 0.02;
         let stiffness: f64 = (0..10)
             .map(|i| 1e5 * (0.2 * f64::from(i) - 0.9).powi(2))
@@ -412,7 +411,7 @@ fn over_the_corner(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         );
         let energy = run.energy()?;
         let speed = steps(&run)? * tolerance * (1.0 + 3.0) * omega;
-        // T = ½ v·M v changes by M v·δv; the momentum is that of 2 kg at 1 m/s, as much again of the turning
+        // T = ½ v·M v changes by M v·δv; the momentum is that of 2 kg at 1 m/s, and the same for the rotation
         bench.at_most(
             "change of the kinetic energy",
             (energy.end - energy.start).abs(),

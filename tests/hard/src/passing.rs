@@ -1,4 +1,4 @@
-//! What begins and ends within a step: nothing of it shows at the ends of the step.
+//! Events that begin and end within a step: the ends of the step do not show them.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
@@ -35,7 +35,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// The methods that choose their steps, and how fine.
+/// The methods that choose their steps, with their tolerances.
 const METHODS: [(Formula, f64); 5] = [
     (Formula::Dopri5, 1e-7),
     (Formula::Tsit5, 1e-4),
@@ -44,7 +44,7 @@ const METHODS: [(Formula, f64); 5] = [
     (Formula::Rodas5, 1e-7),
 ];
 
-/// Scenes of each method.
+/// Number of scenes of each method.
 const SCENES: usize = 40;
 
 fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {
@@ -60,7 +60,7 @@ fn bullets(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         for _ in 0..SCENES {
             let speed = log_uniform(&mut random, 0.1, 500.0);
             let size = log_uniform(&mut random, 1e-3, 0.3);
-            // a mass of 1/2 is turned within a tenth of the size
+            // a mass of 1/2 turns within a tenth of the size
             let stiffness = 0.5 * (speed / (0.1 * size)).powi(2);
             let job = Job {
                 parameters: vec![
@@ -68,7 +68,7 @@ fn bullets(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                     ("size".into(), size),
                     ("stiffness".into(), stiffness),
                 ],
-                // somewhere behind the impact, and no two runs alike
+                // the end is some time after the impact, and differs in every run
                 duration: Some(random.uniform(1.5, 20.0) / speed),
                 every: Some(1.0 / speed),
                 ..adaptive(formula, Tolerances::of(tolerance))
@@ -95,7 +95,7 @@ fn thresholds(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench.variant(name(formula, tolerance));
         let mut missed = 0;
         for _ in 0..SCENES {
-            // angles are held to a tenth of the tolerance in each of a hundred steps or so
+            // angles are kept to a tenth of the tolerance in each of about a hundred steps
             let over = log_uniform(&mut random, 100.0 * tolerance, 3e-2);
             let phase = random.uniform(0.3, 2.0 * PI - 0.3);
             let job = Job {
@@ -116,7 +116,7 @@ fn thresholds(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             missed as f64,
             0.0,
             "",
-            "the swing is elsewhere without the push, by up to 0.1 rad",
+            "without the push the swing differs by up to 0.1 rad",
         );
     }
     Ok(())
@@ -146,7 +146,7 @@ fn flown_past(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         for _ in 0..SCENES {
             let speed = log_uniform(&mut random, 0.5, 500.0);
             let at = random.uniform(0.1, 0.9);
-            // idle at both ends of the run
+            // the law is idle at both ends of the run
             let near = log_uniform(&mut random, 1e-3, 0.5f64.min(0.09 * speed));
             let aside = 0.95 * near * random.uniform(0.0, 1.0);
             let parameters = [
@@ -170,7 +170,7 @@ fn flown_past(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             missed as f64,
             0.0,
             "",
-            "without the push the ball stays within half a metre, with it it moves by 0.5 to 50 m",
+            "without the push the ball stays within half a metre, with the push it moves by 0.5 to 50 m",
         );
     }
     Ok(())

@@ -1,5 +1,5 @@
-//! Every number of every law at −1, 0, what is no number, and extremes, as a constant and as a parameter: what is refused of one is refused
-//! of the other, in the same words, and what is not refused gives finite results or says that it cannot.
+//! Every number of every law at −1, 0, NaN, and extreme values, as a constant and as a parameter. Both are refused in the same cases and
+//! with the same words; an accepted value gives finite results, or a message that it cannot.
 
 use super::{read, run, sound};
 use bryant::simulation::Recording;
@@ -200,7 +200,8 @@ run: { duration: 20 ms, every: 2 ms }
 ",
 ];
 
-/// Keys whose constant 0 says the same as no key, and whose parameter must be positive; a stiffness, where it has a curve of unloading below.
+/// Keys for which a constant 0 means the same as no key, and for which a parameter must be positive. A stiffness is one if it has an
+/// unloading curve below.
 const LEFT_OUT_BY_0: [&str; 4] = [
     "stiffness",
     "unloading_slope",
@@ -208,12 +209,12 @@ const LEFT_OUT_BY_0: [&str; 4] = [
     "friction_displacement",
 ];
 
-/// What every number is tried at.
+/// The values that are tried for every number.
 const VALUES: [&str; 9] = [
     "-1", "0", "-1e300", "1e300", "1e-300", "1e-9", "0.37", "1e9", "nan",
 ];
 
-/// The tokens of a scene: path with what tells it apart, and value.
+/// The tokens of a scene: the path with its distinction, and the value.
 fn tokens(scene: &str) -> Vec<(&str, &str)> {
     let rests = scene.split('<').skip(1);
     rests
@@ -224,7 +225,7 @@ fn tokens(scene: &str) -> Vec<(&str, &str)> {
         .collect()
 }
 
-/// A scene with something else in the place of one number, and parameters.
+/// A scene with one number replaced, and with parameters.
 fn text(scene: &str, target: &str, by: &str, parameters: &str) -> String {
     let head = format!("{parameters}{HEAD}");
     let mut text = scene.replace("HEAD", &head);
@@ -235,20 +236,20 @@ fn text(scene: &str, target: &str, by: &str, parameters: &str) -> String {
     text
 }
 
-/// The rule that a message says is broken, without what follows.
+/// The violated condition in a message, without the text after it.
 fn sentence(message: &str) -> &str {
     let ends = [", but is ", ", which is not so", " at the default"];
     let ends = ends.iter().filter_map(|end| message.find(end));
     &message[..ends.min().unwrap_or(message.len())]
 }
 
-/// The samples of a run that went to its end.
+/// The samples of a run that reached its end.
 fn samples(recording: &Recording) -> Vec<Vec<f64>> {
     let columns = recording.table.columns.iter();
     columns.map(|column| column.values.clone()).collect()
 }
 
-/// Everything about one number at one value.
+/// Checks one number at one value; returns an error.
 fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> {
     let constant = read(&text(scene, path, value, ""));
     let (_, engine) = sound(&text(
@@ -277,13 +278,13 @@ fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> 
                 fault(format!("{messages:?} is not {refused}"))
             }
         }
-        // that nothing resists a turn is of the whole system, and the run says it
+        // that nothing resists a rotation is a property of the whole system, and the run reports it
         (Err(_), None) if path.starts_with("inertia") && given.result.is_err() => None,
         (Err(messages), None) if path == "mass" && messages[0].contains("rounding hides it") => {
             None
         }
         (Err(messages), None) => fault(format!("only the constant is refused: {messages:?}")),
-        // a 0 that is written leaves these out; a parameter is a number of a law that is there
+        // a constant 0 leaves these out; a parameter is a number of an existing law
         (Ok(_), Some(_)) if number == 0.0 && LEFT_OUT_BY_0.contains(&path) => None,
         (Ok(_), Some(refused)) => fault(format!("only the parameter is refused: {refused}")),
         (Ok(model), None) => {
@@ -295,7 +296,7 @@ fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> 
             if fixed.result.is_err() || given.result.is_err() {
                 return None;
             }
-            // how a force that jumps is met, and where numbers are huge, leaves a few percent
+            // the treatment of a jump of a force, and huge numbers, cause a difference of a few percent
             if number.abs() > 1e6 {
                 return None;
             }
@@ -339,7 +340,7 @@ fn no_number_of_a_law_is_forgotten() {
             tried.insert(path.split('#').next().unwrap_or_default().to_owned());
         }
     }
-    // the same for every force and axis, or nothing that is written
+    // the same for every force and axis, or not written at all
     known.retain(|path| !path.starts_with("vehicle"));
     let missing: Vec<_> = known.difference(&tried).collect();
     assert!(missing.is_empty(), "{missing:?}");

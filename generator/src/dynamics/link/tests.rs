@@ -406,7 +406,7 @@ fn trees_at_random_have_the_equations_of_absolute_axes() {
 }
 
 #[test]
-fn trees_with_rotors_and_freedoms_that_follow_have_the_equations_of_absolute_axes() {
+fn rotors_and_followers_have_the_equations_of_absolute_axes() {
     compare(23, 150, Kind::Coupled, &["quaternion", "bryant"]);
 }
 

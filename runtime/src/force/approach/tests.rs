@@ -553,7 +553,7 @@ fn bodies_with_a_common_point_are_never_far() {
 }
 
 #[test]
-fn of_bodies_that_touch_both_say_the_same_and_of_others_there_is_a_plane_between() {
+fn touching_bodies_agree_and_a_plane_separates_others() {
     for planar in [false, true] {
         for case in cases(20.0, planar, [0.7, 1.6], 2000) {
             let (all, early): (Vec<f64>, Vec<f64>) = match planar {

@@ -95,7 +95,7 @@ fn a_step_that_blows_up_at_once_is_explained_by_its_size() {
 }
 
 #[test]
-fn steps_under_control_of_their_error_neither_blow_up_nor_are_suspected() {
+fn steps_under_error_control_are_stable_and_not_suspected() {
     // λ = −10⁵ 1/s over 0.01 s: stability bounds the steps, at loose tolerances too
     for formula in Formula::ALL.into_iter().filter(|f| f.estimates_error()) {
         for tolerance in [1e-2, 1e-3, 1e-5] {
@@ -132,7 +132,7 @@ fn what_is_missing_in_the_balance_is_found_since_when() {
 }
 
 #[test]
-fn a_pendulum_that_loses_its_energy_little_by_little_is_found_out() {
+fn a_slow_loss_of_the_energy_of_a_pendulum_is_found() {
     // |R(ihω)|² = 1 + (hω)⁴/4 of modified Euler: 5 % in 2000 steps of hω = 0.1, while 32 periods exchange 128 times the energy
     let settings = settings(Method::fixed(Formula::Heun, 0.1), 200.0);
     let (watch, _) = watched::<Stage>(None, &settings, ENERGY_LIMIT);

@@ -1,4 +1,4 @@
-//! Models whose S is singular in every position are refused when they are read, and no others.
+//! Models whose S is singular in every position are refused when they are read; other models are not.
 
 use crate::balance::Tree;
 use crate::bench::{Bench, Trouble};
@@ -9,7 +9,7 @@ use crate::random::Random;
 use crate::scene::Scene;
 use bryant_generator::model::{Dimension, Model};
 
-/// Ways to be singular, by hand.
+/// Singular models, made by hand.
 pub const REFUSED: Case = Case {
     group: Group::MassAndShape,
     name: "singular models are refused",
@@ -19,7 +19,7 @@ pub const REFUSED: Case = Case {
     run: refused,
 };
 
-/// Ways to be singular, at random.
+/// Singular models, made at random.
 pub const RANDOM: Case = Case {
     group: Group::MassAndShape,
     name: "refused if and only if singular",
@@ -28,13 +28,13 @@ pub const RANDOM: Case = Case {
     run: random,
 };
 
-/// A model by hand: what it is, its text, what is said of it.
+/// A model made by hand: its description, its text, and the expected message.
 struct Way {
     name: &'static str,
     dimension: u8,
     reference: &'static str,
     elements: &'static [&'static str],
-    /// Words of the message: the element, the axis; none where the model is accepted.
+    /// Words of the message: the element, the axis; empty if the model is accepted.
     said: &'static [&'static str],
 }
 
@@ -272,7 +272,7 @@ fn first_line(text: &str) -> String {
     text.lines().next().unwrap_or_default().to_owned()
 }
 
-/// Random numbers of few values, so that what must coincide to be singular does.
+/// Random numbers with few values, so that coincidences that make S singular are frequent.
 fn odd(random: &mut Random, kind: Kind) -> Link {
     let mut pick = |values: &[[f64; 3]]| {
         let at = random.uniform(0.0, values.len() as f64);
@@ -296,7 +296,7 @@ fn odd(random: &mut Random, kind: Kind) -> Link {
     }
 }
 
-/// Zero, by hand: of a scaled pivot, in double-double, in numbers that differ from 1 by no more than 1e3.
+/// A scaled pivot below this counts as zero; it is computed in double-double from numbers between 1e-3 and 1e3.
 const ZERO: f64 = 1e-20;
 
 fn random(bench: &mut Bench<'_>) -> Result<(), Trouble> {
@@ -346,12 +346,12 @@ fn random(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The model of links that would be refused: read with moments that are not zero, which then are put back.
+/// The model of links that would be refused: it is read with moments that are not zero, and then gets the moments of the links.
 fn bodies(setting: Setting, links: &[Link]) -> Result<Model, Trouble> {
     let sound: Vec<Link> = links
         .iter()
         .map(|link| Link {
-            // all different: principal axes that do not matter are forgotten
+            // all values are different, because irrelevant principal axes are dropped
             inertia: [0.1, 0.11, 0.12],
             ..*link
         })
