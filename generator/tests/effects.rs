@@ -595,7 +595,9 @@ const CASES: &[Case] = &[
         effect: "bushing mount: elastic along x",
         scene: plane,
         on: "forces: [{ bushing: mount, ENDS, along: { x: { stiffness: 3, damping: 5 } }, about: { y: { damping: 1 } } }]",
-        off: &["forces: [{ bushing: mount, ENDS, along: { x: { elastic: never, damping: 5 } }, about: { y: { damping: 1 } } }]"],
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { x: { elastic: never, damping: 5 } }, about: { y: { damping: 1 } } }]",
+        ],
         never: "forces: [{ bushing: mount, ENDS, along: { x: { damping: 5 } }, about: { y: { damping: 1 } } }]",
     },
     Case {
@@ -603,7 +605,9 @@ const CASES: &[Case] = &[
         effect: "bushing mount: damping along x",
         scene: plane,
         on: "forces: [{ bushing: mount, ENDS, along: { x: { damping: 2, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
-        off: &["forces: [{ bushing: mount, ENDS, along: { x: { damping: 0, elastic: THROUGH } }, about: { y: { damping: 1 } } }]"],
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { x: { damping: 0, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+        ],
         never: "forces: [{ bushing: mount, ENDS, along: { x: { elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
     },
     Case {
@@ -611,7 +615,9 @@ const CASES: &[Case] = &[
         effect: "bushing mount: elastic along z",
         scene: plane,
         on: "forces: [{ bushing: mount, ENDS, along: { z: { stiffness: 3, damping: 5 } }, about: { y: { damping: 1 } } }]",
-        off: &["forces: [{ bushing: mount, ENDS, along: { z: { elastic: never, damping: 5 } }, about: { y: { damping: 1 } } }]"],
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { z: { elastic: never, damping: 5 } }, about: { y: { damping: 1 } } }]",
+        ],
         never: "forces: [{ bushing: mount, ENDS, along: { z: { damping: 5 } }, about: { y: { damping: 1 } } }]",
     },
     Case {
@@ -619,7 +625,9 @@ const CASES: &[Case] = &[
         effect: "bushing mount: damping along z",
         scene: plane,
         on: "forces: [{ bushing: mount, ENDS, along: { z: { damping: 2, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
-        off: &["forces: [{ bushing: mount, ENDS, along: { z: { damping: 0, elastic: THROUGH } }, about: { y: { damping: 1 } } }]"],
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { z: { damping: 0, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+        ],
         never: "forces: [{ bushing: mount, ENDS, along: { z: { elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
     },
     Case {
@@ -627,7 +635,9 @@ const CASES: &[Case] = &[
         effect: "bushing mount: elastic about y",
         scene: plane,
         on: "forces: [{ bushing: mount, ENDS, about: { y: { stiffness: 3, damping: 5 } }, along: { x: { stiffness: 7 } } }]",
-        off: &["forces: [{ bushing: mount, ENDS, about: { y: { elastic: never, damping: 5 } }, along: { x: { stiffness: 7 } } }]"],
+        off: &[
+            "forces: [{ bushing: mount, ENDS, about: { y: { elastic: never, damping: 5 } }, along: { x: { stiffness: 7 } } }]",
+        ],
         never: "forces: [{ bushing: mount, ENDS, about: { y: { damping: 5 } }, along: { x: { stiffness: 7 } } }]",
     },
     Case {
@@ -635,7 +645,9 @@ const CASES: &[Case] = &[
         effect: "bushing mount: damping about y",
         scene: plane,
         on: "forces: [{ bushing: mount, ENDS, about: { y: { damping: 2, elastic: THROUGH } }, along: { x: { stiffness: 7 } } }]",
-        off: &["forces: [{ bushing: mount, ENDS, about: { y: { damping: 0, elastic: THROUGH } }, along: { x: { stiffness: 7 } } }]"],
+        off: &[
+            "forces: [{ bushing: mount, ENDS, about: { y: { damping: 0, elastic: THROUGH } }, along: { x: { stiffness: 7 } } }]",
+        ],
         never: "forces: [{ bushing: mount, ENDS, about: { y: { elastic: THROUGH } }, along: { x: { stiffness: 7 } } }]",
     },
     // loads
