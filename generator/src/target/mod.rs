@@ -3,4 +3,5 @@
 //! A target turns [lists](crate::program::List) into bytes or text. It runs nothing, so it works on any host.
 
 pub mod c;
+pub mod rust;
 pub mod x86_64;

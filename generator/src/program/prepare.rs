@@ -4,13 +4,13 @@
 //! text depends on how many there are.
 
 use super::hoist;
-use super::inputs::{Argument, Input, Inputs};
-use super::results::Results;
 use crate::equations::Equations;
 use crate::expression::count::Count;
 use crate::expression::live::Live;
 use crate::expression::passes::{Rewritten, factor, fuse, replace};
 use crate::expression::{Graph, Node, NodeId, Symbol};
+use crate::method::inputs::{Argument, Input, Inputs};
+use crate::target::rust::results::Results;
 use rustc_hash::FxHashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const REPEATED_OPERATIONS: usize = 50;
 
 /// A method before the passes.
-pub(super) struct Method<'a> {
+pub(crate) struct Method<'a> {
     pub name: &'static str,
     /// Documentation, by lines.
     pub documentation: Vec<String>,
@@ -36,7 +36,7 @@ pub(super) struct Method<'a> {
 
 /// What a method need not compute, besides the values that depend on parameters alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Given {
+pub(crate) enum Given {
     /// Nothing.
     Derived,
     /// The guards.
@@ -46,7 +46,7 @@ pub(super) enum Given {
 }
 
 /// A method behind the factoring pass.
-pub(super) struct Factored {
+pub(crate) struct Factored {
     /// With all that it needs.
     alone: Rewritten,
     /// Starting from accelerations, where it may.
@@ -55,7 +55,7 @@ pub(super) struct Factored {
 
 impl Factored {
     /// The cheaper form, and whether that starts from accelerations.
-    pub(super) fn chosen(&self, inputs: &Inputs) -> (&Rewritten, bool) {
+    pub(crate) fn chosen(&self, inputs: &Inputs) -> (&Rewritten, bool) {
         match &self.short {
             Some(short) if starts_from_accelerations(&self.alone, short, inputs) => (short, true),
             _ => (&self.alone, false),
@@ -102,7 +102,7 @@ fn with_given(known: &Known, given: Given, equations: &Equations, inputs: &Input
 }
 
 /// Methods behind the factoring pass, where these values are known.
-pub(super) fn factored(
+pub(crate) fn factored(
     equations: &Equations,
     methods: &[Method<'_>],
     derived: &[NodeId],
@@ -141,7 +141,7 @@ pub(super) fn factored(
 
 /// Methods behind all passes, each with whether it starts from accelerations. Of the values that depend on parameters alone, the first `before`
 /// were known when the methods were factored; a method that needs one of the others is factored again.
-pub(super) fn finished(
+pub(crate) fn finished(
     equations: &Equations,
     methods: &[Method<'_>],
     mut factored_before: Vec<Factored>,

@@ -1,12 +1,12 @@
 //! What is called how in a method that is written in calls: the functions, what they deal with, and the places where results stand.
 
-use super::carry::Carried;
 use super::expression::{Printer, Words, scalar};
 use super::function::Writer;
-use super::like::{Like, Number, Port, place_in};
-use super::names::{Names, camel, snake};
 use super::syntax;
 use crate::expression::{NodeId, owner};
+use crate::names::{Names, camel, snake};
+use crate::program::carry::Carried;
+use crate::program::like::{Like, Number, Port, place_in};
 use proc_macro2::Ident;
 use quote::format_ident;
 use rustc_hash::FxHashMap;
@@ -15,7 +15,7 @@ use std::ops::Range;
 use syn::Expr;
 
 /// A text as a function: what it and what it deals with are called.
-pub(super) struct Called {
+pub(crate) struct Called {
     pub function: Ident,
     pub task: Ident,
     pub returned: Ident,
@@ -30,7 +30,7 @@ pub(super) struct Called {
 }
 
 /// Where the method that calls finds results.
-pub(super) struct Places {
+pub(crate) struct Places {
     /// By block: the variable of what its call returned.
     pub returned: Vec<String>,
     /// By run: the variable of what its calls carry on.
@@ -39,7 +39,7 @@ pub(super) struct Places {
 
 impl Writer<'_> {
     /// Names that do not name the element of the first block, which is one of many.
-    pub(super) fn called(&self, i: usize, like: &Like, likes: &[Like]) -> Called {
+    pub(crate) fn called(&self, i: usize, like: &Like, likes: &[Like]) -> Called {
         let (method, number) = (self.request.name, i + 1);
         let own = self.owner(like.first().lines.end - 1);
         let element = snake(own.split_once(' ').map_or(own.as_str(), |(_, name)| name));
@@ -58,7 +58,7 @@ impl Writer<'_> {
         let ports = ports.collect();
         let mut temporaries = 0;
         let values = like.first().values.iter().map(|&id| {
-            let name = self.program.name(id).unwrap_or_default();
+            let name = self.schedule.name(id).unwrap_or_default();
             let nameless = name
                 .strip_prefix('t')
                 .is_some_and(|n| n.parse::<usize>().is_ok());
@@ -81,9 +81,9 @@ impl Writer<'_> {
     }
 
     /// Names the places, and calls values that blocks bind by them from here on.
-    pub(super) fn name_places(&mut self, likes: &[Like], called: &[Called]) -> Vec<Places> {
+    pub(crate) fn name_places(&mut self, likes: &[Like], called: &[Called]) -> Vec<Places> {
         let mut names = Names::with(&["self", "num", "sink", "q", "v", "z", "m", "a", "g", "t"]);
-        for name in self.program.all_names() {
+        for name in self.schedule.all_names() {
             names.take(name);
         }
         let mut places = Vec::new();
@@ -98,7 +98,7 @@ impl Writer<'_> {
             for (block, place) in like.blocks.iter().zip(&returned) {
                 let outputs = like.outputs.iter();
                 let fields = outputs.map(|&n| (block.values[n], field(place, n)));
-                self.program.rename(fields);
+                self.schedule.rename(fields);
             }
             let mut carried = Vec::new();
             if let Some(Carried {
@@ -113,7 +113,7 @@ impl Writer<'_> {
                 for ((block, &run), &last) in like.blocks.iter().zip(runs).zip(last) {
                     let numbers = numbers.iter().filter(|_| last);
                     let fields = numbers.map(|&n| (block.values[n], field(&carried[run], n)));
-                    self.program.rename(fields);
+                    self.schedule.rename(fields);
                 }
             }
             places.push(Places { returned, carried });
@@ -122,9 +122,9 @@ impl Writer<'_> {
     }
 
     /// The element that a line belongs to.
-    pub(super) fn owner(&self, line: usize) -> String {
-        let section = self.program.lines[line].section;
-        owner(&self.program.graph.sections()[section]).to_owned()
+    pub(crate) fn owner(&self, line: usize) -> String {
+        let section = self.schedule.lines[line].section;
+        owner(&self.schedule.graph.sections()[section]).to_owned()
     }
 }
 
@@ -144,7 +144,7 @@ fn without(name: &str, element: &str) -> String {
 }
 
 /// What a value is called in a common text.
-pub(super) enum Word<'a> {
+pub(crate) enum Word<'a> {
     Name(&'a str),
     Field(&'a str, &'a str),
     Element(&'a str, usize),
@@ -152,7 +152,7 @@ pub(super) enum Word<'a> {
 }
 
 /// The words of a common text: those of the first block, what it is handed, and numbers in their order.
-pub(super) struct CommonWords<'a> {
+pub(crate) struct CommonWords<'a> {
     pub plain: &'a Printer<'a>,
     pub words: FxHashMap<NodeId, Word<'a>>,
     pub numbers: &'a [Number],

@@ -4,13 +4,13 @@
 //! A cut lies where the section changes, if there is such a place in the second half of what the limit allows, and there
 //! where the fewest values cross.
 
-use super::program::{Program, Statement};
+use super::schedule::{Schedule, Statement};
 use crate::expression::NodeId;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// One piece of a function.
-pub(super) struct Piece {
+pub(crate) struct Piece {
     /// The lines.
     pub lines: Range<usize>,
     /// What lines and, in the last piece, results read that the piece does not bind: inputs and values of earlier pieces.
@@ -20,20 +20,20 @@ pub(super) struct Piece {
 }
 
 /// The program in pieces of at most `limit` lines; one piece if it is no longer than that.
-pub(super) fn pieces(program: &Program, limit: usize) -> Vec<Piece> {
-    let reads: Vec<BTreeSet<NodeId>> = program
+pub(crate) fn pieces(schedule: &Schedule, limit: usize) -> Vec<Piece> {
+    let reads: Vec<BTreeSet<NodeId>> = schedule
         .lines
         .iter()
-        .map(|line| reads_of(program, line.statement))
+        .map(|line| reads_of(schedule, line.statement))
         .collect();
     let mut results = BTreeSet::new();
-    for &root in program.returned() {
-        program.reads(root, &mut results);
+    for &root in schedule.returned() {
+        schedule.reads(root, &mut results);
     }
 
-    let line_of = lines_of(program);
-    let crossing = crossing(program, &reads, &results, &line_of);
-    let ranges = ranges(program, &crossing, limit.max(2));
+    let line_of = lines_of(schedule);
+    let crossing = crossing(schedule, &reads, &results, &line_of);
+    let ranges = ranges(schedule, &crossing, limit.max(2));
     let last = ranges.len() - 1;
     ranges
         .iter()
@@ -52,9 +52,9 @@ pub(super) fn pieces(program: &Program, limit: usize) -> Vec<Piece> {
                 .chain(&results)
                 .copied()
                 .collect();
-            let bound = program.lines[range.clone()]
+            let bound = schedule.lines[range.clone()]
                 .iter()
-                .flat_map(|line| program.bound(line.statement));
+                .flat_map(|line| schedule.bound(line.statement));
             Piece {
                 passes_on: if i == last {
                     Vec::new()
@@ -68,19 +68,19 @@ pub(super) fn pieces(program: &Program, limit: usize) -> Vec<Piece> {
         .collect()
 }
 
-fn reads_of(program: &Program, statement: Statement) -> BTreeSet<NodeId> {
+fn reads_of(schedule: &Schedule, statement: Statement) -> BTreeSet<NodeId> {
     let mut found = BTreeSet::new();
-    for id in program.needs(statement) {
-        program.reads(id, &mut found);
+    for id in schedule.needs(statement) {
+        schedule.reads(id, &mut found);
     }
     found
 }
 
 /// The line that binds each value, by node.
-fn lines_of(program: &Program) -> Vec<Option<usize>> {
-    let mut lines = vec![None; program.graph.len()];
-    for (number, line) in program.lines.iter().enumerate() {
-        for id in program.bound(line.statement) {
+fn lines_of(schedule: &Schedule) -> Vec<Option<usize>> {
+    let mut lines = vec![None; schedule.graph.len()];
+    for (number, line) in schedule.lines.iter().enumerate() {
+        for id in schedule.bound(line.statement) {
             lines[id.0 as usize] = Some(number);
         }
     }
@@ -89,18 +89,18 @@ fn lines_of(program: &Program) -> Vec<Option<usize>> {
 
 /// How many values are bound before each line and read there or later.
 fn crossing(
-    program: &Program,
+    schedule: &Schedule,
     reads: &[BTreeSet<NodeId>],
     results: &BTreeSet<NodeId>,
     line_of: &[Option<usize>],
 ) -> Vec<usize> {
-    let mut last_use = vec![0; program.graph.len()];
+    let mut last_use = vec![0; schedule.graph.len()];
     for (number, reads) in reads.iter().chain([results]).enumerate() {
         for id in reads {
             last_use[id.0 as usize] = number;
         }
     }
-    let mut change = vec![0_isize; program.lines.len() + 2];
+    let mut change = vec![0_isize; schedule.lines.len() + 2];
     for (id, bound) in line_of.iter().enumerate() {
         if let Some(bound) = bound {
             change[bound + 1] += 1;
@@ -114,10 +114,10 @@ fn crossing(
     sums.map(|sum| usize::try_from(sum).unwrap_or(0)).collect()
 }
 
-fn ranges(program: &Program, crossing: &[usize], limit: usize) -> Vec<Range<usize>> {
-    let section = |line: usize| program.lines[line].section;
+fn ranges(schedule: &Schedule, crossing: &[usize], limit: usize) -> Vec<Range<usize>> {
+    let section = |line: usize| schedule.lines[line].section;
     let mut ranges = Vec::new();
-    let (mut start, end) = (0, program.lines.len());
+    let (mut start, end) = (0, schedule.lines.len());
     while end - start > limit {
         let window = start + limit / 2..=start + limit;
         let boundary = |&line: &usize| section(line) != section(line - 1);

@@ -4,14 +4,14 @@
 //! Such a value is found in the graph of a method and carried over, operand by operand, into the graph of the equations,
 //! where it is one more value that the mechanism keeps.
 
-use super::inputs::{Input, Inputs};
 use crate::expression::live::Live;
 use crate::expression::passes::{Rewritten, replace};
 use crate::expression::{Graph, Node, NodeId, Symbol};
+use crate::method::inputs::{Input, Inputs};
 use rustc_hash::FxHashMap;
 
 /// The values of a method that depend on parameters alone, each with the value of the equations that it is.
-pub(super) fn found(
+pub(crate) fn found(
     equations: &Graph,
     method: &Graph,
     roots: &[NodeId],
@@ -75,7 +75,7 @@ pub(super) fn found(
 
 /// By node: whether it is live and depends on parameters alone. Accelerations that a method starts from are inputs that
 /// change from call to call, though they are numbered as parameters.
-pub(super) fn alone(method: &Graph, live: &Live, inputs: &Inputs) -> Vec<bool> {
+pub(crate) fn alone(method: &Graph, live: &Live, inputs: &Inputs) -> Vec<bool> {
     let mut alone = vec![false; method.len()];
     for &id in live.nodes() {
         let node = method.node(id);
@@ -94,7 +94,7 @@ pub(super) fn alone(method: &Graph, live: &Live, inputs: &Inputs) -> Vec<bool> {
 }
 
 /// A method that takes such values from the mechanism, as far as it keeps them.
-pub(super) fn hoisted(
+pub(crate) fn hoisted(
     equations: &Graph,
     method: Rewritten,
     derived: &[NodeId],

@@ -6,7 +6,7 @@ use syn::punctuated::Punctuated;
 use syn::{BinOp, Expr, Pat, Path, Stmt, Token};
 
 /// A word, or words joined by `::`.
-pub(super) fn path(words: &str) -> Path {
+pub(crate) fn path(words: &str) -> Path {
     let segments = words
         .split("::")
         .map(|word| syn::PathSegment::from(ident(word)));
@@ -17,7 +17,7 @@ pub(super) fn path(words: &str) -> Path {
 }
 
 /// A name.
-pub(super) fn word(words: &str) -> Expr {
+pub(crate) fn word(words: &str) -> Expr {
     Expr::Path(syn::ExprPath {
         attrs: Vec::new(),
         qself: None,
@@ -26,7 +26,7 @@ pub(super) fn word(words: &str) -> Expr {
 }
 
 /// A name, or a field of what is called by the first of two names with a dot between them.
-pub(super) fn place(name: &str) -> Expr {
+pub(crate) fn place(name: &str) -> Expr {
     match name.split_once('.') {
         Some((base, name)) => field(word(base), name),
         None => word(name),
@@ -34,7 +34,7 @@ pub(super) fn place(name: &str) -> Expr {
 }
 
 /// A literal that is not negative.
-pub(super) fn literal(literal: Literal) -> Expr {
+pub(crate) fn literal(literal: Literal) -> Expr {
     Expr::Lit(syn::ExprLit {
         attrs: Vec::new(),
         lit: syn::Lit::new(literal),
@@ -42,7 +42,7 @@ pub(super) fn literal(literal: Literal) -> Expr {
 }
 
 /// `base.name`
-pub(super) fn field(base: Expr, name: &str) -> Expr {
+pub(crate) fn field(base: Expr, name: &str) -> Expr {
     Expr::Field(syn::ExprField {
         attrs: Vec::new(),
         base: Box::new(base),
@@ -52,7 +52,7 @@ pub(super) fn field(base: Expr, name: &str) -> Expr {
 }
 
 /// `base.0`
-pub(super) fn tuple_field(base: Expr, index: u32) -> Expr {
+pub(crate) fn tuple_field(base: Expr, index: u32) -> Expr {
     let index = syn::Index {
         index,
         span: Span::call_site(),
@@ -66,7 +66,7 @@ pub(super) fn tuple_field(base: Expr, index: u32) -> Expr {
 }
 
 /// `array[index]`
-pub(super) fn element(array: &str, index: usize) -> Expr {
+pub(crate) fn element(array: &str, index: usize) -> Expr {
     Expr::Index(syn::ExprIndex {
         attrs: Vec::new(),
         expr: Box::new(word(array)),
@@ -76,7 +76,7 @@ pub(super) fn element(array: &str, index: usize) -> Expr {
 }
 
 /// `function(arguments)`
-pub(super) fn call(function: Expr, arguments: impl IntoIterator<Item = Expr>) -> Expr {
+pub(crate) fn call(function: Expr, arguments: impl IntoIterator<Item = Expr>) -> Expr {
     Expr::Call(syn::ExprCall {
         attrs: Vec::new(),
         func: Box::new(function),
@@ -86,7 +86,7 @@ pub(super) fn call(function: Expr, arguments: impl IntoIterator<Item = Expr>) ->
 }
 
 /// `[a, b]`
-pub(super) fn array(elements: impl IntoIterator<Item = Expr>) -> Expr {
+pub(crate) fn array(elements: impl IntoIterator<Item = Expr>) -> Expr {
     Expr::Array(syn::ExprArray {
         attrs: Vec::new(),
         bracket_token: Default::default(),
@@ -95,7 +95,7 @@ pub(super) fn array(elements: impl IntoIterator<Item = Expr>) -> Expr {
 }
 
 /// `receiver.name(arguments)`
-pub(super) fn method(
+pub(crate) fn method(
     receiver: Expr,
     name: &str,
     arguments: impl IntoIterator<Item = Expr>,
@@ -112,7 +112,7 @@ pub(super) fn method(
 }
 
 /// `left op right`
-pub(super) fn binary(left: Expr, op: BinOp, right: Expr) -> Expr {
+pub(crate) fn binary(left: Expr, op: BinOp, right: Expr) -> Expr {
     Expr::Binary(syn::ExprBinary {
         attrs: Vec::new(),
         left: Box::new(left),
@@ -122,7 +122,7 @@ pub(super) fn binary(left: Expr, op: BinOp, right: Expr) -> Expr {
 }
 
 /// `name + distance`, or `name` where that is 0.
-pub(super) fn offset(name: &str, distance: usize) -> Expr {
+pub(crate) fn offset(name: &str, distance: usize) -> Expr {
     match distance {
         0 => word(name),
         _ => binary(
@@ -134,7 +134,7 @@ pub(super) fn offset(name: &str, distance: usize) -> Expr {
 }
 
 /// `-a`
-pub(super) fn negative(a: Expr) -> Expr {
+pub(crate) fn negative(a: Expr) -> Expr {
     Expr::Unary(syn::ExprUnary {
         attrs: Vec::new(),
         op: syn::UnOp::Neg(Default::default()),
@@ -143,7 +143,7 @@ pub(super) fn negative(a: Expr) -> Expr {
 }
 
 /// `(a)`
-pub(super) fn brackets(a: Expr) -> Expr {
+pub(crate) fn brackets(a: Expr) -> Expr {
     Expr::Paren(syn::ExprParen {
         attrs: Vec::new(),
         paren_token: Default::default(),
@@ -152,7 +152,7 @@ pub(super) fn brackets(a: Expr) -> Expr {
 }
 
 /// `name`, or `_`.
-pub(super) fn binding(name: Option<&str>) -> Pat {
+pub(crate) fn binding(name: Option<&str>) -> Pat {
     match name {
         Some(name) => Pat::Ident(syn::PatIdent {
             attrs: Vec::new(),
@@ -169,7 +169,7 @@ pub(super) fn binding(name: Option<&str>) -> Pat {
 }
 
 /// `(first, second)`
-pub(super) fn pair(first: Pat, second: Pat) -> Pat {
+pub(crate) fn pair(first: Pat, second: Pat) -> Pat {
     let elems: Punctuated<Pat, Token![,]> = [first, second].into_iter().collect();
     Pat::Tuple(syn::PatTuple {
         attrs: Vec::new(),
@@ -179,7 +179,7 @@ pub(super) fn pair(first: Pat, second: Pat) -> Pat {
 }
 
 /// `[a, _, c]`
-pub(super) fn array_pattern(elements: impl IntoIterator<Item = Pat>) -> Pat {
+pub(crate) fn array_pattern(elements: impl IntoIterator<Item = Pat>) -> Pat {
     Pat::Slice(syn::PatSlice {
         attrs: Vec::new(),
         bracket_token: Default::default(),
@@ -188,12 +188,12 @@ pub(super) fn array_pattern(elements: impl IntoIterator<Item = Pat>) -> Pat {
 }
 
 /// `value;`
-pub(super) fn does(value: Expr) -> Stmt {
+pub(crate) fn does(value: Expr) -> Stmt {
     Stmt::Expr(value, Some(Default::default()))
 }
 
 /// `let pattern = value;` with a marked comment above it.
-pub(super) fn binds(comment: Option<syn::Attribute>, pattern: Pat, value: Expr) -> Stmt {
+pub(crate) fn binds(comment: Option<syn::Attribute>, pattern: Pat, value: Expr) -> Stmt {
     Stmt::Local(syn::Local {
         attrs: comment.into_iter().collect(),
         let_token: Default::default(),

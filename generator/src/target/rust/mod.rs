@@ -5,128 +5,33 @@
 //! What depends on parameters alone is computed once, in `Mechanism::new`; what is known to a method before it runs
 //! stands in its graph as an input. Every method is straight-line code: no branch, no loop, no index that is not a number.
 
-pub(crate) mod breakpoints;
 mod called;
 mod calls;
-mod carry;
 mod comment;
-mod expression;
-mod formula;
+pub(crate) mod expression;
 mod function;
 mod header;
-mod hoist;
-mod inline;
-mod inputs;
-mod items;
-mod library;
-mod like;
-mod list;
-mod lists;
-mod names;
+pub(crate) mod items;
+pub(crate) mod library;
+pub(crate) mod method;
 mod operations;
-mod order;
-mod plan;
-mod prepare;
-mod program;
-mod request;
-mod results;
-mod split;
-mod syntax;
+pub(crate) mod results;
+pub(crate) mod syntax;
 mod user;
 
 use crate::equations::Equations;
-use crate::expression::count::{Count, Table};
-use crate::expression::live::Live;
+use crate::method::inputs::Inputs;
 use crate::model::Model;
-use inputs::Inputs;
+use crate::program::{Options, plan};
 use library::{Calls, Library};
-use request::{Function, Request};
+use method::{Function, Request};
 use syn::{File, ImplItem, Item, parse_quote};
 
-pub use lists::{Costs, counted_lists, lists};
 pub(crate) use user::pasted;
 pub use user::{Adapter, Apart, apart, skeleton};
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
 pub const GENERATED_CODE_VERSION: u32 = 14;
-
-/// What to emit, and how.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// The methods `mass_matrix`, `velocity_forces` and `applied_forces`, which need the runtime's feature `nalgebra`.
-    pub matrices: bool,
-    /// Statements that one function may have, besides those that read inputs; longer ones are cut into pieces, which release builds merge
-    /// again unless there are too many. What like elements share, and what is left beside it, is not cut.
-    pub statements: usize,
-    /// Statements up to which a method is one function when it is compiled, which makes the faster code, by 3 % over one double and by
-    /// 5 to 15 % over eight, but takes more than proportionally long, and more than the caches of a processor hold. Of longer ones
-    /// like elements share functions; where few are like each other, each piece is a function.
-    pub merged: usize,
-}
-
-impl Options {
-    /// What is emitted unless something else is asked for.
-    pub const DEFAULT: Options = Options {
-        matrices: true,
-        statements: 900,
-        merged: 3000,
-    };
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self::DEFAULT
-    }
-}
-
-/// What each method of a model's module costs, by section: the operations after all passes, before long methods are joined, or repeat some
-/// instead of keeping their results.
-pub fn costs(
-    model: &Model,
-    equations: &Equations,
-    options: &Options,
-) -> Vec<(&'static str, Table)> {
-    costs_of(model, equations, options, None)
-}
-
-/// The same of some methods, and of `new`, which has what these need of parameters alone.
-pub fn costs_of(
-    model: &Model,
-    equations: &Equations,
-    options: &Options,
-    only: Option<&[&str]>,
-) -> Vec<(&'static str, Table)> {
-    let mut inputs = Inputs::new(model, equations);
-    let derived = plan::derived(model, equations, options, only, &mut inputs);
-    let requests = plan::requests(model, equations, options, derived, &inputs, only);
-    requests
-        .iter()
-        .map(|request| (request.name, Table::of(&request.graph, &request.roots)))
-        .collect()
-}
-
-/// By method: the operations that depend on parameters alone, and so are done at every call though nothing changes. There
-/// are none but in `new` and `initial_conditions`, which is what they are for.
-pub fn repeated(
-    model: &Model,
-    equations: &Equations,
-    options: &Options,
-) -> Vec<(&'static str, Count)> {
-    let mut inputs = Inputs::new(model, equations);
-    let derived = plan::derived(model, equations, options, None, &mut inputs);
-    let requests = plan::requests(model, equations, options, derived, &inputs, None);
-    let of = |request: &Request<'_>| {
-        let live = Live::new(&request.graph, &request.roots);
-        let alone = hoist::alone(&request.graph, &live, &inputs);
-        let nodes = live.nodes().iter().copied();
-        let nodes: Vec<_> = nodes.filter(|id| alone[id.0 as usize]).collect();
-        let mut count = Count::of_nodes(&request.graph, &nodes);
-        // A sign is no operation.
-        count.neg = 0;
-        (request.name, count)
-    };
-    requests.iter().map(of).collect()
-}
 
 /// What a model is, in lines: its tree, its coordinates, what acts in it.
 pub fn about(model: &Model, equations: &Equations) -> Vec<String> {

@@ -4,12 +4,12 @@
 //! commutes exactly, and signs move only where that changes nothing but the sign of a zero. The Rust text and the lists of
 //! [`crate::program`] are both written from here, so they have the same operations.
 
-use super::program::Program;
+use super::schedule::Schedule;
 use crate::expression::{Function, Node, NodeId, Symbol};
 
 /// How tightly a written formula holds together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Level {
+pub(crate) enum Level {
     Sum,
     Product,
     Sign,
@@ -19,7 +19,7 @@ pub(super) enum Level {
 
 /// An operation of two operands that is written between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Operator {
+pub(crate) enum Operator {
     Plus,
     Minus,
     Times,
@@ -28,7 +28,7 @@ pub(super) enum Operator {
 
 /// An operation that is written as a method of its first operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Method {
+pub(crate) enum Method {
     Sqrt,
     Atan2,
     Max,
@@ -37,7 +37,7 @@ pub(super) enum Method {
 }
 
 /// What formulas are written as.
-pub(super) trait Form {
+pub(crate) trait Form {
     /// A written formula.
     type Term;
     /// A number.
@@ -83,24 +83,24 @@ impl<X> Text<X> {
 }
 
 /// Writes the formulas of one program in one form.
-pub(super) struct Formulas<'a, F> {
-    pub program: &'a Program,
+pub(crate) struct Formulas<'a, F> {
+    pub schedule: &'a Schedule,
     pub form: &'a F,
 }
 
 impl<F: Form> Formulas<'_, F> {
     /// A value where it is used: its name, or its formula if it has none.
-    pub(super) fn value(&self, id: NodeId) -> F::Term {
+    pub(crate) fn value(&self, id: NodeId) -> F::Term {
         self.operand(id).of
     }
 
     /// The formula of a value, whether it has a name or not.
-    pub(super) fn formula(&self, id: NodeId) -> F::Term {
+    pub(crate) fn formula(&self, id: NodeId) -> F::Term {
         self.write(id).of
     }
 
     /// The receiver of a method call.
-    pub(super) fn receiver(&self, id: NodeId) -> F::Term {
+    pub(crate) fn receiver(&self, id: NodeId) -> F::Term {
         self.at(self.operand(id), Level::Word)
     }
 
@@ -127,14 +127,14 @@ impl<F: Form> Formulas<'_, F> {
     }
 
     fn operand(&self, id: NodeId) -> Text<F::Term> {
-        match self.program.is_bound(id) {
+        match self.schedule.is_bound(id) {
             true => Text::word(self.form.bound(id)),
             false => self.write(id),
         }
     }
 
     fn write(&self, id: NodeId) -> Text<F::Term> {
-        let node = self.program.graph.node(id);
+        let node = self.schedule.graph.node(id);
         match node {
             Node::Constant(bits) => self.number(f64::from_bits(bits)),
             Node::Symbol(symbol) => Text::word(self.form.input(id, symbol)),
@@ -152,7 +152,7 @@ impl<F: Form> Formulas<'_, F> {
             Node::Max(a, b) => self.symmetric_method(a, Method::Max, b),
             Node::Min(a, b) => self.symmetric_method(a, Method::Min, b),
             Node::Call(function, _) => {
-                let arguments = self.program.graph.arguments(id).into_iter();
+                let arguments = self.schedule.graph.arguments(id).into_iter();
                 let arguments = arguments.map(|id| self.value(id)).collect();
                 Text::word(self.form.call(function, arguments))
             }
@@ -166,7 +166,7 @@ impl<F: Form> Formulas<'_, F> {
     }
 
     fn constant(&self, id: NodeId) -> Option<f64> {
-        match self.program.graph.node(id) {
+        match self.schedule.graph.node(id) {
             Node::Constant(bits) => Some(f64::from_bits(bits)),
             _ => None,
         }
@@ -174,15 +174,15 @@ impl<F: Form> Formulas<'_, F> {
 
     /// The operand of a change of sign that is written here.
     fn negated(&self, id: NodeId) -> Option<NodeId> {
-        match self.program.graph.node(id) {
-            Node::Neg(a) if !self.program.is_bound(id) => Some(a),
+        match self.schedule.graph.node(id) {
+            Node::Neg(a) if !self.schedule.is_bound(id) => Some(a),
             _ => None,
         }
     }
 
     fn negative(&self, a: NodeId) -> Text<F::Term> {
-        if !self.program.is_bound(a) {
-            match self.program.graph.node(a) {
+        if !self.schedule.is_bound(a) {
+            match self.schedule.graph.node(a) {
                 Node::Sub(x, y) => return self.difference(y, x),
                 Node::Mul(x, y) => {
                     // The sign goes to the number, if there is one.

@@ -6,13 +6,13 @@
 //! the state of a hundred elements in wide registers does not.
 
 use super::like::{Item, Like, Origins, Place, Port, read_by_lines};
-use super::program::Program;
+use super::schedule::Schedule;
 use crate::expression::NodeId;
 use std::collections::BTreeSet;
 
 /// Values that a call finds where the one before left its own: a port through which the same text reads what
 /// nobody else does, but for what the last call of a run leaves.
-pub(super) struct Carried {
+pub(crate) struct Carried {
     pub port: usize,
     /// The values.
     pub numbers: Vec<usize>,
@@ -23,15 +23,15 @@ pub(super) struct Carried {
 }
 
 /// What calls of a text carry from one to the next, by the port that takes most.
-pub(super) fn carried(
+pub(crate) fn carried(
     likes: &[Like],
     like: usize,
-    program: &Program,
+    schedule: &Schedule,
     items: &[Item],
     origins: &Origins,
 ) -> Option<Carried> {
     let ports = 0..likes[like].ports.len();
-    let carried = ports.filter_map(|port| carried_by(likes, like, port, program, items, origins));
+    let carried = ports.filter_map(|port| carried_by(likes, like, port, schedule, items, origins));
     carried.max_by_key(|carried| carried.numbers.len())
 }
 
@@ -40,7 +40,7 @@ fn carried_by(
     likes: &[Like],
     like: usize,
     port: usize,
-    program: &Program,
+    schedule: &Schedule,
     items: &[Item],
     origins: &Origins,
 ) -> Option<Carried> {
@@ -85,7 +85,7 @@ fn carried_by(
     }
 
     // Nobody else reads what is overwritten.
-    let mut read = read_by_lines(program, items);
+    let mut read = read_by_lines(schedule, items);
     for item in items {
         let Item::Call { like: user, block } = *item else {
             continue;

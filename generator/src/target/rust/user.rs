@@ -8,8 +8,8 @@ use super::expression::ident;
 use super::header::plain;
 use super::items::INDICES;
 use super::library::{Calls, Library};
-use super::names::{Names, snake};
 use crate::model::{Dimension, ForceKind, Model, Port, User, UserSource};
+use crate::names::{Names, snake};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::{File, Path, parse_quote};
@@ -22,7 +22,7 @@ const TAKEN: [&str; 5] = ["bryant_runtime", "core", "curve", "force", "nalgebra"
 
 /// The modules of a model's user forces.
 #[derive(Default)]
-pub(super) struct Users {
+pub(crate) struct Users {
     modules: Vec<Module>,
     /// By force of the model: the path of its adapter; empty for forces of other kinds.
     paths: Vec<String>,
@@ -36,7 +36,7 @@ struct Module {
 
 impl Users {
     /// Names for the modules of a model.
-    pub(super) fn new(model: &Model) -> Self {
+    pub(crate) fn new(model: &Model) -> Self {
         let mut users = Users::default();
         let mut names = Names::with(&[&TAKEN[..], &INDICES].concat());
         for (index, force) in model.forces.iter().enumerate() {
@@ -68,14 +68,14 @@ impl Users {
     }
 
     /// The path of the adapter of a force.
-    pub(super) fn path(&self, force: u16) -> &str {
+    pub(crate) fn path(&self, force: u16) -> &str {
         self.paths
             .get(usize::from(force))
             .map_or(ADAPTER, String::as_str)
     }
 
     /// The modules as text; `curves` are the constants of the model's curves.
-    pub(super) fn text(&self, model: &Model, curves: &[String]) -> String {
+    pub(crate) fn text(&self, model: &Model, curves: &[String]) -> String {
         let mut text = String::new();
         for module in &self.modules {
             if let ForceKind::User(user) = &model.forces[module.force].kind {

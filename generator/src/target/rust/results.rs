@@ -1,8 +1,8 @@
 //! How a method hands back what it computed.
 
 use super::expression::{Printer, ident};
-use super::program::Program;
 use crate::expression::Node;
+use crate::program::schedule::Schedule;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::Expr;
@@ -12,7 +12,7 @@ const READABLE_ROWS: usize = 6;
 
 /// What a method returns.
 #[derive(Clone, Copy)]
-pub(super) enum Results<'a> {
+pub(crate) enum Results<'a> {
     /// `T`.
     Scalar,
     /// `[T; n]`, n being the constant of this name.
@@ -35,7 +35,7 @@ pub(super) enum Results<'a> {
 
 /// How results are put into a sink.
 #[derive(Clone, Copy)]
-pub(super) struct Each {
+pub(crate) struct Each {
     /// The method that does it.
     pub method: &'static str,
     /// How many they are, by the name of a constant, where a second method puts them into an array and returns that.
@@ -44,7 +44,7 @@ pub(super) struct Each {
 
 impl Results<'_> {
     /// The type.
-    pub(super) fn returned(&self) -> TokenStream {
+    pub(crate) fn returned(&self) -> TokenStream {
         match *self {
             Results::Scalar => quote!(T),
             Results::Each(..) => quote!(()),
@@ -67,18 +67,18 @@ impl Results<'_> {
     }
 
     /// Whether they are handed over by statements.
-    pub(super) fn one_by_one(&self) -> bool {
+    pub(crate) fn one_by_one(&self) -> bool {
         matches!(self, Results::Each(..))
     }
 
     /// The last expression of a method. In pieces, the last one has the parameters by reference.
-    pub(super) fn written(
+    pub(crate) fn written(
         &self,
-        program: &Program,
+        schedule: &Schedule,
         printer: &Printer<'_>,
         pieces: bool,
     ) -> TokenStream {
-        let values: Vec<Expr> = program
+        let values: Vec<Expr> = schedule
             .returned()
             .iter()
             .map(|&id| printer.value(id))
@@ -105,7 +105,7 @@ impl Results<'_> {
                 });
                 quote!(SMatrix::from([#(#rows),*]))
             }
-            Results::Matrix(rows) => sparse_matrix(program, rows, &values, printer),
+            Results::Matrix(rows) => sparse_matrix(schedule, rows, &values, printer),
             Results::Mechanism(fields) => {
                 let fields = fields.iter().zip(&values).map(|(field, value)| {
                     let field = ident(field);
@@ -129,16 +129,16 @@ impl Results<'_> {
 
 /// A large matrix entry by entry, without its zeros.
 fn sparse_matrix(
-    program: &Program,
+    schedule: &Schedule,
     rows: usize,
     values: &[Expr],
     printer: &Printer<'_>,
 ) -> TokenStream {
     let entries = (0..rows).flat_map(|row| (row..rows).map(move |column| (row, column)));
     let entries = entries
-        .zip(&program.roots)
+        .zip(&schedule.roots)
         .zip(values)
-        .filter(|&((_, &root), _)| program.graph.node(root) != Node::Constant(0.0_f64.to_bits()));
+        .filter(|&((_, &root), _)| schedule.graph.node(root) != Node::Constant(0.0_f64.to_bits()));
     let entries = entries.map(|(((row, column), _), value)| {
         let (row, column) = (
             Literal::usize_unsuffixed(row),

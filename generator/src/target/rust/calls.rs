@@ -4,9 +4,9 @@ use super::called::{Called, CommonWords, Places, Word};
 use super::expression::{Printer, ident, number};
 use super::function::{SinkOfTask, Writer, arrow, with_body};
 use super::header::plain;
-use super::inputs::{Argument, Input};
-use super::like::{Gathered, Item, Like, Place, Port, Sharing};
 use crate::expression::{Node, NodeId};
+use crate::method::inputs::{Argument, Input};
+use crate::program::like::{Gathered, Item, Like, Place, Port, Sharing};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
@@ -53,7 +53,7 @@ impl Given {
 
 impl Writer<'_> {
     /// What calls return and their tasks; the functions that are called, and the method that calls them.
-    pub(super) fn in_calls(&mut self, sharing: &Sharing) -> (Vec<TokenStream>, Vec<ImplItemFn>) {
+    pub(crate) fn in_calls(&mut self, sharing: &Sharing) -> (Vec<TokenStream>, Vec<ImplItemFn>) {
         let likes = &sharing.likes;
         let called: Vec<Called> = likes
             .iter()
@@ -67,7 +67,7 @@ impl Writer<'_> {
         let places = self.name_places(likes, &called);
         let (mut structs, mut methods) = (Vec::new(), Vec::new());
         let mut given = Vec::new();
-        let printer = Printer::new(&self.program, self.inputs, self.library, false);
+        let printer = Printer::new(&self.schedule, self.inputs, self.library, false);
         for (i, body) in bodies.into_iter().enumerate() {
             let (like, function) = (&likes[i], &called[i]);
             let arguments = self.given(sharing, i, &called, &places, &printer);
@@ -83,7 +83,7 @@ impl Writer<'_> {
 
     /// What the function computes, in the words of the first block.
     fn common_body(&self, like: &Like, function: &Called, called: &[Called]) -> Block {
-        let plain = Printer::new(&self.program, self.inputs, self.library, false);
+        let plain = Printer::new(&self.schedule, self.inputs, self.library, false);
         let first = like.first();
         let place = |place: &Place| match *place {
             Place::Common(_) => Word::Input,
@@ -109,13 +109,13 @@ impl Writer<'_> {
             next: Cell::new(0),
             puts: (&first.puts, &function.puts),
         };
-        let printer = Printer::in_words(&self.program, self.inputs, self.library, &words);
+        let printer = Printer::in_words(&self.schedule, self.inputs, self.library, &words);
         let names: FxHashMap<NodeId, &String> =
             first.values.iter().copied().zip(&function.values).collect();
-        let sections = self.program.graph.sections();
+        let sections = self.schedule.graph.sections();
         let mut current = None;
         let mut lines = Vec::new();
-        for line in &self.program.lines[first.lines.clone()] {
+        for line in &self.schedule.lines[first.lines.clone()] {
             let comment = line.begins(&mut current).map(|section| {
                 let section = sections[section].as_str();
                 section.split_once(": ").map_or(section, |(_, what)| what)
@@ -268,7 +268,7 @@ impl Writer<'_> {
     }
 
     fn is_time(&self, id: NodeId) -> bool {
-        match self.program.graph.node(id) {
+        match self.schedule.graph.node(id) {
             Node::Symbol(symbol) => self.inputs.input(symbol) == Input::Time,
             _ => false,
         }
@@ -385,12 +385,12 @@ impl Writer<'_> {
                     }
                     Port::Returned { gathered, .. } => {
                         let gathered = gathered.iter().flatten().flatten();
-                        gathered.for_each(|&(_, id)| self.program.reads(id, &mut reads));
+                        gathered.for_each(|&(_, id)| self.schedule.reads(id, &mut reads));
                     }
                 }
             }
             for &id in like.copied.iter().flatten() {
-                self.program.reads(id, &mut reads);
+                self.schedule.reads(id, &mut reads);
             }
             let common = like.slots.iter().filter_map(|place| match *place {
                 Place::Common(id) => Some(id),
@@ -398,20 +398,20 @@ impl Writer<'_> {
             });
             arguments.extend(self.arguments_of(&common.collect()));
         }
-        let sections = self.program.graph.sections();
-        let read = sharing.read(&self.program);
+        let sections = self.schedule.graph.sections();
+        let read = sharing.read(&self.schedule);
         let mut current = None;
         let mut lines = Vec::new();
         for item in &sharing.items {
             match *item {
                 Item::Line(line) => {
-                    let line = &self.program.lines[line];
-                    for id in self.program.needs(line.statement) {
-                        self.program.reads(id, &mut reads);
+                    let line = &self.schedule.lines[line];
+                    for id in self.schedule.needs(line.statement) {
+                        self.schedule.reads(id, &mut reads);
                     }
                     let comment = line.begins(&mut current);
                     let comment = comment.map(|section| sections[section].as_str());
-                    let name = |id| self.program.name(id).map(str::to_owned);
+                    let name = |id| self.schedule.name(id).map(str::to_owned);
                     lines.push(self.line(line.statement, comment, printer, name));
                 }
                 Item::Call { like, block } => {
@@ -437,10 +437,10 @@ impl Writer<'_> {
                 }
             }
         }
-        for &root in self.program.returned() {
-            self.program.reads(root, &mut reads);
+        for &root in self.schedule.returned() {
+            self.schedule.reads(root, &mut reads);
         }
-        let results = self.request.results.written(&self.program, printer, true);
+        let results = self.request.results.written(&self.schedule, printer, true);
         arguments.extend(self.arguments_of(&reads));
         let arrays = Argument::ARRAYS
             .iter()

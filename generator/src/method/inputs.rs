@@ -4,16 +4,16 @@
 //! three that emission adds (accelerations, guards, constants derived from parameters) are numbered after the model's
 //! parameters.
 
-use super::names::snake;
 use crate::equations::{Equations, LawState, Variable};
 use crate::expression::Symbol;
 use crate::model::Model;
+use crate::names::snake;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 /// An input as emission sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Input {
+pub(crate) enum Input {
     /// t
     Time,
     /// `q[i]`
@@ -36,7 +36,7 @@ pub(super) enum Input {
 
 impl Input {
     /// The array and the index in it; `None` for what is no element of an array argument.
-    pub(super) fn element(self) -> Option<(Argument, usize)> {
+    pub(crate) fn element(self) -> Option<(Argument, usize)> {
         match self {
             Input::Coordinate(i) => Some((Argument::Coordinates, i)),
             Input::Velocity(i) => Some((Argument::Velocities, i)),
@@ -49,7 +49,7 @@ impl Input {
     }
 
     /// The argument that it comes with; `None` for what the mechanism knows.
-    pub(super) fn argument(self) -> Option<Argument> {
+    pub(crate) fn argument(self) -> Option<Argument> {
         match self {
             Input::Time => Some(Argument::Time),
             _ => self.element().map(|(argument, _)| argument),
@@ -59,7 +59,7 @@ impl Input {
 
 /// An argument of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Argument {
+pub(crate) enum Argument {
     /// t
     Time,
     /// q
@@ -79,7 +79,7 @@ pub(super) enum Argument {
 impl Argument {
     /// Those that are arrays, in the order in which they are taken apart: z and m first, because a coordinate may be
     /// called so too.
-    pub(super) const ARRAYS: [Argument; 6] = [
+    pub(crate) const ARRAYS: [Argument; 6] = [
         Argument::Auxiliaries,
         Argument::Memory,
         Argument::Coordinates,
@@ -89,7 +89,7 @@ impl Argument {
     ];
 
     /// The name that it has everywhere.
-    pub(super) fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Argument::Time => "t",
             Argument::Coordinates => "q",
@@ -102,7 +102,7 @@ impl Argument {
     }
 
     /// Name and type; the name begins with an underscore where nothing reads it.
-    pub(super) fn declaration(self, read: bool) -> TokenStream {
+    pub(crate) fn declaration(self, read: bool) -> TokenStream {
         let name = format_ident!("{}{}", if read { "" } else { "_" }, self.name());
         match self.array() {
             None => quote!(#name: T),
@@ -111,7 +111,7 @@ impl Argument {
     }
 
     /// Type of a field of a struct that borrows for `'a`.
-    pub(super) fn borrowed(self) -> TokenStream {
+    pub(crate) fn borrowed(self) -> TokenStream {
         match self.array() {
             None => quote!(T),
             Some(array) => quote!(&'a #array),
@@ -131,7 +131,7 @@ impl Argument {
 }
 
 /// Names of all inputs.
-pub(super) struct Inputs {
+pub(crate) struct Inputs {
     /// Names of q.
     pub coordinates: Vec<String>,
     /// Names of v.
@@ -154,7 +154,7 @@ pub(super) struct Inputs {
 
 impl Inputs {
     /// Names for the inputs of a model's functions; derived constants are added by whoever finds them.
-    pub(super) fn new(model: &Model, equations: &Equations) -> Self {
+    pub(crate) fn new(model: &Model, equations: &Equations) -> Self {
         let only = model.systems.len() == 1;
         let word = |variable: &Variable| {
             let system = &model.systems[variable.system].name;
@@ -195,7 +195,7 @@ impl Inputs {
     }
 
     /// The symbol that stands for an input.
-    pub(super) fn symbol(&self, input: Input) -> Symbol {
+    pub(crate) fn symbol(&self, input: Input) -> Symbol {
         let parameter = |index: usize| Symbol::Parameter(index as u32);
         match input {
             Input::Time => Symbol::Time,
@@ -213,7 +213,7 @@ impl Inputs {
     }
 
     /// The input that a symbol stands for.
-    pub(super) fn input(&self, symbol: Symbol) -> Input {
+    pub(crate) fn input(&self, symbol: Symbol) -> Input {
         let parameters = self.parameters.len();
         let accelerations = parameters + self.accelerations.len();
         let guards = accelerations + self.guards.len();
@@ -233,7 +233,7 @@ impl Inputs {
     }
 
     /// Number of elements of an array argument; 0 for time.
-    pub(super) fn length(&self, argument: Argument) -> usize {
+    pub(crate) fn length(&self, argument: Argument) -> usize {
         match argument {
             Argument::Time => 0,
             Argument::Coordinates => self.coordinates.len(),
@@ -245,7 +245,7 @@ impl Inputs {
     }
 
     /// The inputs that change from call to call, with the names they would like to have.
-    pub(super) fn variables(&self) -> impl Iterator<Item = (Input, String)> {
+    pub(crate) fn variables(&self) -> impl Iterator<Item = (Input, String)> {
         let all = |names: &[String], input: fn(usize) -> Input| {
             let names = names.to_vec();
             names

@@ -1,20 +1,21 @@
 //! Everything of a module that is not a formula: imports, sizes, parameters, the mechanism, what the runtime is told.
 
+use super::GENERATED_CODE_VERSION;
 use super::expression::{ident, number};
 use super::header::plain;
-use super::inputs::Inputs;
 use super::library::{self, Calls, Library, allow};
-use super::names::{Names, screaming};
-use super::{GENERATED_CODE_VERSION, Options, breakpoints};
 use crate::equations::Equations;
+use crate::method::inputs::Inputs;
 use crate::model::{Interpolate, Model, Parameter, Rule};
+use crate::names::{Names, screaming};
 use crate::program::{Adjustable, Column, Facts, Watched};
+use crate::program::{Options, breakpoints};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::ops::Range;
 
 /// Imports, and the handshake with the runtime.
-pub(super) fn uses(
+pub(crate) fn uses(
     model: &Model,
     equations: &Equations,
     calls: &Calls,
@@ -64,7 +65,7 @@ pub(super) fn uses(
 }
 
 /// Constants for the lengths of q, v and the outputs.
-pub(super) fn sizes(equations: &Equations) -> TokenStream {
+pub(crate) fn sizes(equations: &Equations) -> TokenStream {
     let size = |text: &str, name: &str, size: usize| {
         let (text, name, size) = (
             format!(" {text}"),
@@ -100,7 +101,7 @@ pub(super) fn sizes(equations: &Equations) -> TokenStream {
 }
 
 /// Names of modules of constants.
-pub(super) const INDICES: [&str; 6] = [
+pub(crate) const INDICES: [&str; 6] = [
     "auxiliaries",
     "coordinates",
     "memory",
@@ -110,7 +111,7 @@ pub(super) const INDICES: [&str; 6] = [
 ];
 
 /// Modules of constants: the place of each coordinate, velocity, output and so on by its name. Only what a model has, has a module.
-pub(super) fn indices(model: &Model, equations: &Equations, inputs: &Inputs) -> TokenStream {
+pub(crate) fn indices(model: &Model, equations: &Equations, inputs: &Inputs) -> TokenStream {
     let facts = Facts::of(model, equations);
     let units = |start: usize, names: &[String]| -> Vec<(String, String)> {
         let units = facts.units[start..].iter();
@@ -198,7 +199,7 @@ pub(super) fn indices(model: &Model, equations: &Equations, inputs: &Inputs) -> 
 }
 
 /// The struct of what the model leaves adjustable.
-pub(super) fn parameters(model: &Model, inputs: &Inputs) -> TokenStream {
+pub(crate) fn parameters(model: &Model, inputs: &Inputs) -> TokenStream {
     let names: Vec<_> = inputs.parameters.iter().map(|name| ident(name)).collect();
     let indices: Vec<_> = (0..names.len()).map(Literal::usize_unsuffixed).collect();
     let texts = model
@@ -289,7 +290,7 @@ fn describe(parameter: &Parameter) -> String {
 }
 
 /// The struct that has the methods.
-pub(super) fn mechanism(inputs: &Inputs) -> TokenStream {
+pub(crate) fn mechanism(inputs: &Inputs) -> TokenStream {
     let names = inputs.derived.iter().map(|name| ident(name));
     let texts = inputs
         .derived_in
@@ -309,7 +310,7 @@ pub(super) fn mechanism(inputs: &Inputs) -> TokenStream {
 }
 
 /// The model as the runtime wants it.
-pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenStream {
+pub(crate) fn implementation(equations: &Equations, library: &Library) -> TokenStream {
     let (normalize, unit) = (normalize(equations), unit(equations));
     let kink_after = breakpoints::method(equations, library);
     let (auxiliaries, memory) = (equations.auxiliaries.len(), equations.memory.len());
@@ -333,7 +334,7 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
     let rate_z = has_z.then(|| {
         quote!(self.each_auxiliary_rate(#arguments, &mut Behind::<_, { COORDINATES + VELOCITIES }>(sink));)
     });
-    let motion = ident(super::plan::EACH_MOTION);
+    let motion = ident(crate::program::plan::EACH_MOTION);
     // memory does not change during a step
     let rate_m = has_m.then(|| {
         quote! {
@@ -342,8 +343,8 @@ pub(super) fn implementation(equations: &Equations, library: &Library) -> TokenS
             }
         }
     });
-    let by_guards =
-        super::plan::renews_by_guards(equations).then(|| quote!(, &self.guards_at(#arguments)));
+    let by_guards = crate::program::plan::renews_by_guards(equations)
+        .then(|| quote!(, &self.guards_at(#arguments)));
     let renew = has_m.then(|| match equations.charts {
         0 => quote! {
             #[inline(always)]
@@ -671,7 +672,7 @@ fn normalize(equations: &Equations) -> TokenStream {
 }
 
 /// Quaternions by runs of neighbours, which are scaled in one loop.
-pub(super) fn neighbours(quaternions: &[Range<usize>]) -> Vec<Range<usize>> {
+pub(crate) fn neighbours(quaternions: &[Range<usize>]) -> Vec<Range<usize>> {
     let mut ranges: Vec<Range<usize>> = Vec::new();
     for quaternion in quaternions {
         match ranges.last_mut() {
@@ -708,7 +709,7 @@ fn unit(equations: &Equations) -> Option<TokenStream> {
 }
 
 /// Names, units and sizes.
-pub(super) fn info(model: &Model, equations: &Equations) -> TokenStream {
+pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let facts = Facts::of(model, equations);
     let Facts {
         name,

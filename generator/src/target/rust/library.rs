@@ -1,23 +1,23 @@
 //! What the emitted text calls outside itself: curves, as constants of the module, and the force laws of the runtime.
 
 use super::expression::{Callee, ident, number};
-use super::names::{Names, screaming};
 use super::user::Users;
 use crate::expression::{Function, Graph, Node, NodeId, live::Live};
 use crate::model::{Extrapolate, ForceKind, Interpolate, Model};
+use crate::names::{Names, screaming};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
 
 /// The curves of a model by the names of their constants.
-pub(super) struct Library {
+pub(crate) struct Library {
     names: Vec<String>,
     users: Users,
 }
 
 impl Library {
     /// Names for the curves of a model.
-    pub(super) fn new(model: &Model) -> Self {
+    pub(crate) fn new(model: &Model) -> Self {
         let taken = [
             "COORDINATES",
             "VELOCITIES",
@@ -44,22 +44,22 @@ impl Library {
     }
 
     /// The modules of the user's functions.
-    pub(super) fn users(&self, model: &Model) -> String {
+    pub(crate) fn users(&self, model: &Model) -> String {
         self.users.text(model, &self.names)
     }
 
     /// Where they stand.
-    pub(super) fn user_modules(&self) -> &Users {
+    pub(crate) fn user_modules(&self) -> &Users {
         &self.users
     }
 
     /// The constant of a curve.
-    pub(super) fn name(&self, curve: usize) -> &str {
+    pub(crate) fn name(&self, curve: usize) -> &str {
         &self.names[curve]
     }
 
     /// What a call of the graph calls.
-    pub(super) fn callee(&self, function: Function) -> Callee<'_> {
+    pub(crate) fn callee(&self, function: Function) -> Callee<'_> {
         let method = |curve: u32, name| Callee::Method {
             of: &self.names[curve as usize],
             name,
@@ -86,7 +86,7 @@ impl Library {
     }
 
     /// The constant of one curve.
-    pub(super) fn constant(&self, model: &Model, curve: usize) -> TokenStream {
+    pub(crate) fn constant(&self, model: &Model, curve: usize) -> TokenStream {
         let (name, curve) = (ident(&self.names[curve]), &model.curves[curve]);
         let length = Literal::usize_unsuffixed(curve.points.len());
         let cubic = curve.interpolate == Interpolate::Cubic;
@@ -112,7 +112,7 @@ impl Library {
 }
 
 /// What a curve does beyond its points.
-pub(super) fn extrapolate(extrapolate: Extrapolate) -> TokenStream {
+pub(crate) fn extrapolate(extrapolate: Extrapolate) -> TokenStream {
     match extrapolate {
         Extrapolate::Linear => quote!(Extrapolate::Linear),
         Extrapolate::Hold => quote!(Extrapolate::Hold),
@@ -121,7 +121,7 @@ pub(super) fn extrapolate(extrapolate: Extrapolate) -> TokenStream {
 }
 
 /// Asks clippy not to suggest `PI` for a number that only comes close to it; nothing where none does.
-pub(super) fn allow<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Option<TokenStream> {
+pub(crate) fn allow<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Option<TokenStream> {
     use std::f64::consts::*;
     let names = [
         PI,
@@ -151,7 +151,7 @@ pub(super) fn allow<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Option<To
 }
 
 /// The curve that a function evaluates, if it is one of the curve.
-pub(super) fn curve_of(function: Function) -> Option<usize> {
+pub(crate) fn curve_of(function: Function) -> Option<usize> {
     match function {
         Function::Curve(i)
         | Function::CurveSlope(i)
@@ -175,7 +175,7 @@ pub(super) fn curve_of(function: Function) -> Option<usize> {
 
 /// What some results call.
 #[derive(Default)]
-pub(super) struct Calls {
+pub(crate) struct Calls {
     /// Curves.
     pub curves: BTreeSet<usize>,
     /// True where a force law is called.
@@ -184,7 +184,7 @@ pub(super) struct Calls {
 
 impl Calls {
     /// Imports that the constants of curves need.
-    pub(super) fn uses_of_curves(&self, model: &Model) -> Option<TokenStream> {
+    pub(crate) fn uses_of_curves(&self, model: &Model) -> Option<TokenStream> {
         let uses = |kind| {
             let mut curves = self.curves.iter();
             curves.any(|&curve| model.curves[curve].interpolate == kind)
@@ -199,7 +199,7 @@ impl Calls {
     }
 
     /// Adds the curves that functions of the user's look up.
-    pub(super) fn add_user(&mut self, model: &Model) {
+    pub(crate) fn add_user(&mut self, model: &Model) {
         for force in &model.forces {
             if let ForceKind::User(user) = &force.kind
                 && !user.function.name.is_empty()
@@ -215,7 +215,7 @@ impl Calls {
     }
 
     /// Adds what these roots need.
-    pub(super) fn add(&mut self, graph: &Graph, roots: &[NodeId]) {
+    pub(crate) fn add(&mut self, graph: &Graph, roots: &[NodeId]) {
         for &id in Live::new(graph, roots).nodes() {
             if let Node::Call(function, _) = graph.node(id) {
                 let Some(curve) = curve_of(function) else {

@@ -3,9 +3,9 @@
 //! A value that is used once, by its own section, and has no name is written where it is used, as long as the expression
 //! fits on a line and does not nest too deep.
 
-use super::inputs::{Input, Inputs};
-use super::program::index;
+use super::schedule::index;
 use crate::expression::{Graph, Node, NodeId};
+use crate::method::inputs::{Input, Inputs};
 use rustc_hash::FxHashMap;
 
 /// Characters that an expression may take: what is left of a line after `let` and a name.
@@ -24,7 +24,7 @@ struct Look {
 }
 
 /// True for what is written where it is used, by node. `labels` are the names of results; `alike` has names and numbers of no influence.
-pub(super) fn inline(
+pub(crate) fn inline(
     graph: &Graph,
     labels: &FxHashMap<NodeId, String>,
     uses: &[u32],

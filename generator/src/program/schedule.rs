@@ -1,16 +1,16 @@
 //! One function before it is text: which values get a `let`, in which order, under which name.
 
 use super::inline::inline;
-use super::inputs::{Argument, Inputs};
-use super::names::{Names, snake};
 use super::order::Order;
 use crate::expression::{Graph, Node, NodeId, Symbol};
+use crate::method::inputs::{Argument, Inputs};
+use crate::names::{Names, snake};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// A function's values, scheduled.
-pub(super) struct Program {
+pub(crate) struct Schedule {
     /// What it computes with.
     pub graph: Graph,
     /// What it computes.
@@ -28,7 +28,7 @@ pub(super) struct Program {
 }
 
 /// One statement, and the section and the block it belongs to.
-pub(super) struct Line {
+pub(crate) struct Line {
     pub section: usize,
     /// Number of the block; 0 in order of sections.
     pub block: usize,
@@ -37,7 +37,7 @@ pub(super) struct Line {
 
 impl Line {
     /// The section that begins with it, where `current` is that of the line before; what is put into a sink begins none.
-    pub(super) fn begins(&self, current: &mut Option<usize>) -> Option<usize> {
+    pub(crate) fn begins(&self, current: &mut Option<usize>) -> Option<usize> {
         let binds = !matches!(self.statement, Statement::Put(_));
         let new = binds && current.replace(self.section) != Some(self.section);
         new.then_some(self.section)
@@ -46,7 +46,7 @@ impl Line {
 
 /// What a statement binds.
 #[derive(Clone, Copy)]
-pub(super) enum Statement {
+pub(crate) enum Statement {
     /// One value.
     Value(NodeId),
     /// Sine and cosine of one argument; either may be of no use.
@@ -61,9 +61,9 @@ pub(super) enum Statement {
     Put(usize),
 }
 
-impl Program {
+impl Schedule {
     /// Schedules what the roots need, and names it. `labels` are the names that the roots get if they have none, in the same order.
-    pub(super) fn new(
+    pub(crate) fn new(
         graph: Graph,
         roots: Vec<NodeId>,
         labels: &[String],
@@ -73,13 +73,13 @@ impl Program {
         puts: bool,
     ) -> Self {
         let labels = labels_of(&graph, &roots, labels);
-        let mut program = Self::schedule(graph, roots, &labels, inputs, order, puts);
-        program.name_all(&labels, inputs, arguments);
-        program
+        let mut schedule = Self::schedule(graph, roots, &labels, inputs, order, puts);
+        schedule.name_all(&labels, inputs, arguments);
+        schedule
     }
 
     /// The same without names, for what is not text. The labels say how wide a line is, and so which values are bound.
-    pub(super) fn without_names(
+    pub(crate) fn without_names(
         graph: Graph,
         roots: Vec<NodeId>,
         labels: &[String],
@@ -107,7 +107,7 @@ impl Program {
         for (call, results) in calls.iter().enumerate() {
             call_of.extend(results.iter().flatten().map(|&id| (id, call)));
         }
-        let mut program = Program {
+        let mut schedule = Schedule {
             names: vec![None; graph.len()],
             binds: vec![false; graph.len()],
             graph,
@@ -119,10 +119,10 @@ impl Program {
         let ordered = (blocks.iter().enumerate())
             .flat_map(|(block, ids)| ids.iter().map(move |&id| (block, id)));
         for (block, id) in ordered {
-            if inline[index(id)] || program.binds[index(id)] {
+            if inline[index(id)] || schedule.binds[index(id)] {
                 continue;
             }
-            let statement = match program.graph.node(id) {
+            let statement = match schedule.graph.node(id) {
                 Node::Sin(argument) | Node::Cos(argument) => {
                     let (sin, cos) = partners[index(argument)];
                     Statement::SinCos { argument, sin, cos }
@@ -133,19 +133,19 @@ impl Program {
                 },
                 _ => Statement::Value(id),
             };
-            for bound in program.bound(statement) {
-                program.binds[index(bound)] = true;
+            for bound in schedule.bound(statement) {
+                schedule.binds[index(bound)] = true;
             }
-            program.lines.push(Line {
-                section: program.graph.section_of(id),
+            schedule.lines.push(Line {
+                section: schedule.graph.section_of(id),
                 block,
                 statement,
             });
         }
         if puts {
-            program.put_results(order);
+            schedule.put_results(order);
         }
-        program
+        schedule
     }
 
     /// Names what the lines bind, and the inputs.
@@ -223,7 +223,7 @@ impl Program {
     }
 
     /// The roots that are returned.
-    pub(super) fn returned(&self) -> &[NodeId] {
+    pub(crate) fn returned(&self) -> &[NodeId] {
         match self.puts {
             true => &[],
             false => &self.roots,
@@ -231,13 +231,13 @@ impl Program {
     }
 
     /// How many of these lines bind something.
-    pub(super) fn binding(&self, lines: Range<usize>) -> usize {
+    pub(crate) fn binding(&self, lines: Range<usize>) -> usize {
         let binds = |line: &&Line| !matches!(line.statement, Statement::Put(_));
         self.lines[lines].iter().filter(binds).count()
     }
 
     /// The values that a statement binds.
-    pub(super) fn bound(&self, statement: Statement) -> Vec<NodeId> {
+    pub(crate) fn bound(&self, statement: Statement) -> Vec<NodeId> {
         match statement {
             Statement::Value(id) => vec![id],
             Statement::SinCos { sin, cos, .. } => sin.into_iter().chain(cos).collect(),
@@ -247,7 +247,7 @@ impl Program {
     }
 
     /// The places of what a statement binds, empty where a result is of no use.
-    pub(super) fn bindings(&self, statement: Statement) -> Vec<Option<NodeId>> {
+    pub(crate) fn bindings(&self, statement: Statement) -> Vec<Option<NodeId>> {
         match statement {
             Statement::Value(id) => vec![Some(id)],
             Statement::SinCos { sin, cos, .. } => vec![sin, cos],
@@ -257,19 +257,19 @@ impl Program {
     }
 
     /// Calls values by other names.
-    pub(super) fn rename(&mut self, names: impl IntoIterator<Item = (NodeId, String)>) {
+    pub(crate) fn rename(&mut self, names: impl IntoIterator<Item = (NodeId, String)>) {
         for (id, name) in names {
             self.names[index(id)] = Some(name);
         }
     }
 
     /// All names that are taken.
-    pub(super) fn all_names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn all_names(&self) -> impl Iterator<Item = &str> {
         self.names.iter().flatten().map(String::as_str)
     }
 
     /// Where the values that a statement needs are found: the roots of its expression.
-    pub(super) fn needs(&self, statement: Statement) -> Vec<NodeId> {
+    pub(crate) fn needs(&self, statement: Statement) -> Vec<NodeId> {
         match statement {
             Statement::Value(id) => self.graph.node(id).operands().collect(),
             Statement::SinCos { argument, .. } => vec![argument],
@@ -282,22 +282,22 @@ impl Program {
     }
 
     /// The results of a call with several: those that are used.
-    pub(super) fn results(&self, call: usize) -> &[Option<NodeId>] {
+    pub(crate) fn results(&self, call: usize) -> &[Option<NodeId>] {
         &self.calls[call]
     }
 
     /// Identifier of a bound value or an input; `None` for what is written where it is used.
-    pub(super) fn name(&self, id: NodeId) -> Option<&str> {
+    pub(crate) fn name(&self, id: NodeId) -> Option<&str> {
         self.names[index(id)].as_deref()
     }
 
     /// Whether it stands for itself where it is used: a bound value, or an input that has a name.
-    pub(super) fn is_bound(&self, id: NodeId) -> bool {
+    pub(crate) fn is_bound(&self, id: NodeId) -> bool {
         self.binds[index(id)] || self.names[index(id)].is_some()
     }
 
     /// Bound values and inputs that an expression reads.
-    pub(super) fn reads(&self, expression: NodeId, found: &mut BTreeSet<NodeId>) {
+    pub(crate) fn reads(&self, expression: NodeId, found: &mut BTreeSet<NodeId>) {
         if self.is_bound(expression) || matches!(self.graph.node(expression), Node::Symbol(_)) {
             found.insert(expression);
         } else {
@@ -346,12 +346,12 @@ impl Program {
 }
 
 /// Where a node is found in lists by node.
-pub(super) fn index(id: NodeId) -> usize {
+pub(crate) fn index(id: NodeId) -> usize {
     id.0 as usize
 }
 
 /// How often each value is used; 0 for what the roots do not need.
-pub(super) fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
+pub(crate) fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
     let mut uses = vec![0; graph.len()];
     for &root in roots {
         uses[index(root)] += 1;

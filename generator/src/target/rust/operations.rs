@@ -1,12 +1,12 @@
 //! What the methods of a module cost, as the tables at its top.
 
 use super::header::{line, plain};
-use super::request::Function;
+use super::method::Function;
 use crate::equations::{Equations, Route};
 use crate::expression::count::Count;
 
 /// Adds the operations of each method to the header, by kind and by section.
-pub(super) fn tables(text: &mut String, equations: &Equations, functions: &[Function]) {
+pub(crate) fn tables(text: &mut String, equations: &Equations, functions: &[Function]) {
     let route = match equations.route {
         Route::Elimination => "elimination from the leaves to the root",
         Route::MassMatrix => "the factorised mass matrix",

@@ -4,7 +4,7 @@
 //! which they were made. In what integrators evaluate a section stands right before the first one that needs it: there are
 //! more values than registers, and those that wait for their use are written to memory and fetched again.
 
-use super::program::{index, uses};
+use super::schedule::{index, uses};
 use crate::expression::{Graph, NodeId};
 use rustc_hash::FxHashMap;
 use std::cmp::Reverse;
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 /// Which of the statements that can be next is next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Order {
+pub(crate) enum Order {
     /// As many as can be computed of a section follow one another, in the order in which they were made.
     Section,
     /// The same, but each section right before the first one that needs it.
@@ -23,7 +23,7 @@ pub(super) enum Order {
 
 impl Order {
     /// All values in use that are operations, operands first, block by block.
-    pub(super) fn blocks(self, graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
+    pub(crate) fn blocks(self, graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
         match self {
             Order::Section => vec![by_section(graph, uses)],
             Order::Need => vec![by_need(graph, uses)],
@@ -33,7 +33,7 @@ impl Order {
 }
 
 /// The operations that roots need, in the order of [`Order::Owner`], block by block.
-pub(super) fn blocks_by_owner(graph: &Graph, roots: &[NodeId]) -> Vec<Vec<NodeId>> {
+pub(crate) fn blocks_by_owner(graph: &Graph, roots: &[NodeId]) -> Vec<Vec<NodeId>> {
     by_owner(graph, &uses(graph, roots))
 }
 

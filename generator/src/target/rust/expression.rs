@@ -1,18 +1,18 @@
-//! Formulas as Rust. Which operations they are made of, and where brackets stand, is said by [`super::formula`].
+//! Formulas as Rust. Which operations they are made of, and where brackets stand, is said by [`crate::program::formula`].
 
-use super::formula::{Form, Formulas, Method, Operator};
-use super::inputs::{Input, Inputs};
 use super::library::Library;
-use super::program::{Program, Statement};
 use super::syntax;
 use crate::expression::{Function, NodeId, Symbol};
+use crate::method::inputs::{Input, Inputs};
+use crate::program::formula::{Form, Formulas, Method, Operator};
+use crate::program::schedule::{Schedule, Statement};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use std::cell::Cell;
 use syn::{BinOp, Expr};
 
 /// What named values, inputs and numbers are called where that is not by their own names.
-pub(super) trait Words {
+pub(crate) trait Words {
     fn value(&self, id: NodeId) -> Expr;
     fn number(&self, value: f64) -> Expr;
     /// The place among the results that something is put into a sink at.
@@ -20,8 +20,8 @@ pub(super) trait Words {
 }
 
 /// Prints the expressions of one program.
-pub(super) struct Printer<'a> {
-    program: &'a Program,
+pub(crate) struct Printer<'a> {
+    schedule: &'a Schedule,
     inputs: &'a Inputs,
     library: &'a Library,
     /// They are a field of the mechanism otherwise.
@@ -31,15 +31,15 @@ pub(super) struct Printer<'a> {
 }
 
 impl<'a> Printer<'a> {
-    pub(super) fn new(
-        program: &'a Program,
+    pub(crate) fn new(
+        schedule: &'a Schedule,
         inputs: &'a Inputs,
         library: &'a Library,
         parameters_are_argument: bool,
     ) -> Self {
         let numbers = Cell::new(false);
         Self {
-            program,
+            schedule,
             inputs,
             library,
             parameters_are_argument,
@@ -49,25 +49,25 @@ impl<'a> Printer<'a> {
     }
 
     /// The same in other words.
-    pub(super) fn in_words(
-        program: &'a Program,
+    pub(crate) fn in_words(
+        schedule: &'a Schedule,
         inputs: &'a Inputs,
         library: &'a Library,
         words: &'a dyn Words,
     ) -> Self {
         Self {
             words: Some(words),
-            ..Self::new(program, inputs, library, false)
+            ..Self::new(schedule, inputs, library, false)
         }
     }
 
     /// True where a number was printed, and so `num` is needed.
-    pub(super) fn prints_numbers(&self) -> bool {
+    pub(crate) fn prints_numbers(&self) -> bool {
         self.numbers.get()
     }
 
     /// A number as a scalar.
-    pub(super) fn number(&self, value: f64) -> Expr {
+    pub(crate) fn number(&self, value: f64) -> Expr {
         self.numbers.set(true);
         match self.words {
             Some(words) => words.number(value),
@@ -77,25 +77,25 @@ impl<'a> Printer<'a> {
 
     fn formulas(&self) -> Formulas<'_, Self> {
         Formulas {
-            program: self.program,
+            schedule: self.schedule,
             form: self,
         }
     }
 
     /// A value where it is used: its name, or its formula if it has none.
-    pub(super) fn value(&self, id: NodeId) -> Expr {
+    pub(crate) fn value(&self, id: NodeId) -> Expr {
         self.formulas().value(id)
     }
 
     /// What a statement computes: one value, a pair or a list.
-    pub(super) fn statement(&self, statement: Statement) -> Expr {
+    pub(crate) fn statement(&self, statement: Statement) -> Expr {
         match statement {
             Statement::Value(id) => self.formulas().formula(id),
             Statement::SinCos { argument, .. } => {
                 syntax::method(self.formulas().receiver(argument), "sin_cos", [])
             }
             Statement::Results(call) => {
-                let any = self.program.results(call).iter().flatten().next();
+                let any = self.schedule.results(call).iter().flatten().next();
                 any.map_or_else(
                     || syntax::word("results"),
                     |&id| self.formulas().formula(id),
@@ -106,14 +106,14 @@ impl<'a> Printer<'a> {
                     Some(words) => words.place(place),
                     None => syntax::literal(Literal::usize_unsuffixed(place)),
                 };
-                let value = self.value(self.program.roots[place]);
+                let value = self.value(self.schedule.roots[place]);
                 syntax::method(syntax::word("sink"), "put", [index, value])
             }
         }
     }
 
     /// An input by its own name.
-    pub(super) fn symbol(&self, input: Input) -> Expr {
+    pub(crate) fn symbol(&self, input: Input) -> Expr {
         match input {
             Input::Parameter(i) => {
                 let parameters = match self.parameters_are_argument {
@@ -143,7 +143,7 @@ impl Form for Printer<'_> {
     }
 
     fn bound(&self, id: NodeId) -> Expr {
-        match (self.words, self.program.name(id)) {
+        match (self.words, self.schedule.name(id)) {
             (Some(words), _) => words.value(id),
             (None, name) => syntax::place(name.unwrap_or("unnamed")),
         }
@@ -203,7 +203,7 @@ impl Form for Printer<'_> {
 }
 
 /// What is called.
-pub(super) enum Callee<'a> {
+pub(crate) enum Callee<'a> {
     /// A method of a constant.
     Method { of: &'a str, name: &'static str },
     /// A function by its path.
@@ -213,7 +213,7 @@ pub(super) enum Callee<'a> {
 }
 
 /// A number as a scalar, by the function `num`.
-pub(super) fn scalar(value: f64) -> Expr {
+pub(crate) fn scalar(value: f64) -> Expr {
     let literal = match digits(value) {
         Some(digits) => syntax::literal(digits),
         None => syntax::word(unusual(value)),
@@ -227,12 +227,12 @@ pub(super) fn scalar(value: f64) -> Expr {
 }
 
 /// A name as a token.
-pub(super) fn ident(name: &str) -> Ident {
+pub(crate) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
 /// A number with the fewest digits that read back as the same number.
-pub(super) fn number(value: f64) -> TokenStream {
+pub(crate) fn number(value: f64) -> TokenStream {
     match digits(value) {
         Some(digits) if value < 0.0 => quote!(-#digits),
         Some(digits) => quote!(#digits),

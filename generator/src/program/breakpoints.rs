@@ -3,10 +3,10 @@
 //! A curve of rate · t passes its point x_k at the smallest time with rate · t ≥ x_k as it is computed, so that a step that
 //! ends there has its last stage on the left of the point and the next one its first on the right.
 
-use super::library::Library;
 use crate::equations::Equations;
 use crate::expression::NodeId;
 use crate::model::Model;
+use crate::target::rust::library::Library;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -25,12 +25,12 @@ pub(crate) fn constant(model: &Model, equations: &Equations) -> Vec<f64> {
 }
 
 /// The rates that parameters say: what `kink_rates` returns.
-pub(super) fn rates(equations: &Equations) -> Vec<NodeId> {
+pub(crate) fn rates(equations: &Equations) -> Vec<NodeId> {
     adjustable(equations).map(|(_, rate)| rate).collect()
 }
 
 /// The method by which the runtime asks for the others; nothing where there are none.
-pub(super) fn method(equations: &Equations, library: &Library) -> Option<TokenStream> {
+pub(crate) fn method(equations: &Equations, library: &Library) -> Option<TokenStream> {
     let curves: Vec<Ident> = adjustable(equations)
         .map(|(curve, _)| format_ident!("{}", library.name(curve)))
         .collect();
@@ -46,7 +46,7 @@ pub(super) fn method(equations: &Equations, library: &Library) -> Option<TokenSt
 }
 
 /// The curves of time that parameters stretch, each with its rate.
-pub(super) fn adjustable(equations: &Equations) -> impl Iterator<Item = (usize, NodeId)> + '_ {
+pub(crate) fn adjustable(equations: &Equations) -> impl Iterator<Item = (usize, NodeId)> + '_ {
     let kinks = equations.curves_of_time.iter().copied();
     kinks.filter(|(_, rate)| equations.graph.expr(*rate).as_constant().is_none())
 }

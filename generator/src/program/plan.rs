@@ -1,23 +1,23 @@
 //! Which methods a module has, and what each of them starts from.
 
-use super::inputs::{Argument, Inputs};
-use super::names::{Names, snake};
 use super::prepare::{Factored, Given, Method, factored, finished};
-use super::request::Request;
-use super::results::{Each, Results};
 use super::{Options, breakpoints, hoist};
 use crate::equations::{Equations, LawState, Named, Route};
 use crate::expression::live::{Dependence, Live};
 use crate::expression::passes::{Rewritten, fuse, join};
 use crate::expression::{Graph, Node, NodeId};
+use crate::method::inputs::{Argument, Inputs};
 use crate::model::Model;
+use crate::names::{Names, snake};
+use crate::target::rust::method::Request;
+use crate::target::rust::results::{Each, Results};
 
 /// v̇
-pub(super) const ACCELERATIONS: &str = "accelerations";
+pub(crate) const ACCELERATIONS: &str = "accelerations";
 /// q̇ and v̇ at once.
-pub(super) const MOTION: &str = "motion";
+pub(crate) const MOTION: &str = "motion";
 /// The method that puts them into a sink.
-pub(super) const EACH_MOTION: &str = "each_motion";
+pub(crate) const EACH_MOTION: &str = "each_motion";
 
 const STATE: &[Argument] = &[Argument::Coordinates, Argument::Velocities];
 
@@ -76,7 +76,7 @@ fn arguments(equations: &Equations) -> Vec<NodeId> {
 
 /// The values that depend on parameters alone and are needed by others, fields of the mechanism; and the methods as the passes made them while
 /// these values were looked for.
-pub(super) struct Derived {
+pub(crate) struct Derived {
     /// The values, by nodes of the equations; named in [`Inputs`].
     pub values: Vec<NodeId>,
     factored: Vec<Factored>,
@@ -86,7 +86,7 @@ pub(super) struct Derived {
 
 /// Finds the values that depend on parameters alone, and names them in `inputs`. `only` are the methods that are wanted; all where there is
 /// nothing said.
-pub(super) fn derived(
+pub(crate) fn derived(
     model: &Model,
     equations: &Equations,
     options: &Options,
@@ -195,7 +195,7 @@ fn keep(graph: &Graph, values: &[NodeId], inputs: &mut Inputs) {
 }
 
 /// The methods of a model, as they are to be emitted.
-pub(super) fn requests<'a>(
+pub(crate) fn requests<'a>(
     model: &Model,
     equations: &Equations,
     options: &Options,
@@ -603,7 +603,7 @@ fn each(method: &'static str, length: &'static str) -> Results<'static> {
 }
 
 /// q̇ and v̇ by one method, made of those for each: the coordinates and velocities of an element are then read once for both.
-pub(super) fn motion<'a>(requests: &[Request<'a>]) -> Option<Request<'a>> {
+pub(crate) fn motion<'a>(requests: &[Request<'a>]) -> Option<Request<'a>> {
     let named = |name: &str| requests.iter().find(|request| request.name == name);
     let (rates, accelerations) = (named("coordinate_rates")?, named(ACCELERATIONS)?);
     let Rewritten { graph, roots } = join(&[
@@ -629,7 +629,7 @@ pub(super) fn motion<'a>(requests: &[Request<'a>]) -> Option<Request<'a>> {
 
 /// Whether memory is renewed by the sign of a guard. It is then given the guards, to see the very values that ended the
 /// step: computed a second time, a value close to 0 may have the other sign.
-pub(super) fn renews_by_guards(equations: &Equations) -> bool {
+pub(crate) fn renews_by_guards(equations: &Equations) -> bool {
     let next: Vec<NodeId> = equations.memory.iter().map(|state| state.next).collect();
     let live = Live::new(&equations.graph, &next);
     let guards = equations.guards.iter().map(|guard| guard.value);

@@ -2,23 +2,23 @@
 
 use super::comment;
 use super::expression::{Printer, ident};
-use super::inputs::{Argument, Inputs};
 use super::library::Library;
-use super::names::camel;
-use super::program::{Line, Program, Statement};
-use super::request::Request;
-use super::split::Piece;
+use super::method::Request;
 use super::syntax;
 use crate::expression::{Node, NodeId};
+use crate::method::inputs::{Argument, Inputs};
+use crate::names::camel;
+use crate::program::schedule::{Line, Schedule, Statement};
+use crate::program::split::Piece;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
 use syn::{Attribute, Block, ImplItemFn, Stmt, parse_quote};
 
 /// A method about to be written.
-pub(super) struct Writer<'a> {
+pub(crate) struct Writer<'a> {
     pub request: Request<'a>,
-    pub program: Program,
+    pub schedule: Schedule,
     /// None where it is written in calls.
     pub pieces: Vec<Piece>,
     /// Whether the pieces are functions of their own, and not merged into one.
@@ -29,7 +29,7 @@ pub(super) struct Writer<'a> {
 
 impl Writer<'_> {
     /// What pieces hand on, and the pieces followed by the method that calls them; the method alone where there is one piece.
-    pub(super) fn in_pieces(&self) -> (Vec<TokenStream>, Vec<ImplItemFn>) {
+    pub(crate) fn in_pieces(&self) -> (Vec<TokenStream>, Vec<ImplItemFn>) {
         if let [piece] = &self.pieces[..] {
             let arguments = self.arguments(piece);
             return (Vec::new(), self.method(&arguments, self.body(0, &[])));
@@ -55,8 +55,8 @@ impl Writer<'_> {
     }
 
     /// The public method around a body that reads these arguments.
-    pub(super) fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> Vec<ImplItemFn> {
-        let puts_any = !self.program.roots.is_empty();
+    pub(crate) fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> Vec<ImplItemFn> {
+        let puts_any = !self.schedule.roots.is_empty();
         self.request.method(reads, puts_any, body)
     }
 
@@ -152,7 +152,7 @@ impl Writer<'_> {
 
     /// Whether a piece hands anything over.
     fn puts(&self, i: usize) -> bool {
-        let lines = &self.program.lines[self.pieces[i].lines.clone()];
+        let lines = &self.schedule.lines[self.pieces[i].lines.clone()];
         lines
             .iter()
             .any(|line| matches!(line.statement, Statement::Put(_)))
@@ -185,7 +185,7 @@ impl Writer<'_> {
         let fields = self.pieces[i]
             .passes_on
             .iter()
-            .filter_map(|&id| self.program.name(id))
+            .filter_map(|&id| self.schedule.name(id))
             .map(ident);
         let text = format!(" What part {} of `{}` hands on.", i + 1, self.request.name);
         quote! {
@@ -204,10 +204,10 @@ impl Writer<'_> {
     }
 
     /// To which arguments values belong.
-    pub(super) fn arguments_of(&self, reads: &BTreeSet<NodeId>) -> BTreeSet<Argument> {
+    pub(crate) fn arguments_of(&self, reads: &BTreeSet<NodeId>) -> BTreeSet<Argument> {
         let symbols = reads
             .iter()
-            .filter_map(|&id| match self.program.graph.node(id) {
+            .filter_map(|&id| match self.schedule.graph.node(id) {
                 Node::Symbol(symbol) => Some(self.inputs.input(symbol)),
                 _ => None,
             });
@@ -225,7 +225,7 @@ impl Writer<'_> {
     fn body(&self, i: usize, sources: &[usize]) -> Block {
         let piece = &self.pieces[i];
         let printer = Printer::new(
-            &self.program,
+            &self.schedule,
             self.inputs,
             self.library,
             self.request.constructs(),
@@ -234,7 +234,7 @@ impl Writer<'_> {
         let result = if i + 1 == self.pieces.len() {
             self.request
                 .results
-                .written(&self.program, &printer, self.pieces.len() > 1)
+                .written(&self.schedule, &printer, self.pieces.len() > 1)
         } else if self.hands_on(i) {
             self.hand_over(i)
         } else {
@@ -260,7 +260,7 @@ impl Writer<'_> {
         let passed = &self.pieces[source].passes_on;
         let read = passed.iter().filter(|id| piece.reads.contains(id));
         let names: Vec<_> = read
-            .filter_map(|&id| self.program.name(id))
+            .filter_map(|&id| self.schedule.name(id))
             .map(ident)
             .collect();
         let rest = (names.len() < passed.len()).then(|| quote!(..));
@@ -269,18 +269,18 @@ impl Writer<'_> {
     }
 
     /// `let &[_, z, ..] = q;`: the elements that a piece reads, by name.
-    pub(super) fn destructure(
+    pub(crate) fn destructure(
         &self,
         reads: &BTreeSet<NodeId>,
         argument: Argument,
     ) -> Option<TokenStream> {
         let mut names: Vec<Option<&str>> = vec![None; self.inputs.length(argument)];
         for &id in reads {
-            if let Node::Symbol(symbol) = self.program.graph.node(id)
+            if let Node::Symbol(symbol) = self.schedule.graph.node(id)
                 && let Some((of, index)) = self.inputs.input(symbol).element()
                 && of == argument
             {
-                names[index] = self.program.name(id);
+                names[index] = self.schedule.name(id);
             }
         }
         if names.iter().all(Option::is_none) {
@@ -323,8 +323,8 @@ impl Writer<'_> {
     }
 
     fn lines(&self, piece: &Piece, printer: &Printer<'_>) -> Vec<Stmt> {
-        let sections = self.program.graph.sections();
-        let lines = &self.program.lines[piece.lines.clone()];
+        let sections = self.schedule.graph.sections();
+        let lines = &self.schedule.lines[piece.lines.clone()];
         let mut current = None;
         let comments: Vec<Option<&str>> = lines
             .iter()
@@ -333,7 +333,12 @@ impl Writer<'_> {
             .collect();
         // What is read late is read by section, and each input that is put into a sink as it is by itself.
         let reads = |number: usize| {
-            let leaf = |place: usize| self.program.graph.node(self.program.roots[place]).is_leaf();
+            let leaf = |place: usize| {
+                self.schedule
+                    .graph
+                    .node(self.schedule.roots[place])
+                    .is_leaf()
+            };
             let put = matches!(lines[number].statement, Statement::Put(place) if leaf(place));
             number == 0 || comments[number].is_some() || put
         };
@@ -349,7 +354,7 @@ impl Writer<'_> {
                     written.push(self.reading(&elements, comment));
                 }
             }
-            let name = |id| self.program.name(id).map(str::to_owned);
+            let name = |id| self.schedule.name(id).map(str::to_owned);
             written.push(self.line(line.statement, comment, printer, name));
         }
         written
@@ -359,11 +364,11 @@ impl Writer<'_> {
     fn elements_read(&self, lines: &[Line], read: &mut BTreeSet<NodeId>) -> Vec<Vec<Element>> {
         let mut found = BTreeSet::new();
         for line in lines {
-            for id in self.program.needs(line.statement) {
-                self.program.reads(id, &mut found);
+            for id in self.schedule.needs(line.statement) {
+                self.schedule.reads(id, &mut found);
             }
         }
-        let element = |&id: &NodeId| match self.program.graph.node(id) {
+        let element = |&id: &NodeId| match self.schedule.graph.node(id) {
             Node::Symbol(symbol) => self.inputs.input(symbol).element(),
             _ => None,
         };
@@ -378,7 +383,7 @@ impl Writer<'_> {
 
     /// `let [a, b] = [q[7], q[8]];`
     fn reading(&self, elements: &[Element], comment: Option<Attribute>) -> Stmt {
-        let pattern = |&(.., id): &Element| syntax::binding(self.program.name(id));
+        let pattern = |&(.., id): &Element| syntax::binding(self.schedule.name(id));
         let value = |&(argument, index, _): &Element| syntax::element(argument.name(), index);
         match elements {
             [one] => syntax::binds(comment, pattern(one), value(one)),
@@ -390,7 +395,7 @@ impl Writer<'_> {
     }
 
     /// `let name = formula;` or `sink.put(place, formula);`, under a comment.
-    pub(super) fn line(
+    pub(crate) fn line(
         &self,
         statement: Statement,
         comment: Option<&str>,
@@ -401,7 +406,7 @@ impl Writer<'_> {
             return syntax::does(printer.statement(statement));
         }
         let comment = comment.and_then(comment::marked);
-        let bindings = self.program.bindings(statement);
+        let bindings = self.schedule.bindings(statement);
         let mut patterns = bindings
             .iter()
             .map(|id| syntax::binding(id.and_then(&name).as_deref()));
@@ -422,7 +427,7 @@ impl Writer<'_> {
         let fields = self.pieces[i]
             .passes_on
             .iter()
-            .filter_map(|&id| self.program.name(id))
+            .filter_map(|&id| self.schedule.name(id))
             .map(ident);
         quote!(#of { #(#fields),* })
     }
@@ -433,7 +438,7 @@ type Element = (Argument, usize, NodeId);
 
 /// The parts of a task that are about a sink.
 #[derive(Default)]
-pub(super) struct SinkOfTask {
+pub(crate) struct SinkOfTask {
     pub generic: TokenStream,
     pub bound: TokenStream,
     pub field: TokenStream,
@@ -442,7 +447,7 @@ pub(super) struct SinkOfTask {
 
 impl SinkOfTask {
     /// All empty where it has none.
-    pub(super) fn of(puts: bool) -> Self {
+    pub(crate) fn of(puts: bool) -> Self {
         match puts {
             true => SinkOfTask {
                 generic: quote!(, S),
@@ -456,7 +461,7 @@ impl SinkOfTask {
 }
 
 /// `-> Type`, or nothing.
-pub(super) fn arrow(returned: &TokenStream) -> TokenStream {
+pub(crate) fn arrow(returned: &TokenStream) -> TokenStream {
     match returned.to_string().as_str() {
         "()" => TokenStream::new(),
         _ => quote!(-> #returned),
@@ -464,7 +469,7 @@ pub(super) fn arrow(returned: &TokenStream) -> TokenStream {
 }
 
 /// A method with this body.
-pub(super) fn with_body(body: Block, mut method: ImplItemFn) -> ImplItemFn {
+pub(crate) fn with_body(body: Block, mut method: ImplItemFn) -> ImplItemFn {
     method.block = body;
     method
 }

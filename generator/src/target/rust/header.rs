@@ -1,19 +1,19 @@
 //! What a reader of the emitted text sees first: the model, its tree, its coordinates, what acts, what it costs.
 
+use super::method::Function;
 use super::operations;
-use super::request::Function;
 use crate::equations::Equations;
 use crate::model::{Dimension, Model, Reference, System};
 
 /// The comment at the top of a module, ending in a newline.
-pub(super) fn header(model: &Model, equations: &Equations, functions: &[Function]) -> String {
+pub(crate) fn header(model: &Model, equations: &Equations, functions: &[Function]) -> String {
     let mut text = about(model, equations);
     operations::tables(&mut text, equations, functions);
     text
 }
 
 /// The same without what anything costs, as lines without a sign of comment.
-pub(super) fn lines(model: &Model, equations: &Equations) -> Vec<String> {
+pub(crate) fn lines(model: &Model, equations: &Equations) -> Vec<String> {
     let text = about(model, equations);
     let lines = text.lines().map(|line| line.trim_start_matches("//"));
     let lines = lines.map(|line| line.strip_prefix(' ').unwrap_or(line).to_string());
@@ -62,7 +62,7 @@ fn about(model: &Model, equations: &Equations) -> String {
 }
 
 /// Text of the user's on one line: nothing in it can end a comment.
-pub(super) fn plain(text: &str) -> String {
+pub(crate) fn plain(text: &str) -> String {
     let printable = |c: char| {
         if c.is_control() || matches!(c, '\u{2028}' | '\u{2029}') {
             ' '
@@ -74,7 +74,7 @@ pub(super) fn plain(text: &str) -> String {
 }
 
 /// Adds a line of comment.
-pub(super) fn line(text: &mut String, content: impl AsRef<str>) {
+pub(crate) fn line(text: &mut String, content: impl AsRef<str>) {
     text.push_str("//");
     let content = content.as_ref().trim_end();
     if !content.is_empty() {

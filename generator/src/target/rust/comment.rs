@@ -5,13 +5,13 @@ use syn::{Attribute, parse_quote};
 const MARK: &str = "@comment ";
 
 /// The attribute that becomes a comment above a statement; none for an empty comment.
-pub(super) fn marked(text: &str) -> Option<Attribute> {
+pub(crate) fn marked(text: &str) -> Option<Attribute> {
     let marked = format!("{MARK}{}", super::header::plain(text));
     (!text.is_empty()).then(|| parse_quote!(#[doc = #marked]))
 }
 
 /// Turns marked attributes into comments, and sets an empty line above each and between items.
-pub(super) fn splice(formatted: &str) -> String {
+pub(crate) fn splice(formatted: &str) -> String {
     let mut text = String::with_capacity(formatted.len() + formatted.len() / 16);
     let (mut start_of_block, mut end_of_item) = (true, false);
     for line in formatted.lines() {

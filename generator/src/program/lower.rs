@@ -3,25 +3,25 @@
 //! Operations on equal operands are one operation. That changes no bit, and a compiler does it too.
 
 use super::formula::{Form, Formulas, Method, Operator};
-use super::inputs::{self, Inputs};
-use super::program::{Program, Statement, index};
+use super::schedule::{Schedule, Statement, index};
 use crate::expression::{Function, NodeId, Symbol};
+use crate::method::inputs::{self, Inputs};
 use crate::program::{Input, List, Operation, Value};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 
 /// The list of a program's roots.
-pub(super) fn list(program: &Program, inputs: &Inputs) -> List {
+pub(crate) fn list(schedule: &Schedule, inputs: &Inputs) -> List {
     let writer = Writer {
-        program,
+        schedule,
         inputs,
-        list: RefCell::new(Growing::new(program.graph.len())),
+        list: RefCell::new(Growing::new(schedule.graph.len())),
     };
-    for line in &program.lines {
+    for line in &schedule.lines {
         writer.line(line.statement);
     }
     let formulas = writer.formulas();
-    let results = program.roots.iter().map(|&root| formulas.value(root));
+    let results = schedule.roots.iter().map(|&root| formulas.value(root));
     let results = results.collect();
     writer.list.into_inner().finish(results)
 }
@@ -37,7 +37,7 @@ const KIND: u32 = CONSTANT | INPUT;
 
 /// Writes the formulas of a program into a list.
 struct Writer<'a> {
-    program: &'a Program,
+    schedule: &'a Schedule,
     inputs: &'a Inputs,
     list: RefCell<Growing>,
 }
@@ -155,7 +155,7 @@ impl Growing {
 impl Writer<'_> {
     fn formulas(&self) -> Formulas<'_, Self> {
         Formulas {
-            program: self.program,
+            schedule: self.schedule,
             form: self,
         }
     }
@@ -165,14 +165,14 @@ impl Writer<'_> {
         let first = match statement {
             Statement::Value(id) => self.formulas().formula(id),
             Statement::SinCos { argument, .. } => self.sin_cos(self.formulas().receiver(argument)),
-            Statement::Results(call) => match self.program.results(call).iter().flatten().next() {
+            Statement::Results(call) => match self.schedule.results(call).iter().flatten().next() {
                 Some(&id) => self.formulas().formula(id),
                 None => return,
             },
             // Results are listed at the end.
             Statement::Put(_) => return,
         };
-        let bindings = self.program.bindings(statement);
+        let bindings = self.schedule.bindings(statement);
         let mut list = self.list.borrow_mut();
         for (place, id) in bindings.into_iter().enumerate() {
             if let Some(id) = id {

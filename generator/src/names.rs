@@ -4,20 +4,20 @@ use rustc_hash::FxHashSet;
 
 /// Names taken so far in one scope.
 #[derive(Clone, Default)]
-pub(super) struct Names {
+pub(crate) struct Names {
     taken: FxHashSet<String>,
 }
 
 impl Names {
     /// A scope in which these names mean something already.
-    pub(super) fn with(reserved: &[&str]) -> Self {
+    pub(crate) fn with(reserved: &[&str]) -> Self {
         Self {
             taken: reserved.iter().map(|name| name.to_string()).collect(),
         }
     }
 
     /// Takes the name, or the first of `name_2`, `name_3` … that is free.
-    pub(super) fn take(&mut self, wanted: &str) -> String {
+    pub(crate) fn take(&mut self, wanted: &str) -> String {
         let mut name = wanted.to_string();
         let mut number = 1;
         while !self.taken.insert(name.clone()) {
@@ -29,7 +29,7 @@ impl Names {
 }
 
 /// An identifier in snake case for words such as "man/head.angle"; `value` where nothing of the words is left.
-pub(super) fn snake(words: &str) -> String {
+pub(crate) fn snake(words: &str) -> String {
     let mut name = String::with_capacity(words.len());
     for c in words.chars() {
         if c.is_ascii_alphanumeric() {
@@ -52,12 +52,12 @@ pub(super) fn snake(words: &str) -> String {
 }
 
 /// The same for constants.
-pub(super) fn screaming(words: &str) -> String {
+pub(crate) fn screaming(words: &str) -> String {
     snake(words).trim_end_matches('_').to_ascii_uppercase()
 }
 
 /// The same for types.
-pub(super) fn camel(words: &str) -> String {
+pub(crate) fn camel(words: &str) -> String {
     snake(words)
         .split('_')
         .flat_map(|word| {

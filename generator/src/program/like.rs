@@ -11,12 +11,12 @@
 //! not returned: it stands in one variable, which such calls overwrite in turn, and so stays in the first cache.
 
 use super::carry::{Carried, carried};
-use super::expression::{Printer, Words};
-use super::inputs::{Argument, Inputs};
-use super::library::Library;
-use super::program::{Program, Statement};
-use super::syntax;
+use super::schedule::{Schedule, Statement};
 use crate::expression::{Node, NodeId};
+use crate::method::inputs::{Argument, Inputs};
+use crate::target::rust::expression::{Printer, Words};
+use crate::target::rust::library::Library;
+use crate::target::rust::syntax;
 use quote::quote;
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
@@ -33,7 +33,7 @@ const MANY: usize = 3;
 const LEFT: usize = 3000;
 
 /// A program with what its elements have in common.
-pub(super) struct Sharing {
+pub(crate) struct Sharing {
     pub likes: Vec<Like>,
     /// What is left: lines, and calls in their places.
     pub items: Vec<Item>,
@@ -41,7 +41,7 @@ pub(super) struct Sharing {
 
 /// A step of the function that calls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Item {
+pub(crate) enum Item {
     /// A line of the program.
     Line(usize),
     /// A call for one of the blocks that are like each other.
@@ -49,7 +49,7 @@ pub(super) enum Item {
 }
 
 /// Text that several blocks have in common.
-pub(super) struct Like {
+pub(crate) struct Like {
     /// In order; the first gives the text its names.
     pub blocks: Vec<Block>,
     /// Which of the values of a block others read, by their number.
@@ -68,7 +68,7 @@ pub(super) struct Like {
 }
 
 /// A run of lines of one element.
-pub(super) struct Block {
+pub(crate) struct Block {
     pub lines: Range<usize>,
     /// What it binds.
     pub values: Vec<NodeId>,
@@ -82,7 +82,7 @@ pub(super) struct Block {
 
 /// Where a slot is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(crate) enum Place {
     /// In the mechanism, or the time: the same for all blocks.
     Common(NodeId),
     /// An element of what a port of an argument shows.
@@ -95,13 +95,13 @@ pub(super) enum Place {
 
 /// Where a number is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Number {
+pub(crate) enum Number {
     Same(f64),
     Listed(usize),
 }
 
 /// What blocks are handed by reference.
-pub(super) enum Port {
+pub(crate) enum Port {
     /// So many elements of an argument, and by block where they begin.
     Argument {
         argument: Argument,
@@ -118,33 +118,33 @@ pub(super) enum Port {
 }
 
 /// Values by the numbers under which they are read.
-pub(super) type Gathered = Vec<(usize, NodeId)>;
+pub(crate) type Gathered = Vec<(usize, NodeId)>;
 
 /// Where a value was made: text, block, number.
-pub(super) type Origins = FxHashMap<NodeId, (usize, usize, usize)>;
+pub(crate) type Origins = FxHashMap<NodeId, (usize, usize, usize)>;
 
 impl Sharing {
     /// What the elements of a program have in common; `None` where that is less than half of it, or too much is left.
-    pub(super) fn of(program: &Program, inputs: &Inputs, library: &Library) -> Option<Self> {
-        let mut likes = likes(program, inputs, library);
+    pub(crate) fn of(schedule: &Schedule, inputs: &Inputs, library: &Library) -> Option<Self> {
+        let mut likes = likes(schedule, inputs, library);
         let blocks = likes.iter().flat_map(|like| &like.blocks);
         let shared: usize = blocks
-            .map(|block| program.binding(block.lines.clone()))
+            .map(|block| schedule.binding(block.lines.clone()))
             .sum();
-        if likes.is_empty() || 2 * shared < program.binding(0..program.lines.len()) {
+        if likes.is_empty() || 2 * shared < schedule.binding(0..schedule.lines.len()) {
             return None;
         }
-        let items = items(&likes, program.lines.len());
-        if binding(&items, program) > LEFT {
+        let items = items(&likes, schedule.lines.len());
+        if binding(&items, schedule) > LEFT {
             return None;
         }
         let origins = origins(&likes);
-        find_outputs(&mut likes, program, &items, &origins);
+        find_outputs(&mut likes, schedule, &items, &origins);
         for like in &mut likes {
-            like.connect(program, inputs, &origins);
+            like.connect(schedule, inputs, &origins);
         }
         for like in 0..likes.len() {
-            let carried = carried(&likes, like, program, &items, &origins);
+            let carried = carried(&likes, like, schedule, &items, &origins);
             let like = &mut likes[like];
             if let Some(Carried { numbers, .. }) = &carried {
                 like.outputs.retain(|number| !numbers.contains(number));
@@ -155,15 +155,15 @@ impl Sharing {
     }
 
     /// What lines, calls and the results read.
-    pub(super) fn read(&self, program: &Program) -> BTreeSet<NodeId> {
-        read(&self.likes, program, &self.items)
+    pub(crate) fn read(&self, schedule: &Schedule) -> BTreeSet<NodeId> {
+        read(&self.likes, schedule, &self.items)
     }
 }
 
 /// How many of the steps bind something.
-fn binding(items: &[Item], program: &Program) -> usize {
+fn binding(items: &[Item], schedule: &Schedule) -> usize {
     let binds = |item: &Item| match *item {
-        Item::Line(line) => program.binding(line..line + 1),
+        Item::Line(line) => schedule.binding(line..line + 1),
         Item::Call { .. } => 1,
     };
     items.iter().map(binds).sum()
@@ -171,23 +171,23 @@ fn binding(items: &[Item], program: &Program) -> usize {
 
 impl Like {
     /// The block that gives the text its names.
-    pub(super) fn first(&self) -> &Block {
+    pub(crate) fn first(&self) -> &Block {
         &self.blocks[0]
     }
 
     /// Whether it puts anything into a sink.
-    pub(super) fn puts(&self) -> bool {
+    pub(crate) fn puts(&self) -> bool {
         !self.first().puts.is_empty()
     }
 
     /// Finds the ports.
-    fn connect(&mut self, program: &Program, inputs: &Inputs, origins: &Origins) {
+    fn connect(&mut self, schedule: &Schedule, inputs: &Inputs, origins: &Origins) {
         let count = self.first().slots.len();
         for slot in 0..count {
             let sources: Vec<NodeId> = self.blocks.iter().map(|block| block.slots[slot]).collect();
             let place = self
-                .common(program, inputs, &sources)
-                .or_else(|| self.element(program, inputs, &sources))
+                .common(schedule, inputs, &sources)
+                .or_else(|| self.element(schedule, inputs, &sources))
                 .or_else(|| self.returned(&sources, origins))
                 .unwrap_or_else(|| self.copy(&sources));
             self.slots.push(place);
@@ -200,9 +200,9 @@ impl Like {
         }
     }
 
-    fn common(&self, program: &Program, inputs: &Inputs, sources: &[NodeId]) -> Option<Place> {
+    fn common(&self, schedule: &Schedule, inputs: &Inputs, sources: &[NodeId]) -> Option<Place> {
         let first = *sources.first()?;
-        let Node::Symbol(symbol) = program.graph.node(first) else {
+        let Node::Symbol(symbol) = schedule.graph.node(first) else {
             return None;
         };
         let common =
@@ -211,8 +211,13 @@ impl Like {
     }
 
     /// The element of an argument, at the same distance from that of the port for all blocks.
-    fn element(&mut self, program: &Program, inputs: &Inputs, sources: &[NodeId]) -> Option<Place> {
-        let element = |&id: &NodeId| match program.graph.node(id) {
+    fn element(
+        &mut self,
+        schedule: &Schedule,
+        inputs: &Inputs,
+        sources: &[NodeId],
+    ) -> Option<Place> {
+        let element = |&id: &NodeId| match schedule.graph.node(id) {
             Node::Symbol(symbol) => inputs.input(symbol).element(),
             _ => None,
         };
@@ -374,11 +379,11 @@ impl Like {
 }
 
 /// The texts that blocks have in common.
-fn likes(program: &Program, inputs: &Inputs, library: &Library) -> Vec<Like> {
+fn likes(schedule: &Schedule, inputs: &Inputs, library: &Library) -> Vec<Like> {
     let mut place: FxHashMap<String, usize> = FxHashMap::default();
     let mut likes: Vec<Vec<Block>> = Vec::new();
-    for lines in blocks(program) {
-        let (text, block) = Block::read(program, inputs, library, lines);
+    for lines in blocks(schedule) {
+        let (text, block) = Block::read(schedule, inputs, library, lines);
         let at = *place.entry(text).or_insert_with(|| {
             likes.push(Vec::new());
             likes.len() - 1
@@ -400,9 +405,9 @@ fn likes(program: &Program, inputs: &Inputs, library: &Library) -> Vec<Like> {
 }
 
 /// The runs of lines of one element, as far as they are long enough.
-fn blocks(program: &Program) -> Vec<Range<usize>> {
+fn blocks(schedule: &Schedule) -> Vec<Range<usize>> {
     let mut start = 0;
-    let runs = program
+    let runs = schedule
         .lines
         .chunk_by(|a, b| a.block == b.block)
         .map(|run| {
@@ -416,17 +421,17 @@ fn blocks(program: &Program) -> Vec<Range<usize>> {
 impl Block {
     /// A block and its text.
     fn read(
-        program: &Program,
+        schedule: &Schedule,
         inputs: &Inputs,
         library: &Library,
         lines: Range<usize>,
     ) -> (String, Block) {
         let statements = || {
-            program.lines[lines.clone()]
+            schedule.lines[lines.clone()]
                 .iter()
                 .map(|line| line.statement)
         };
-        let values: Vec<NodeId> = statements().flat_map(|s| program.bound(s)).collect();
+        let values: Vec<NodeId> = statements().flat_map(|s| schedule.bound(s)).collect();
         let numbers = values.iter().enumerate().map(|(n, &id)| (id, n));
         let puts = statements().filter_map(|statement| match statement {
             Statement::Put(place) => Some(place),
@@ -439,13 +444,13 @@ impl Block {
             slots: RefCell::default(),
             numbers: RefCell::default(),
         };
-        let printer = Printer::in_words(program, inputs, library, &reader);
+        let printer = Printer::in_words(schedule, inputs, library, &reader);
         let mut text = String::new();
         for statement in statements() {
             let formula = printer.statement(statement);
             text.push_str(&quote!(#formula;).to_string());
             // which of the values of a statement with several are used
-            for id in program.bindings(statement) {
+            for id in schedule.bindings(statement) {
                 text.push(if id.is_some() { '+' } else { '-' });
             }
         }
@@ -471,7 +476,7 @@ fn neighbours(places: BTreeSet<usize>) -> Vec<Range<usize>> {
 }
 
 /// In which run a place is, and how far from its begin.
-pub(super) fn place_in(runs: &[Range<usize>], place: usize) -> (usize, usize) {
+pub(crate) fn place_in(runs: &[Range<usize>], place: usize) -> (usize, usize) {
     let run = runs.partition_point(|run| run.end <= place);
     (run, place - runs[run].start)
 }
@@ -535,9 +540,9 @@ fn origins(likes: &[Like]) -> Origins {
 }
 
 /// What is read of a block outside of it, for all blocks that are like it.
-fn find_outputs(likes: &mut [Like], program: &Program, items: &[Item], origins: &Origins) {
+fn find_outputs(likes: &mut [Like], schedule: &Schedule, items: &[Item], origins: &Origins) {
     let mut outputs = vec![BTreeSet::new(); likes.len()];
-    let read = read(likes, program, items);
+    let read = read(likes, schedule, items);
     for &(like, _, number) in read.iter().filter_map(|id| origins.get(id)) {
         outputs[like].insert(number);
     }
@@ -547,8 +552,8 @@ fn find_outputs(likes: &mut [Like], program: &Program, items: &[Item], origins: 
 }
 
 /// What lines, calls and the results read.
-fn read(likes: &[Like], program: &Program, items: &[Item]) -> BTreeSet<NodeId> {
-    let mut read = read_by_lines(program, items);
+fn read(likes: &[Like], schedule: &Schedule, items: &[Item]) -> BTreeSet<NodeId> {
+    let mut read = read_by_lines(schedule, items);
     for item in items {
         if let Item::Call { like, block } = *item {
             read.extend(&likes[like].blocks[block].slots);
@@ -558,17 +563,17 @@ fn read(likes: &[Like], program: &Program, items: &[Item]) -> BTreeSet<NodeId> {
 }
 
 /// What lines and the results read.
-pub(super) fn read_by_lines(program: &Program, items: &[Item]) -> BTreeSet<NodeId> {
+pub(crate) fn read_by_lines(schedule: &Schedule, items: &[Item]) -> BTreeSet<NodeId> {
     let mut read = BTreeSet::new();
     for item in items {
         if let Item::Line(line) = *item {
-            for id in program.needs(program.lines[line].statement) {
-                program.reads(id, &mut read);
+            for id in schedule.needs(schedule.lines[line].statement) {
+                schedule.reads(id, &mut read);
             }
         }
     }
-    for &root in program.returned() {
-        program.reads(root, &mut read);
+    for &root in schedule.returned() {
+        schedule.reads(root, &mut read);
     }
     read
 }

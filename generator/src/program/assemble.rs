@@ -1,14 +1,15 @@
 //! All methods of a model as lists, from the same requests as the text.
 
-use super::inputs::{Argument, Inputs};
 use super::order::Order;
-use super::program::Program;
-use super::request::Request;
-use super::{Options, breakpoints, items, list, plan};
+use super::schedule::Schedule;
+use super::{Options, breakpoints, lower, plan};
 use crate::equations::Equations;
 use crate::expression::count::Table;
+use crate::method::inputs::{Argument, Inputs};
 use crate::model::{ForceKind, Interpolate, Model};
 use crate::program::{Curve, Facts, List, Lists, Method, Routine, Start};
+use crate::target::rust::items;
+use crate::target::rust::method::Request;
 
 /// The methods of a model as lists. They depend on nothing but the arguments and the version of this crate.
 pub fn lists(model: &Model, equations: &Equations, options: &Options) -> Lists {
@@ -130,9 +131,9 @@ impl Request<'_> {
             (_, true) => Start::Guards,
             _ => Start::State,
         };
-        let program = Program::without_names(self.graph, self.roots, &self.labels, inputs, order);
+        let schedule = Schedule::without_names(self.graph, self.roots, &self.labels, inputs, order);
         Routine {
-            list: list::list(&program, inputs),
+            list: lower::list(&schedule, inputs),
             start,
         }
     }

@@ -1,18 +1,18 @@
 //! What a method is to be, and the shape in which it is written: as a whole, in calls of what its like elements have in common, or in pieces.
 
-use super::Options;
 use super::expression::ident;
 use super::function::{Writer, with_body};
-use super::inputs::{Argument, Inputs};
 use super::library::Library;
-use super::like::Sharing;
-use super::order::{Order, blocks_by_owner};
-use super::program::Program;
 use super::results::{Each, Results};
-use super::split::pieces;
 use crate::expression::count::Table;
 use crate::expression::passes::{Rewritten, repeat};
 use crate::expression::{Graph, NodeId};
+use crate::method::inputs::{Argument, Inputs};
+use crate::program::Options;
+use crate::program::like::Sharing;
+use crate::program::order::{Order, blocks_by_owner};
+use crate::program::schedule::Schedule;
+use crate::program::split::pieces;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
@@ -48,7 +48,7 @@ const ALSO_OF_THE_TRAIT: [&str; 10] = [
 ];
 
 /// The name of a method in the text.
-pub(super) fn method_name(name: &str) -> String {
+pub(crate) fn method_name(name: &str) -> String {
     match ALSO_OF_THE_TRAIT.contains(&name) {
         true => format!("{name}_at"),
         false => name.to_string(),
@@ -56,7 +56,7 @@ pub(super) fn method_name(name: &str) -> String {
 }
 
 /// What a method is to be.
-pub(super) struct Request<'a> {
+pub(crate) struct Request<'a> {
     pub name: &'static str,
     /// Documentation, by lines.
     pub documentation: Vec<String>,
@@ -75,7 +75,7 @@ pub(super) struct Request<'a> {
 }
 
 /// A method as text.
-pub(super) struct Function {
+pub(crate) struct Function {
     pub name: &'static str,
     /// The pieces of the method, if it has any, and the method.
     pub methods: Vec<ImplItemFn>,
@@ -87,7 +87,7 @@ pub(super) struct Function {
 
 impl Request<'_> {
     /// Writes the method, in calls or in pieces if it is long.
-    pub(super) fn write(
+    pub(crate) fn write(
         mut self,
         inputs: &Inputs,
         library: &Library,
@@ -101,58 +101,64 @@ impl Request<'_> {
             true => Order::Need,
             false => Order::Section,
         };
-        let program = self.program(graph, roots, inputs, order);
-        match self.shared(&program, inputs, library, options) {
+        let schedule = self.schedule(graph, roots, inputs, order);
+        match self.shared(&schedule, inputs, library, options) {
             Some(shared) => self.in_calls(shared, inputs, library),
-            None => self.in_pieces(program, inputs, library, options),
+            None => self.in_pieces(schedule, inputs, library, options),
         }
     }
 
-    fn program(&self, graph: Graph, roots: Vec<NodeId>, inputs: &Inputs, order: Order) -> Program {
+    fn schedule(
+        &self,
+        graph: Graph,
+        roots: Vec<NodeId>,
+        inputs: &Inputs,
+        order: Order,
+    ) -> Schedule {
         let (labels, arguments) = (&self.labels, &self.arguments);
         let puts = self.results.one_by_one();
-        Program::new(graph, roots, labels, inputs, arguments, order, puts)
+        Schedule::new(graph, roots, labels, inputs, arguments, order, puts)
     }
 
     /// The same in the order of elements, with what those have in common, if it is long and they have much. What is soon made of inputs is not
     /// handed from call to call.
     fn shared(
         &self,
-        program: &Program,
+        schedule: &Schedule,
         inputs: &Inputs,
         library: &Library,
         options: &Options,
-    ) -> Option<(Program, Sharing)> {
-        if !self.exceeds(program, options) {
+    ) -> Option<(Schedule, Sharing)> {
+        if !self.exceeds(schedule, options) {
             return None;
         }
-        let blocks = blocks_by_owner(&program.graph, &program.roots);
-        let Rewritten { graph, roots } = repeat(&program.graph, &program.roots, &blocks);
-        let program = self.program(graph, roots, inputs, Order::Owner);
-        let sharing = Sharing::of(&program, inputs, library)?;
-        Some((program, sharing))
+        let blocks = blocks_by_owner(&schedule.graph, &schedule.roots);
+        let Rewritten { graph, roots } = repeat(&schedule.graph, &schedule.roots, &blocks);
+        let schedule = self.schedule(graph, roots, inputs, Order::Owner);
+        let sharing = Sharing::of(&schedule, inputs, library)?;
+        Some((schedule, sharing))
     }
 
     /// Whether it is too long to be one function.
-    fn exceeds(&self, program: &Program, options: &Options) -> bool {
-        program.lines.len() > options.merged && !self.constructs()
+    fn exceeds(&self, schedule: &Schedule, options: &Options) -> bool {
+        schedule.lines.len() > options.merged && !self.constructs()
     }
 
     /// True for the method that has no receiver, but makes one from parameters.
-    pub(super) fn constructs(&self) -> bool {
+    pub(crate) fn constructs(&self) -> bool {
         matches!(self.results, Results::Mechanism(_))
     }
 
     fn in_calls(
         self,
-        (program, sharing): (Program, Sharing),
+        (schedule, sharing): (Schedule, Sharing),
         inputs: &Inputs,
         library: &Library,
     ) -> Function {
-        let (name, operations) = (self.name, Table::of(&program.graph, &program.roots));
+        let (name, operations) = (self.name, Table::of(&schedule.graph, &schedule.roots));
         let mut writer = Writer {
             request: self,
-            program,
+            schedule,
             pieces: Vec::new(),
             apart: true,
             inputs,
@@ -169,17 +175,17 @@ impl Request<'_> {
 
     fn in_pieces(
         self,
-        program: Program,
+        schedule: Schedule,
         inputs: &Inputs,
         library: &Library,
         options: &Options,
     ) -> Function {
-        let (name, operations) = (self.name, Table::of(&program.graph, &program.roots));
-        let pieces = pieces(&program, options.statements);
+        let (name, operations) = (self.name, Table::of(&schedule.graph, &schedule.roots));
+        let pieces = pieces(&schedule, options.statements);
         let writer = Writer {
-            apart: self.exceeds(&program, options) && pieces.len() > 1,
+            apart: self.exceeds(&schedule, options) && pieces.len() > 1,
             request: self,
-            program,
+            schedule,
             pieces,
             inputs,
             library,
@@ -194,7 +200,7 @@ impl Request<'_> {
     }
 
     /// Puts the results of `of`, from an index on that is the constant of this name, into a sink, and is called as if it computed them.
-    pub(super) fn beyond(&self, of: &str, from: &str) -> Vec<ImplItemFn> {
+    pub(crate) fn beyond(&self, of: &str, from: &str) -> Vec<ImplItemFn> {
         let (of, from) = (ident(of), ident(from));
         let given = self.arguments.iter().map(|a| ident(a.name()));
         let body = parse_quote!({
@@ -205,7 +211,7 @@ impl Request<'_> {
     }
 
     /// The public method around a body that reads these arguments; two where a sink takes what is computed, if there is anything.
-    pub(super) fn method(
+    pub(crate) fn method(
         &self,
         reads: &BTreeSet<Argument>,
         puts_any: bool,

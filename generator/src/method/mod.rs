@@ -1,0 +1,3 @@
+//! The methods of a model: what each is given and returns.
+
+pub(crate) mod inputs;
