@@ -132,7 +132,7 @@ impl Config {
         };
         let equations = dynamics::derive_with(model, options);
         let lists = program::lists(model, &equations, &self.options);
-        c::source(&lists, &rust::about(model, &equations))
+        c::source(&lists, &program::about(model, &equations))
     }
 
     /// The methods of a model as lists, with the operations of [`Self::source`] to the last bit.

@@ -28,6 +28,28 @@ impl Names {
     }
 }
 
+/// Text of the user's on one line: nothing in it can end a comment.
+pub(crate) fn plain(text: &str) -> String {
+    let printable = |c: char| {
+        if c.is_control() || matches!(c, '\u{2028}' | '\u{2029}') {
+            ' '
+        } else {
+            c
+        }
+    };
+    text.chars().map(printable).collect()
+}
+
+/// Words that a target keeps for itself: the keywords of Rust, in lower case. Some cannot even be raw identifiers there, so such a name gets a
+/// trailing underscore instead.
+const RESERVED: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
+    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
+    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
+    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
 /// An identifier in snake case for words such as "man/head.angle"; `value` where nothing of the words is left.
 pub(crate) fn snake(words: &str) -> String {
     let mut name = String::with_capacity(words.len());
@@ -42,11 +64,7 @@ pub(crate) fn snake(words: &str) -> String {
     match name.chars().next() {
         None => "value".to_string(),
         Some(c) if c.is_ascii_digit() => format!("n{name}"),
-        // `self` and its like cannot even be raw identifiers, so keywords get a trailing underscore instead.
-        // `gen` is reserved since edition 2024 only, so syn lets it pass.
-        Some(_) if name == "gen" || syn::parse_str::<syn::Ident>(name).is_err() => {
-            format!("{name}_")
-        }
+        Some(_) if RESERVED.contains(&name) => format!("{name}_"),
         Some(_) => name.to_string(),
     }
 }
@@ -89,6 +107,13 @@ mod tests {
             let name = snake(word);
             assert!(syn::parse_str::<syn::Ident>(&name).is_ok(), "{name}");
             assert_ne!(name, word.to_ascii_lowercase());
+        }
+    }
+
+    #[test]
+    fn what_is_reserved_is_a_keyword_of_rust() {
+        for word in RESERVED.iter().filter(|&&word| word != "gen") {
+            assert!(syn::parse_str::<syn::Ident>(word).is_err(), "{word}");
         }
     }
 

@@ -6,9 +6,6 @@
 use crate::equations::Equations;
 use crate::expression::NodeId;
 use crate::model::Model;
-use crate::target::rust::library::Library;
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
 
 /// The times known beforehand, increasing.
 pub(crate) fn constant(model: &Model, equations: &Equations) -> Vec<f64> {
@@ -27,22 +24,6 @@ pub(crate) fn constant(model: &Model, equations: &Equations) -> Vec<f64> {
 /// The rates that parameters say: what `kink_rates` returns.
 pub(crate) fn rates(equations: &Equations) -> Vec<NodeId> {
     adjustable(equations).map(|(_, rate)| rate).collect()
-}
-
-/// The method by which the runtime asks for the others; nothing where there are none.
-pub(crate) fn method(equations: &Equations, library: &Library) -> Option<TokenStream> {
-    let curves: Vec<Ident> = adjustable(equations)
-        .map(|(curve, _)| format_ident!("{}", library.name(curve)))
-        .collect();
-    let indices = (0..curves.len()).map(Literal::usize_unsuffixed);
-    (!curves.is_empty()).then(|| {
-        quote! {
-            fn kink_after(&self, t: f64) -> T {
-                let rates = self.kink_rates();
-                T::from_f64(f64::INFINITY) #(.min(#curves.kink_after(rates[#indices], t)))*
-            }
-        }
-    })
 }
 
 /// The curves of time that parameters stretch, each with its rate.

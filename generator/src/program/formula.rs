@@ -18,7 +18,7 @@ pub(crate) enum Level {
 }
 
 /// An operation of two operands that is written between them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Operator {
     Plus,
     Minus,
@@ -27,7 +27,7 @@ pub(crate) enum Operator {
 }
 
 /// An operation that is written as a method of its first operand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Method {
     Sqrt,
     Atan2,
@@ -82,7 +82,7 @@ impl<X> Text<X> {
     }
 }
 
-/// Writes the formulas of one program in one form.
+/// Writes the formulas of one schedule in one form.
 pub(crate) struct Formulas<'a, F> {
     pub schedule: &'a Schedule,
     pub form: &'a F,

@@ -10,7 +10,7 @@ use crate::program::{Input, List, Operation, Value};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 
-/// The list of a program's roots.
+/// The list of a schedule's roots.
 pub(crate) fn list(schedule: &Schedule, inputs: &Inputs) -> List {
     let writer = Writer {
         schedule,
@@ -35,7 +35,7 @@ const CONSTANT: u32 = 1 << 31;
 const INPUT: u32 = 1 << 30;
 const KIND: u32 = CONSTANT | INPUT;
 
-/// Writes the formulas of a program into a list.
+/// Writes the formulas of a schedule into a list.
 struct Writer<'a> {
     schedule: &'a Schedule,
     inputs: &'a Inputs,

@@ -1,18 +1,31 @@
 //! Straight-line programs of no language: what every target prints, interprets or encodes.
 //!
-//! A [`List`] is one method of a model as a list of operations in the order in which they are done. It is made of the same scheduled
-//! program that the Rust text is printed from, and it has the text's very operations, so that all targets give the same bits.
+//! The passes work on graphs, one after the other, and know no language:
+//!
+//! | file | what |
+//! |---|---|
+//! | `plan` | a graph for each method of the table in [`method`](crate::method); values that depend on parameters alone (`hoist`) |
+//! | `prepare` | the passes over each graph: what is known is an input, common factors go outside, operations are fused |
+//! | `order`, `inline`, `schedule` | the operations of a graph in their order, as statements |
+//! | `share` | what like elements do alike, as subroutines |
+//! | `split` | where a long method is cut |
+//! | `formula` | the operations of a statement, in whatever form they are written |
+//! | `lower`, `assemble` | statements as a [`List`], methods as [`Lists`] |
+//! | `join` | lists that are evaluated together |
+//! | `facts`, `breakpoints`, `about` | what is known without evaluating anything |
+//!
+//! A [`List`] is one method of a model as a list of operations in the order in which they are done. It is made of the same schedule
+//! that the Rust text is printed from, and it has the text's very operations, so that all targets give the same bits.
 //! [`Lists`] are all methods of a model, with all else that is needed to evaluate it: [`Config::lists`](crate::Config::lists) makes them.
 
-pub(crate) mod assemble;
+mod about;
+mod assemble;
 pub(crate) mod breakpoints;
-pub(crate) mod carry;
 mod facts;
 pub(crate) mod formula;
 pub(crate) mod hoist;
 mod inline;
 mod join;
-pub(crate) mod like;
 mod list;
 mod lists;
 mod lower;
@@ -20,20 +33,23 @@ pub(crate) mod order;
 pub(crate) mod plan;
 mod prepare;
 pub(crate) mod schedule;
+pub(crate) mod share;
 pub(crate) mod split;
 
 use crate::equations::Equations;
 use crate::expression::count::{Count, Table};
 use crate::expression::live::Live;
-use crate::method::inputs::Inputs;
 use crate::model::Model;
-use crate::target::rust::method::Request;
+use plan::Plan;
 
-pub use assemble::{Costs, counted_lists, lists};
+pub use crate::method::{Method, Start};
+pub use about::about;
+pub(crate) use assemble::neighbours;
+pub use assemble::{counted_lists, lists};
 pub use facts::{Adjustable, Column, Facts, Kind, Watched};
 pub use join::Combination;
 pub use list::{Input, List, Operation, Value};
-pub use lists::{Curve, Lists, Method, Routine, Start};
+pub use lists::{Curve, Lists, Routine};
 
 /// What to emit, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,30 +80,12 @@ impl Default for Options {
     }
 }
 
-/// What each method of a model's module costs, by section: the operations after all passes, before long methods are joined, or repeat some
-/// instead of keeping their results.
-pub fn costs(
-    model: &Model,
-    equations: &Equations,
-    options: &Options,
-) -> Vec<(&'static str, Table)> {
-    costs_of(model, equations, options, None)
-}
+/// The operations of methods, by their names.
+pub type Costs = Vec<(&'static str, Table)>;
 
-/// The same of some methods, and of `new`, which has what these need of parameters alone.
-pub fn costs_of(
-    model: &Model,
-    equations: &Equations,
-    options: &Options,
-    only: Option<&[&str]>,
-) -> Vec<(&'static str, Table)> {
-    let mut inputs = Inputs::new(model, equations);
-    let derived = plan::derived(model, equations, options, only, &mut inputs);
-    let requests = plan::requests(model, equations, options, derived, &inputs, only);
-    requests
-        .iter()
-        .map(|request| (request.name, Table::of(&request.graph, &request.roots)))
-        .collect()
+/// What each method of a model costs, by section: the operations after all passes.
+pub fn costs(model: &Model, equations: &Equations, options: &Options) -> Costs {
+    Plan::new(model, equations, options, None).costs()
 }
 
 /// By method: the operations that depend on parameters alone, and so are done at every call though nothing changes. There
@@ -97,18 +95,16 @@ pub fn repeated(
     equations: &Equations,
     options: &Options,
 ) -> Vec<(&'static str, Count)> {
-    let mut inputs = Inputs::new(model, equations);
-    let derived = plan::derived(model, equations, options, None, &mut inputs);
-    let requests = plan::requests(model, equations, options, derived, &inputs, None);
-    let of = |request: &Request<'_>| {
-        let live = Live::new(&request.graph, &request.roots);
-        let alone = hoist::alone(&request.graph, &live, &inputs);
+    let Plan { inputs, procedures } = Plan::new(model, equations, options, None);
+    let of = |procedure: &plan::Procedure| {
+        let live = Live::new(&procedure.graph, &procedure.roots);
+        let alone = hoist::alone(&procedure.graph, &live, &inputs);
         let nodes = live.nodes().iter().copied();
         let nodes: Vec<_> = nodes.filter(|id| alone[id.0 as usize]).collect();
-        let mut count = Count::of_nodes(&request.graph, &nodes);
+        let mut count = Count::of_nodes(&procedure.graph, &nodes);
         // A sign is no operation.
         count.neg = 0;
-        (request.name, count)
+        (procedure.method.name, count)
     };
-    requests.iter().map(of).collect()
+    procedures.iter().map(of).collect()
 }

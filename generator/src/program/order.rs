@@ -6,6 +6,7 @@
 
 use super::schedule::{index, uses};
 use crate::expression::{Graph, NodeId};
+use crate::method::results::Results;
 use rustc_hash::FxHashMap;
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
@@ -22,6 +23,14 @@ pub(crate) enum Order {
 }
 
 impl Order {
+    /// That of a method with these results: what goes to an output writer one by one is computed when it is needed.
+    pub(crate) fn of(results: Results) -> Self {
+        match results.one_by_one() {
+            true => Order::Need,
+            false => Order::Section,
+        }
+    }
+
     /// All values in use that are operations, operands first, block by block.
     pub(crate) fn blocks(self, graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
         match self {

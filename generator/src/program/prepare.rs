@@ -9,41 +9,14 @@ use crate::expression::count::Count;
 use crate::expression::live::Live;
 use crate::expression::passes::{Rewritten, factor, fuse, replace};
 use crate::expression::{Graph, Node, NodeId, Symbol};
-use crate::method::inputs::{Argument, Input, Inputs};
-use crate::target::rust::results::Results;
+use crate::method::Start;
+use crate::method::inputs::{Input, Inputs};
+use crate::method::table::Specification;
 use rustc_hash::FxHashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Operations above which `outputs` calls `accelerations` instead of computing them a second time in its own text.
 const REPEATED_OPERATIONS: usize = 50;
-
-/// A method before the passes.
-pub(crate) struct Method<'a> {
-    pub name: &'static str,
-    /// Documentation, by lines.
-    pub documentation: Vec<String>,
-    /// What it is given.
-    pub arguments: Vec<Argument>,
-    /// What it computes, as nodes of the equations.
-    pub roots: Vec<NodeId>,
-    /// Names for roots that have none, one per root.
-    pub labels: Vec<String>,
-    /// How the roots are handed back.
-    pub results: Results<'a>,
-    /// What it need not compute.
-    pub given: Given,
-}
-
-/// What a method need not compute, besides the values that depend on parameters alone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Given {
-    /// Nothing.
-    Derived,
-    /// The guards.
-    Guards,
-    /// The accelerations, where computing them would repeat most of their method.
-    Accelerations,
-}
 
 /// A method behind the factoring pass.
 pub(crate) struct Factored {
@@ -79,19 +52,19 @@ fn known(derived: &[NodeId], inputs: &Inputs) -> Known {
         .collect()
 }
 
-/// The same with what a method is given besides.
-fn with_given(known: &Known, given: Given, equations: &Equations, inputs: &Inputs) -> Known {
+/// The same with what a method starts from.
+fn with_start(known: &Known, start: Start, equations: &Equations, inputs: &Inputs) -> Known {
     let mut known = known.clone();
     let graph = &equations.graph;
-    match given {
-        Given::Derived => {}
-        Given::Guards => {
+    match start {
+        Start::State => {}
+        Start::Guards => {
             for (i, guard) in equations.guards.iter().enumerate() {
                 let symbol = inputs.symbol(Input::Guard(i));
                 know(&mut known, graph, guard.value, symbol);
             }
         }
-        Given::Accelerations => {
+        Start::Accelerations => {
             for (i, &id) in equations.accelerations.iter().enumerate() {
                 let symbol = inputs.symbol(Input::Acceleration(i));
                 know(&mut known, graph, id, symbol);
@@ -104,7 +77,7 @@ fn with_given(known: &Known, given: Given, equations: &Equations, inputs: &Input
 /// Methods behind the factoring pass, where these values are known.
 pub(crate) fn factored(
     equations: &Equations,
-    methods: &[Method<'_>],
+    methods: &[Specification],
     derived: &[NodeId],
     inputs: &Inputs,
 ) -> Vec<Factored> {
@@ -112,13 +85,13 @@ pub(crate) fn factored(
     // a task for each form of each method
     let mut tasks: Vec<(&[NodeId], Known)> = Vec::new();
     for method in methods {
-        let plain = match method.given {
-            Given::Guards => with_given(&known, Given::Guards, equations, inputs),
+        let plain = match method.start {
+            Start::Guards => with_start(&known, Start::Guards, equations, inputs),
             _ => known.clone(),
         };
         tasks.push((&method.roots, plain));
-        if method.given == Given::Accelerations {
-            let known = with_given(&known, Given::Accelerations, equations, inputs);
+        if method.start == Start::Accelerations {
+            let known = with_start(&known, Start::Accelerations, equations, inputs);
             tasks.push((&method.roots, known));
         }
     }
@@ -130,8 +103,8 @@ pub(crate) fn factored(
     let forms = methods.iter().filter_map(|method| {
         Some(Factored {
             alone: done.next()?,
-            short: match method.given {
-                Given::Accelerations => done.next(),
+            short: match method.start {
+                Start::Accelerations => done.next(),
                 _ => None,
             },
         })
@@ -143,7 +116,7 @@ pub(crate) fn factored(
 /// were known when the methods were factored; a method that needs one of the others is factored again.
 pub(crate) fn finished(
     equations: &Equations,
-    methods: &[Method<'_>],
+    methods: &[Specification],
     mut factored_before: Vec<Factored>,
     derived: &[NodeId],
     before: usize,

@@ -1,15 +1,14 @@
-//! One function before it is text: which values get a `let`, in which order, under which name.
+//! One method as statements: which values are bound, and in which order.
 
 use super::inline::inline;
 use super::order::Order;
-use crate::expression::{Graph, Node, NodeId, Symbol};
-use crate::method::inputs::{Argument, Inputs};
-use crate::names::{Names, snake};
+use crate::expression::{Graph, Node, NodeId};
+use crate::method::inputs::Inputs;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// A function's values, scheduled.
+/// The values of a method in the order in which they are computed.
 pub(crate) struct Schedule {
     /// What it computes with.
     pub graph: Graph,
@@ -21,8 +20,6 @@ pub(crate) struct Schedule {
     pub lines: Vec<Line>,
     /// Whether a line binds it, by node.
     binds: Vec<bool>,
-    /// Identifier of each bound value and of each input in use, by node; none of a program without names.
-    names: Vec<Option<String>>,
     /// Of each call with several results, which of them are used, in their order.
     calls: Vec<Vec<Option<NodeId>>>,
 }
@@ -36,7 +33,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// The section that begins with it, where `current` is that of the line before; what is put into a sink begins none.
+    /// The section that begins with it, where `current` is that of the line before; what is put into an output writer begins none.
     pub(crate) fn begins(&self, current: &mut Option<usize>) -> Option<usize> {
         let binds = !matches!(self.statement, Statement::Put(_));
         let new = binds && current.replace(self.section) != Some(self.section);
@@ -62,44 +59,19 @@ pub(crate) enum Statement {
 }
 
 impl Schedule {
-    /// Schedules what the roots need, and names it. `labels` are the names that the roots get if they have none, in the same order.
+    /// Schedules what the roots need. `labels` are the names that the roots get if they have none, in the same order: they say how wide a
+    /// line is, and so which values are bound.
     pub(crate) fn new(
         graph: Graph,
         roots: Vec<NodeId>,
         labels: &[String],
         inputs: &Inputs,
-        arguments: &[Argument],
         order: Order,
         puts: bool,
     ) -> Self {
         let labels = labels_of(&graph, &roots, labels);
-        let mut schedule = Self::schedule(graph, roots, &labels, inputs, order, puts);
-        schedule.name_all(&labels, inputs, arguments);
-        schedule
-    }
-
-    /// The same without names, for what is not text. The labels say how wide a line is, and so which values are bound.
-    pub(crate) fn without_names(
-        graph: Graph,
-        roots: Vec<NodeId>,
-        labels: &[String],
-        inputs: &Inputs,
-        order: Order,
-    ) -> Self {
-        let labels = labels_of(&graph, &roots, labels);
-        Self::schedule(graph, roots, &labels, inputs, order, false)
-    }
-
-    fn schedule(
-        graph: Graph,
-        roots: Vec<NodeId>,
-        labels: &FxHashMap<NodeId, String>,
-        inputs: &Inputs,
-        order: Order,
-        puts: bool,
-    ) -> Self {
         let uses = uses(&graph, &roots);
-        let inline = inline(&graph, labels, &uses, inputs, order == Order::Owner);
+        let inline = inline(&graph, &labels, &uses, inputs, order == Order::Owner);
         let blocks = order.blocks(&graph, &uses);
         let partners = partners(&graph, &uses);
         let calls = calls(&graph, &uses);
@@ -108,7 +80,6 @@ impl Schedule {
             call_of.extend(results.iter().flatten().map(|&id| (id, call)));
         }
         let mut schedule = Schedule {
-            names: vec![None; graph.len()],
             binds: vec![false; graph.len()],
             graph,
             roots,
@@ -148,37 +119,7 @@ impl Schedule {
         schedule
     }
 
-    /// Names what the lines bind, and the inputs.
-    fn name_all(
-        &mut self,
-        labels: &FxHashMap<NodeId, String>,
-        inputs: &Inputs,
-        arguments: &[Argument],
-    ) {
-        let mut reserved = vec!["q", "v", "a", "s", "num", "parameters", "sink"];
-        // only where they are, so that a coordinate z keeps its name elsewhere
-        for (argument, name) in [(Argument::Auxiliaries, "z"), (Argument::Memory, "m")] {
-            if inputs.length(argument) > 0 {
-                reserved.push(name);
-            }
-        }
-        let mut names = Names::with(&reserved);
-        self.name_inputs(inputs, arguments, &mut names);
-        let mut temporaries = 0;
-        for line in 0..self.lines.len() {
-            for bound in self.bound(self.lines[line].statement) {
-                let wanted = self.wanted_name(bound);
-                let wanted = wanted.or_else(|| labels.get(&bound).map(|label| snake(label)));
-                let wanted = wanted.unwrap_or_else(|| {
-                    temporaries += 1;
-                    format!("t{temporaries}")
-                });
-                self.names[index(bound)] = Some(names.take(&wanted));
-            }
-        }
-    }
-
-    /// Has every root put into the sink as soon as it is known, so that nobody need keep it: behind the line that binds it or, where blocks
+    /// Has every root put into the output writer as soon as it is known, so that nobody need keep it: behind the line that binds it or, where blocks
     /// may become calls, at the end of the block. What no line binds comes last.
     fn put_results(&mut self, order: Order) {
         let mut line_of = vec![None; self.graph.len()];
@@ -213,7 +154,7 @@ impl Schedule {
         self.put(unbound.into_iter(), section, block + 1);
     }
 
-    /// Lines that put these roots into the sink.
+    /// Lines that put these roots into the output writer.
     fn put(&mut self, places: impl Iterator<Item = usize>, section: usize, block: usize) {
         self.lines.extend(places.map(|place| Line {
             section,
@@ -256,18 +197,6 @@ impl Schedule {
         }
     }
 
-    /// Calls values by other names.
-    pub(crate) fn rename(&mut self, names: impl IntoIterator<Item = (NodeId, String)>) {
-        for (id, name) in names {
-            self.names[index(id)] = Some(name);
-        }
-    }
-
-    /// All names that are taken.
-    pub(crate) fn all_names(&self) -> impl Iterator<Item = &str> {
-        self.names.iter().flatten().map(String::as_str)
-    }
-
     /// Where the values that a statement needs are found: the roots of its expression.
     pub(crate) fn needs(&self, statement: Statement) -> Vec<NodeId> {
         match statement {
@@ -286,14 +215,9 @@ impl Schedule {
         &self.calls[call]
     }
 
-    /// Identifier of a bound value or an input; `None` for what is written where it is used.
-    pub(crate) fn name(&self, id: NodeId) -> Option<&str> {
-        self.names[index(id)].as_deref()
-    }
-
-    /// Whether it stands for itself where it is used: a bound value, or an input that has a name.
+    /// Whether a line binds it.
     pub(crate) fn is_bound(&self, id: NodeId) -> bool {
-        self.binds[index(id)] || self.names[index(id)].is_some()
+        self.binds[index(id)]
     }
 
     /// Bound values and inputs that an expression reads.
@@ -305,43 +229,6 @@ impl Schedule {
                 self.reads(operand, found);
             }
         }
-    }
-
-    /// All elements of the arguments claim their names, so that each is called the same in every function.
-    fn name_inputs(&mut self, inputs: &Inputs, arguments: &[Argument], names: &mut Names) {
-        let uses = uses(&self.graph, &self.roots);
-        let mut used: FxHashMap<Symbol, NodeId> = FxHashMap::default();
-        for (position, node) in self.graph.nodes().iter().enumerate() {
-            if let Node::Symbol(symbol) = node
-                && uses[position] > 0
-            {
-                used.entry(*symbol).or_insert(NodeId(position as u32));
-            }
-        }
-        for (input, wanted) in inputs.variables() {
-            if input
-                .argument()
-                .is_some_and(|argument| arguments.contains(&argument))
-            {
-                let name = names.take(&wanted);
-                if let Some(&id) = used.get(&inputs.symbol(input)) {
-                    self.names[index(id)] = Some(name);
-                }
-            }
-        }
-    }
-
-    fn wanted_name(&self, id: NodeId) -> Option<String> {
-        if let Some(name) = self.graph.name_of(id) {
-            return Some(snake(&name));
-        }
-        let (function, argument) = match self.graph.node(id) {
-            Node::Sin(argument) => ("sin", argument),
-            Node::Cos(argument) => ("cos", argument),
-            _ => return None,
-        };
-        let argument = self.name(argument)?;
-        Some(format!("{function}_{argument}"))
     }
 }
 
@@ -367,7 +254,11 @@ pub(crate) fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
 }
 
 /// The label of each root that is an operation.
-fn labels_of(graph: &Graph, roots: &[NodeId], labels: &[String]) -> FxHashMap<NodeId, String> {
+pub(crate) fn labels_of(
+    graph: &Graph,
+    roots: &[NodeId],
+    labels: &[String],
+) -> FxHashMap<NodeId, String> {
     let mut found = FxHashMap::default();
     for (&root, label) in roots.iter().zip(labels) {
         if !graph.node(root).is_leaf() {

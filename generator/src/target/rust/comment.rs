@@ -6,7 +6,7 @@ const MARK: &str = "@comment ";
 
 /// The attribute that becomes a comment above a statement; none for an empty comment.
 pub(crate) fn marked(text: &str) -> Option<Attribute> {
-    let marked = format!("{MARK}{}", super::header::plain(text));
+    let marked = format!("{MARK}{}", crate::names::plain(text));
     (!text.is_empty()).then(|| parse_quote!(#[doc = #marked]))
 }
 

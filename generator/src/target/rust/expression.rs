@@ -1,6 +1,7 @@
 //! Formulas as Rust. Which operations they are made of, and where brackets stand, is said by [`crate::program::formula`].
 
 use super::library::Library;
+use super::naming::Naming;
 use super::syntax;
 use crate::expression::{Function, NodeId, Symbol};
 use crate::method::inputs::{Input, Inputs};
@@ -19,9 +20,11 @@ pub(crate) trait Words {
     fn place(&self, place: usize) -> Expr;
 }
 
-/// Prints the expressions of one program.
+/// Prints the expressions of one schedule.
+#[derive(Clone)]
 pub(crate) struct Printer<'a> {
     schedule: &'a Schedule,
+    names: &'a Naming,
     inputs: &'a Inputs,
     library: &'a Library,
     /// They are a field of the mechanism otherwise.
@@ -33,6 +36,7 @@ pub(crate) struct Printer<'a> {
 impl<'a> Printer<'a> {
     pub(crate) fn new(
         schedule: &'a Schedule,
+        names: &'a Naming,
         inputs: &'a Inputs,
         library: &'a Library,
         parameters_are_argument: bool,
@@ -40,6 +44,7 @@ impl<'a> Printer<'a> {
         let numbers = Cell::new(false);
         Self {
             schedule,
+            names,
             inputs,
             library,
             parameters_are_argument,
@@ -49,15 +54,11 @@ impl<'a> Printer<'a> {
     }
 
     /// The same in other words.
-    pub(crate) fn in_words(
-        schedule: &'a Schedule,
-        inputs: &'a Inputs,
-        library: &'a Library,
-        words: &'a dyn Words,
-    ) -> Self {
+    pub(crate) fn in_words(&self, words: &'a dyn Words) -> Self {
         Self {
             words: Some(words),
-            ..Self::new(schedule, inputs, library, false)
+            numbers: Cell::new(false),
+            ..self.clone()
         }
     }
 
@@ -143,16 +144,17 @@ impl Form for Printer<'_> {
     }
 
     fn bound(&self, id: NodeId) -> Expr {
-        match (self.words, self.schedule.name(id)) {
-            (Some(words), _) => words.value(id),
-            (None, name) => syntax::place(name.unwrap_or("unnamed")),
+        match self.words {
+            Some(words) => words.value(id),
+            None => syntax::place(self.names.of(id).unwrap_or("unnamed")),
         }
     }
 
     fn input(&self, id: NodeId, symbol: Symbol) -> Expr {
-        match self.words {
-            Some(words) => words.value(id),
-            None => self.symbol(self.inputs.input(symbol)),
+        match (self.words, self.names.of(id)) {
+            (Some(words), _) => words.value(id),
+            (None, Some(name)) => syntax::place(name),
+            (None, None) => self.symbol(self.inputs.input(symbol)),
         }
     }
 

@@ -3,10 +3,13 @@
 use super::comment;
 use super::expression::{Printer, ident};
 use super::library::Library;
-use super::method::Request;
+use super::method::{constructs, public_method};
+use super::naming::Naming;
+use super::results;
 use super::syntax;
 use crate::expression::{Node, NodeId};
 use crate::method::inputs::{Argument, Inputs};
+use crate::method::table::Specification;
 use crate::names::camel;
 use crate::program::schedule::{Line, Schedule, Statement};
 use crate::program::split::Piece;
@@ -17,8 +20,9 @@ use syn::{Attribute, Block, ImplItemFn, Stmt, parse_quote};
 
 /// A method about to be written.
 pub(crate) struct Writer<'a> {
-    pub request: Request<'a>,
+    pub method: Specification,
     pub schedule: Schedule,
+    pub names: Naming,
     /// None where it is written in calls.
     pub pieces: Vec<Piece>,
     /// Whether the pieces are functions of their own, and not merged into one.
@@ -54,18 +58,29 @@ impl Writer<'_> {
         (structs, methods)
     }
 
+    pub(crate) fn printer(&self) -> Printer<'_> {
+        let of_parameters = constructs(&self.method);
+        Printer::new(
+            &self.schedule,
+            &self.names,
+            self.inputs,
+            self.library,
+            of_parameters,
+        )
+    }
+
     /// The public method around a body that reads these arguments.
     pub(crate) fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> Vec<ImplItemFn> {
         let puts_any = !self.schedule.roots.is_empty();
-        self.request.method(reads, puts_any, body)
+        public_method(&self.method, reads, puts_any, body)
     }
 
     /// One piece. Release builds merge it into its caller, or into its task.
     fn piece(&self, i: usize, arguments: &BTreeSet<Argument>, sources: &[usize]) -> ImplItemFn {
-        let name = format_ident!("{}_part_{}", self.request.name, i + 1);
+        let name = format_ident!("{}_part_{}", self.method.name, i + 1);
         let (number, of) = (i + 1, self.pieces.len());
-        let text = format!(" Part {number} of {of} of `{}`.", self.request.name);
-        let receiver = match self.request.constructs() {
+        let text = format!(" Part {number} of {of} of `{}`.", self.method.name);
+        let receiver = match constructs(&self.method) {
             true => quote!(parameters: &Parameters<T>),
             false => quote!(&self),
         };
@@ -87,10 +102,10 @@ impl Writer<'_> {
     }
 
     fn call(&self, i: usize, arguments: &BTreeSet<Argument>, sources: &[usize]) -> TokenStream {
-        let name = format_ident!("{}_part_{}", self.request.name, i + 1);
+        let name = format_ident!("{}_part_{}", self.method.name, i + 1);
         let arguments = arguments.iter().map(|argument| ident(argument.name()));
         let parts = sources.iter().map(|&part| part_name(part));
-        let call = if self.request.constructs() {
+        let call = if constructs(&self.method) {
             quote!(Self::#name(&parameters, #(#arguments,)* #(&#parts),*))
         } else if self.apart {
             let task = self.task_type(i);
@@ -113,7 +128,7 @@ impl Writer<'_> {
 
     /// The struct by which a piece is called as a function of its own.
     fn task(&self, i: usize, arguments: &BTreeSet<Argument>, sources: &[usize]) -> TokenStream {
-        let piece = format_ident!("{}_part_{}", self.request.name, i + 1);
+        let piece = format_ident!("{}_part_{}", self.method.name, i + 1);
         let name = self.task_type(i);
         let fields: Vec<_> = arguments
             .iter()
@@ -123,7 +138,7 @@ impl Writer<'_> {
         let parts: Vec<_> = sources.iter().map(|&part| part_name(part)).collect();
         let part_types = sources.iter().map(|&part| self.part_type(part));
         let returned = self.returned(i);
-        let text = format!(" Part {} of `{}`, to be called.", i + 1, self.request.name);
+        let text = format!(" Part {} of `{}`, to be called.", i + 1, self.method.name);
         let SinkOfTask {
             generic,
             bound,
@@ -159,13 +174,13 @@ impl Writer<'_> {
     }
 
     fn task_type(&self, i: usize) -> proc_macro2::Ident {
-        format_ident!("{}Task{}", camel(self.request.name), i + 1)
+        format_ident!("{}Task{}", camel(self.method.name), i + 1)
     }
 
     /// What a piece returns.
     fn returned(&self, i: usize) -> TokenStream {
         if i + 1 == self.pieces.len() {
-            return self.request.results.returned();
+            return results::returned(self.method.results);
         }
         if !self.hands_on(i) {
             return quote!(());
@@ -185,9 +200,9 @@ impl Writer<'_> {
         let fields = self.pieces[i]
             .passes_on
             .iter()
-            .filter_map(|&id| self.schedule.name(id))
+            .filter_map(|&id| self.names.of(id))
             .map(ident);
-        let text = format!(" What part {} of `{}` hands on.", i + 1, self.request.name);
+        let text = format!(" What part {} of `{}` hands on.", i + 1, self.method.name);
         quote! {
             #[doc = #text]
             struct #name<T> { #(#fields: T),* }
@@ -195,7 +210,7 @@ impl Writer<'_> {
     }
 
     fn part_type(&self, i: usize) -> proc_macro2::Ident {
-        format_ident!("{}Part{}", camel(self.request.name), i + 1)
+        format_ident!("{}Part{}", camel(self.method.name), i + 1)
     }
 
     /// Which arguments a piece reads.
@@ -224,17 +239,12 @@ impl Writer<'_> {
 
     fn body(&self, i: usize, sources: &[usize]) -> Block {
         let piece = &self.pieces[i];
-        let printer = Printer::new(
-            &self.schedule,
-            self.inputs,
-            self.library,
-            self.request.constructs(),
-        );
+        let printer = self.printer();
         let lines = self.lines(piece, &printer);
         let result = if i + 1 == self.pieces.len() {
-            self.request
-                .results
-                .written(&self.schedule, &printer, self.pieces.len() > 1)
+            let pieces = self.pieces.len() > 1;
+            let results = self.method.results;
+            results::written(results, &self.schedule, self.inputs, &printer, pieces)
         } else if self.hands_on(i) {
             self.hand_over(i)
         } else {
@@ -260,7 +270,7 @@ impl Writer<'_> {
         let passed = &self.pieces[source].passes_on;
         let read = passed.iter().filter(|id| piece.reads.contains(id));
         let names: Vec<_> = read
-            .filter_map(|&id| self.schedule.name(id))
+            .filter_map(|&id| self.names.of(id))
             .map(ident)
             .collect();
         let rest = (names.len() < passed.len()).then(|| quote!(..));
@@ -280,7 +290,7 @@ impl Writer<'_> {
                 && let Some((of, index)) = self.inputs.input(symbol).element()
                 && of == argument
             {
-                names[index] = self.schedule.name(id);
+                names[index] = self.names.of(id);
             }
         }
         if names.iter().all(Option::is_none) {
@@ -319,7 +329,7 @@ impl Writer<'_> {
     /// Whether inputs are read where they are first used, and not at the top. What is put into a sink in between might lie where inputs do,
     /// so a compiler never moves their reading past it: read at the top, all of them would wait for their use in memory.
     fn reads_late(&self) -> bool {
-        self.request.results.one_by_one()
+        self.method.results.one_by_one()
     }
 
     fn lines(&self, piece: &Piece, printer: &Printer<'_>) -> Vec<Stmt> {
@@ -354,7 +364,7 @@ impl Writer<'_> {
                     written.push(self.reading(&elements, comment));
                 }
             }
-            let name = |id| self.schedule.name(id).map(str::to_owned);
+            let name = |id| self.names.of(id).map(str::to_owned);
             written.push(self.line(line.statement, comment, printer, name));
         }
         written
@@ -383,7 +393,7 @@ impl Writer<'_> {
 
     /// `let [a, b] = [q[7], q[8]];`
     fn reading(&self, elements: &[Element], comment: Option<Attribute>) -> Stmt {
-        let pattern = |&(.., id): &Element| syntax::binding(self.schedule.name(id));
+        let pattern = |&(.., id): &Element| syntax::binding(self.names.of(id));
         let value = |&(argument, index, _): &Element| syntax::element(argument.name(), index);
         match elements {
             [one] => syntax::binds(comment, pattern(one), value(one)),
@@ -427,7 +437,7 @@ impl Writer<'_> {
         let fields = self.pieces[i]
             .passes_on
             .iter()
-            .filter_map(|&id| self.schedule.name(id))
+            .filter_map(|&id| self.names.of(id))
             .map(ident);
         quote!(#of { #(#fields),* })
     }

@@ -2,7 +2,7 @@
 
 use super::expression::{Callee, ident, number};
 use super::user::Users;
-use crate::expression::{Function, Graph, Node, NodeId, live::Live};
+use crate::expression::{Function, Graph, Node, NodeId, UserCall, live::Live};
 use crate::model::{Extrapolate, ForceKind, Interpolate, Model};
 use crate::names::{Names, screaming};
 use proc_macro2::{Literal, TokenStream};
@@ -46,6 +46,17 @@ impl Library {
     /// The modules of the user's functions.
     pub(crate) fn users(&self, model: &Model) -> String {
         self.users.text(model, &self.names)
+    }
+
+    /// The function that stands for all that are called alike: of forces that call the same function of the user's, the first.
+    pub(crate) fn first_alike(&self, function: Function) -> Function {
+        match function {
+            Function::User(call) => Function::User(UserCall {
+                force: self.users.first_alike(call.force),
+                ..call
+            }),
+            other => other,
+        }
     }
 
     /// Where they stand.
@@ -102,7 +113,7 @@ impl Library {
         });
         let extrapolate = extrapolate(curve.extrapolate);
         let allowed = allow(curve.points.iter().flatten().chain(&tangents));
-        let text = format!(" Curve \"{}\".", super::header::plain(&curve.name));
+        let text = format!(" Curve \"{}\".", crate::names::plain(&curve.name));
         quote! {
             #[doc = #text]
             #allowed

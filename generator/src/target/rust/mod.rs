@@ -1,30 +1,45 @@
-//! From equations to Rust: one file per model, of items only, so that it can be `include!`d into a module.
+//! Rust: one file for a model, of items only, so that it can be `include!`d into a module.
 //!
-//! Equations ─plan→ one graph per method ─schedule→ lines ─split→ pieces ─print→ tokens ─format→ text
+//! What is written is decided by [`program`](crate::program); here it is printed.
+//!
+//! | file | what |
+//! |---|---|
+//! | `method`, `argument`, `results` | a method: its head, what it is given, what it returns |
+//! | `function` | its body, or the bodies of its pieces |
+//! | `subroutines`, `subroutine_names` | its body as calls of what like elements share |
+//! | `expression`, `syntax`, `naming` | statements and formulas as syntax trees, with names |
+//! | `implementation` | the trait `Model`, by the methods |
+//! | `items`, `library`, `user` | sizes, parameters, constants; curves and laws; functions of the user's |
+//! | `header`, `operations`, `comment` | what a reader sees first; comments between statements |
 //!
 //! What depends on parameters alone is computed once, in `Mechanism::new`; what is known to a method before it runs
 //! stands in its graph as an input. Every method is straight-line code: no branch, no loop, no index that is not a number.
 
-mod called;
-mod calls;
+mod argument;
 mod comment;
-pub(crate) mod expression;
+mod expression;
 mod function;
 mod header;
-pub(crate) mod items;
-pub(crate) mod library;
-pub(crate) mod method;
+mod implementation;
+mod items;
+mod library;
+mod method;
+mod naming;
 mod operations;
-pub(crate) mod results;
-pub(crate) mod syntax;
+mod results;
+mod subroutine_names;
+mod subroutines;
+mod syntax;
 mod user;
 
 use crate::equations::Equations;
 use crate::method::inputs::Inputs;
+use crate::method::table::{EACH_MOTION, Specification};
 use crate::model::Model;
-use crate::program::{Options, plan};
+use crate::program::Options;
+use crate::program::plan::{Plan, Procedure};
 use library::{Calls, Library};
-use method::{Function, Request};
+use method::Function;
 use syn::{File, ImplItem, Item, parse_quote};
 
 pub(crate) use user::pasted;
@@ -33,23 +48,21 @@ pub use user::{Adapter, Apart, apart, skeleton};
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
 pub const GENERATED_CODE_VERSION: u32 = 14;
 
-/// What a model is, in lines: its tree, its coordinates, what acts in it.
-pub fn about(model: &Model, equations: &Equations) -> Vec<String> {
-    header::lines(model, equations)
-}
-
 /// The text of a model's module. It depends on nothing but the arguments and the version of this crate.
 pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {
-    let mut inputs = Inputs::new(model, equations);
-    let derived = plan::derived(model, equations, options, None, &mut inputs);
-    let requests = plan::requests(model, equations, options, derived, &inputs, None);
+    let plan = Plan::new(model, equations, options, None);
     let library = Library::new(model);
     let mut calls = Calls::default();
-    for request in &requests {
-        calls.add(&request.graph, &request.roots);
+    for procedure in &plan.procedures {
+        calls.add(&procedure.graph, &procedure.roots);
     }
     calls.add_user(model);
-    let functions = functions(requests, &inputs, &library, options);
+    let motion = plan.motion();
+    let Plan { inputs, procedures } = plan;
+    let methods: Vec<Specification> = (procedures.iter())
+        .map(|procedure| procedure.method.clone())
+        .collect();
+    let functions = functions(procedures, motion, &inputs, &library, options);
 
     let uses = items::uses(model, equations, &calls, options);
     let curves = calls
@@ -62,7 +75,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     let structs = functions.iter().flat_map(|function| &function.structs);
     let info = items::info(model, equations);
     let indices = items::indices(model, equations, &inputs);
-    let implementation = items::implementation(equations, &library);
+    let implementation = implementation::implementation(equations, &methods, &library);
     // Nobody needs every method, and a model's numbers may come close to π without meaning it.
     let mut file: File = parse_quote! {
         #uses
@@ -100,22 +113,22 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
 
 /// The methods. That for v̇ is a part of the one for q̇ and v̇ at once.
 fn functions(
-    requests: Vec<Request<'_>>,
+    procedures: Vec<Procedure>,
+    mut motion: Option<Procedure>,
     inputs: &Inputs,
     library: &Library,
     options: &Options,
 ) -> Vec<Function> {
-    let mut motion = plan::motion(&requests);
-    let written = requests.into_iter().map(|request| {
-        let at_once = motion.take_if(|_| request.name == plan::ACCELERATIONS);
+    let written = procedures.into_iter().map(|procedure| {
+        let at_once = motion.take_if(|_| procedure.method.part_of.is_none());
         match at_once {
             Some(motion) => {
-                let part = request.beyond(plan::EACH_MOTION, "COORDINATES");
-                let mut motion = motion.write(inputs, library, options);
+                let part = method::part_of(&procedure.method, EACH_MOTION, "COORDINATES");
+                let mut motion = method::write(motion, inputs, library, options);
                 motion.methods.extend(part);
                 motion
             }
-            None => request.write(inputs, library, options),
+            None => method::write(procedure, inputs, library, options),
         }
     });
     written.collect()

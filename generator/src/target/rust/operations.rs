@@ -1,9 +1,10 @@
 //! What the methods of a module cost, as the tables at its top.
 
-use super::header::{line, plain};
+use super::header::line;
 use super::method::Function;
 use crate::equations::{Equations, Route};
 use crate::expression::count::Count;
+use crate::names::plain;
 
 /// Adds the operations of each method to the header, by kind and by section.
 pub(crate) fn tables(text: &mut String, equations: &Equations, functions: &[Function]) {

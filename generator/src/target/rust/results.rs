@@ -1,7 +1,9 @@
-//! How a method hands back what it computed.
+//! How a method returns what it computed, as Rust.
 
 use super::expression::{Printer, ident};
 use crate::expression::Node;
+use crate::method::inputs::Inputs;
+use crate::method::results::{Length, Results};
 use crate::program::schedule::Schedule;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -10,119 +12,96 @@ use syn::Expr;
 /// Rows up to which a matrix is written as a table.
 const READABLE_ROWS: usize = 6;
 
-/// What a method returns.
-#[derive(Clone, Copy)]
-pub(crate) enum Results<'a> {
-    /// `T`.
-    Scalar,
-    /// `[T; n]`, n being the constant of this name.
-    Array(&'static str),
-    /// Nothing: they are put into a sink one by one.
-    Each(Each),
-    /// `[T; n]` of this length.
-    List(usize),
-    /// `([T; COORDINATES], [T; VELOCITIES])`, this many in the first.
-    Start(usize),
-    /// `([T; COORDINATES], [T; VELOCITIES], [T; MEMORY])`, so many in the first two.
-    Renewed(usize, usize),
-    /// A vector of nalgebra.
-    Vector,
-    /// A symmetric matrix of nalgebra with this many rows; the roots are its upper triangle, by rows.
-    Matrix(usize),
-    /// The mechanism itself, with these fields.
-    Mechanism(&'a [String]),
-}
-
-/// How results are put into a sink.
-#[derive(Clone, Copy)]
-pub(crate) struct Each {
-    /// The method that does it.
-    pub method: &'static str,
-    /// How many they are, by the name of a constant, where a second method puts them into an array and returns that.
-    pub length: Option<&'static str>,
-}
-
-impl Results<'_> {
-    /// The type.
-    pub(crate) fn returned(&self) -> TokenStream {
-        match *self {
-            Results::Scalar => quote!(T),
-            Results::Each(..) => quote!(()),
-            Results::Array(length) => {
-                let length = ident(length);
-                quote!([T; #length])
-            }
-            Results::List(length) => {
-                let length = Literal::usize_unsuffixed(length);
-                quote!([T; #length])
-            }
-            Results::Start(_) => quote!(([T; COORDINATES], [T; VELOCITIES])),
-            Results::Renewed(..) => {
-                quote!(([T; COORDINATES], [T; VELOCITIES], [T; MEMORY]))
-            }
-            Results::Vector => quote!(SVector<T, VELOCITIES>),
-            Results::Matrix(_) => quote!(SMatrix<T, VELOCITIES, VELOCITIES>),
-            Results::Mechanism(_) => quote!(Self),
+/// The type that a method returns.
+pub(crate) fn returned(results: Results) -> TokenStream {
+    match results {
+        Results::Scalar => quote!(T),
+        Results::Written { .. } => quote!(()),
+        Results::Array(length) => {
+            let length = written_length(length);
+            quote!([T; #length])
         }
+        Results::Start => quote!(([T; COORDINATES], [T; VELOCITIES])),
+        Results::Renewed => {
+            quote!(([T; COORDINATES], [T; VELOCITIES], [T; MEMORY]))
+        }
+        Results::Vector => quote!(SVector<T, VELOCITIES>),
+        Results::Matrix => quote!(SMatrix<T, VELOCITIES, VELOCITIES>),
+        Results::Mechanism => quote!(Self),
     }
+}
 
-    /// Whether they are handed over by statements.
-    pub(crate) fn one_by_one(&self) -> bool {
-        matches!(self, Results::Each(..))
-    }
+/// A length as a constant of the module, or as a number.
+pub(crate) fn written_length(length: Length) -> TokenStream {
+    let name = match length {
+        Length::Coordinates => "COORDINATES",
+        Length::Velocities => "VELOCITIES",
+        Length::Auxiliaries => "AUXILIARIES",
+        Length::Memory => "MEMORY",
+        Length::Outputs => "OUTPUTS",
+        Length::Guards => "GUARDS",
+        Length::Kinks => "KINKS",
+        Length::Powers => "POWERS",
+        Length::Curves => "CURVES",
+        Length::Number(number) => {
+            let number = Literal::usize_unsuffixed(number);
+            return quote!(#number);
+        }
+    };
+    let name = ident(name);
+    quote!(#name)
+}
 
-    /// The last expression of a method. In pieces, the last one has the parameters by reference.
-    pub(crate) fn written(
-        &self,
-        schedule: &Schedule,
-        printer: &Printer<'_>,
-        pieces: bool,
-    ) -> TokenStream {
-        let values: Vec<Expr> = schedule
-            .returned()
-            .iter()
-            .map(|&id| printer.value(id))
-            .collect();
-        match *self {
-            Results::Scalar => quote!(#(#values)*),
-            Results::Each(..) => TokenStream::new(),
-            Results::Array(_) | Results::List(_) => quote!([#(#values),*]),
-            Results::Start(coordinates) => {
-                let (q, v) = values.split_at(coordinates);
-                quote!(([#(#q),*], [#(#v),*]))
-            }
-            Results::Renewed(coordinates, velocities) => {
-                let (q, rest) = values.split_at(coordinates);
-                let (v, m) = rest.split_at(velocities);
-                quote!(([#(#q),*], [#(#v),*], [#(#m),*]))
-            }
-            Results::Vector => quote!(SVector::from([#(#values),*])),
-            Results::Matrix(rows) if rows <= READABLE_ROWS => {
-                let rows = (0..rows).map(|row| {
-                    let entries =
-                        (0..rows).map(|column| &values[upper_triangle(rows, row, column)]);
-                    quote!([#(#entries),*])
-                });
-                quote!(SMatrix::from([#(#rows),*]))
-            }
-            Results::Matrix(rows) => sparse_matrix(schedule, rows, &values, printer),
-            Results::Mechanism(fields) => {
-                let fields = fields.iter().zip(&values).map(|(field, value)| {
-                    let field = ident(field);
-                    // A field of its own name is written once.
-                    if matches!(value, Expr::Path(path) if path.path.is_ident(&field)) {
-                        quote!(#field)
-                    } else {
-                        quote!(#field: #value)
-                    }
-                });
-                let copied = if pieces {
-                    quote!(parameters: *parameters)
+/// The last expression of a method. In pieces, the last one has the parameters by reference.
+pub(crate) fn written(
+    results: Results,
+    schedule: &Schedule,
+    inputs: &Inputs,
+    printer: &Printer<'_>,
+    pieces: bool,
+) -> TokenStream {
+    let values = schedule.returned().iter();
+    let values: Vec<Expr> = values.map(|&id| printer.value(id)).collect();
+    let (coordinates, velocities) = (inputs.coordinates.len(), inputs.velocities.len());
+    match results {
+        Results::Scalar => quote!(#(#values)*),
+        Results::Written { .. } => TokenStream::new(),
+        Results::Array(_) => quote!([#(#values),*]),
+        Results::Start => {
+            let (q, v) = values.split_at(coordinates);
+            quote!(([#(#q),*], [#(#v),*]))
+        }
+        Results::Renewed => {
+            let (q, rest) = values.split_at(coordinates);
+            let (v, m) = rest.split_at(velocities);
+            quote!(([#(#q),*], [#(#v),*], [#(#m),*]))
+        }
+        Results::Vector => quote!(SVector::from([#(#values),*])),
+        Results::Matrix if velocities <= READABLE_ROWS => {
+            let rows = (0..velocities).map(|row| {
+                let entries =
+                    (0..velocities).map(|column| &values[upper_triangle(velocities, row, column)]);
+                quote!([#(#entries),*])
+            });
+            quote!(SMatrix::from([#(#rows),*]))
+        }
+        Results::Matrix => sparse_matrix(schedule, velocities, &values, printer),
+        Results::Mechanism => {
+            let fields = inputs.derived.iter().zip(&values).map(|(field, value)| {
+                let field = ident(field);
+                // A field of its own name is written once.
+                if matches!(value, Expr::Path(path) if path.path.is_ident(&field)) {
+                    quote!(#field)
                 } else {
-                    quote!(parameters)
-                };
-                quote!(Self { #copied, #(#fields),* })
-            }
+                    quote!(#field: #value)
+                }
+            });
+            let copied = if pieces {
+                quote!(parameters: *parameters)
+            } else {
+                quote!(parameters)
+            };
+            quote!(Self { #copied, #(#fields),* })
         }
     }
 }

@@ -5,11 +5,10 @@
 //! its lines. Forces that call the same function with the same names share a module.
 
 use super::expression::ident;
-use super::header::plain;
 use super::items::INDICES;
 use super::library::{Calls, Library};
 use crate::model::{Dimension, ForceKind, Model, Port, User, UserSource};
-use crate::names::{Names, snake};
+use crate::names::{Names, plain, snake};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::{File, Path, parse_quote};
@@ -72,6 +71,13 @@ impl Users {
         self.paths
             .get(usize::from(force))
             .map_or(ADAPTER, String::as_str)
+    }
+
+    /// The first force whose adapter is that of a force.
+    pub(crate) fn first_alike(&self, force: u16) -> u16 {
+        let path = self.path(force);
+        let first = self.paths.iter().position(|other| other == path);
+        first.map_or(force, |first| first as u16)
     }
 
     /// The modules as text; `curves` are the constants of the model's curves.
@@ -285,6 +291,7 @@ impl Interface<'_> {
         self.user.dimension == Dimension::Plane
     }
 
+    // Long: an entry for each kind of port.
     fn kinds(&self) -> Vec<Kind> {
         let (vector, rotation, axes) = match self.user.dimension {
             Dimension::Plane => (Shape::Vector(2), Shape::Scalar, "[x, z] in absolute axes"),
@@ -757,6 +764,7 @@ impl Interface<'_> {
     }
 
     /// Scalars in, scalars out.
+    // Long: a part for each kind of argument and of result, in one order.
     fn adapter(&self) -> TokenStream {
         let mut count = 0;
         let mut next = || {

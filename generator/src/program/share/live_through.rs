@@ -1,18 +1,16 @@
-//! What calls of a function that like elements share leave for the next call, and for nobody else until the last of a run, which anybody may
-//! read.
+//! Live-through values: what a call of a subroutine leaves for the next call alone.
 //!
-//! In a chain each call returns what the next one starts from and what is read much later. Only the latter needs a place of its own for each
-//! element. The former stands in one variable for the whole run of calls: it is overwritten in turn and stays in the first cache, where
-//! the state of a hundred elements in wide registers does not.
+//! In a chain each call returns what the next one starts from, and what is read much later. The latter needs a place of its own for each
+//! element. The former stands in one variable for the whole run of calls. It is overwritten in turn, and so stays in the first cache, where
+//! the state of a hundred elements in wide registers has no room. After the last call of a run anybody may read it.
 
-use super::like::{Item, Like, Origins, Place, Port, read_by_lines};
-use super::schedule::Schedule;
+use super::{Item, Origins, Place, Port, Subroutine, read_by_lines};
 use crate::expression::NodeId;
+use crate::program::schedule::Schedule;
 use std::collections::BTreeSet;
 
-/// Values that a call finds where the one before left its own: a port through which the same text reads what
-/// nobody else does, but for what the last call of a run leaves.
-pub(crate) struct Carried {
+/// The live-through values of a subroutine: what it reads by one port, and nobody else reads but behind the last call of a run.
+pub(crate) struct LiveThrough {
     pub port: usize,
     /// The values.
     pub numbers: Vec<usize>,
@@ -22,42 +20,45 @@ pub(crate) struct Carried {
     pub last: Vec<bool>,
 }
 
-/// What calls of a text carry from one to the next, by the port that takes most.
-pub(crate) fn carried(
-    likes: &[Like],
-    like: usize,
+/// What calls of a subroutine hand to the next call, by the port that takes most.
+pub(crate) fn live_through(
+    subroutines: &[Subroutine],
+    subroutine: usize,
     schedule: &Schedule,
     items: &[Item],
     origins: &Origins,
-) -> Option<Carried> {
-    let ports = 0..likes[like].ports.len();
-    let carried = ports.filter_map(|port| carried_by(likes, like, port, schedule, items, origins));
-    carried.max_by_key(|carried| carried.numbers.len())
+) -> Option<LiveThrough> {
+    let ports = 0..subroutines[subroutine].ports.len();
+    let live_through = ports.filter_map(|port| {
+        live_through_by(subroutines, subroutine, port, schedule, items, origins)
+    });
+    live_through.max_by_key(|live_through| live_through.numbers.len())
 }
 
-/// What they carry by one port; `None` where anybody else reads it.
-fn carried_by(
-    likes: &[Like],
-    like: usize,
+/// What they hand over by one port; `None` where anybody else reads it.
+// Long: three conditions on the same few lists, one after the other.
+fn live_through_by(
+    subroutines: &[Subroutine],
+    subroutine: usize,
     port: usize,
     schedule: &Schedule,
     items: &[Item],
     origins: &Origins,
-) -> Option<Carried> {
-    let Like { blocks, ports, .. } = &likes[like];
+) -> Option<LiveThrough> {
+    let Subroutine { blocks, ports, .. } = &subroutines[subroutine];
     let Port::Returned {
-        like: of,
+        subroutine: of,
         blocks: from,
         gathered,
     } = &ports[port]
     else {
         return None;
     };
-    if *of != like {
+    if *of != subroutine {
         return None;
     }
     let mut numbers = BTreeSet::new();
-    for place in &likes[like].slots {
+    for place in &subroutines[subroutine].slots {
         if let Place::Value { port: of, number } = *place
             && of == port
         {
@@ -87,16 +88,20 @@ fn carried_by(
     // Nobody else reads what is overwritten.
     let mut read = read_by_lines(schedule, items);
     for item in items {
-        let Item::Call { like: user, block } = *item else {
+        let Item::Call {
+            subroutine: user,
+            block,
+        } = *item
+        else {
             continue;
         };
-        let used_by = &likes[user];
+        let used_by = &subroutines[user];
         for (&id, place) in used_by.blocks[block].slots.iter().zip(&used_by.slots) {
             let mut from_before = false;
             if let Place::Value { port: by, number } = *place {
-                let itself = (user, by) == (like, port);
+                let itself = (user, by) == (subroutine, port);
                 let shown = match &used_by.ports[by] {
-                    Port::Returned { like: of, .. } => *of == like,
+                    Port::Returned { subroutine: of, .. } => *of == subroutine,
                     Port::Argument { .. } => false,
                 };
                 // others are shown what calls return
@@ -111,13 +116,13 @@ fn carried_by(
         }
     }
     let kept = |id: &NodeId| match origins.get(id) {
-        Some(&(of, block, number)) if of == like && numbers.contains(&number) => last[block],
+        Some(&(of, block, number)) if of == subroutine && numbers.contains(&number) => last[block],
         _ => true,
     };
     if !read.iter().all(kept) {
         return None;
     }
-    Some(Carried {
+    Some(LiveThrough {
         port,
         numbers: numbers.into_iter().collect(),
         runs,

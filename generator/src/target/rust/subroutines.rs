@@ -1,12 +1,13 @@
-//! A method as calls: the texts that like elements have in common as functions, and the function that calls them.
+//! A method as calls: the subroutines that like elements share as functions, and the function that calls them.
 
-use super::called::{Called, CommonWords, Places, Word};
 use super::expression::{Printer, ident, number};
 use super::function::{SinkOfTask, Writer, arrow, with_body};
-use super::header::plain;
+use super::results;
+use super::subroutine_names::{Called, CommonWords, Places, Word};
 use crate::expression::{Node, NodeId};
 use crate::method::inputs::{Argument, Input};
-use crate::program::like::{Gathered, Item, Like, Place, Port, Sharing};
+use crate::names::plain;
+use crate::program::share::{Gathered, Item, Place, Port, Sharing, Subroutine};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
@@ -15,7 +16,7 @@ use std::collections::BTreeSet;
 use syn::{Block, Expr, ImplItemFn, Stmt, parse_quote};
 
 /// An argument of a called function.
-struct Given {
+struct Parameter {
     name: Ident,
     of: TokenStream,
     passed: Passed,
@@ -30,7 +31,7 @@ enum Passed {
     ToBeChanged,
 }
 
-impl Given {
+impl Parameter {
     fn named(name: &str, of: TokenStream, values: impl IntoIterator<Item = TokenStream>) -> Self {
         Self {
             name: ident(name),
@@ -54,27 +55,27 @@ impl Given {
 impl Writer<'_> {
     /// What calls return and their tasks; the functions that are called, and the method that calls them.
     pub(crate) fn in_calls(&mut self, sharing: &Sharing) -> (Vec<TokenStream>, Vec<ImplItemFn>) {
-        let likes = &sharing.likes;
-        let called: Vec<Called> = likes
+        let subroutines = &sharing.subroutines;
+        let called: Vec<Called> = subroutines
             .iter()
             .enumerate()
-            .map(|(i, like)| self.called(i, like, likes))
+            .map(|(i, subroutine)| self.called(i, subroutine, subroutines))
             .collect();
-        let bodies: Vec<Block> = (likes.iter().zip(&called))
-            .map(|(like, function)| self.common_body(like, function, &called))
+        let bodies: Vec<Block> = (subroutines.iter().zip(&called))
+            .map(|(subroutine, function)| self.common_body(subroutine, function, &called))
             .collect();
 
-        let places = self.name_places(likes, &called);
+        let places = self.name_places(subroutines, &called);
         let (mut structs, mut methods) = (Vec::new(), Vec::new());
         let mut given = Vec::new();
-        let printer = Printer::new(&self.schedule, self.inputs, self.library, false);
+        let printer = self.printer();
         for (i, body) in bodies.into_iter().enumerate() {
-            let (like, function) = (&likes[i], &called[i]);
+            let (subroutine, function) = (&subroutines[i], &called[i]);
             let arguments = self.given(sharing, i, &called, &places, &printer);
-            structs.extend(self.returned_struct(like, function));
-            structs.extend(self.carried_struct(like, function));
-            structs.push(self.task_struct(like, function, &arguments));
-            methods.push(self.common_method(like, function, &arguments, body));
+            structs.extend(self.returned_struct(subroutine, function));
+            structs.extend(self.live_through_struct(subroutine, function));
+            structs.push(self.task_struct(subroutine, function, &arguments));
+            methods.push(self.common_method(subroutine, function, &arguments, body));
             given.push(arguments);
         }
         methods.extend(self.calling_method(sharing, &called, &places, &given, &printer));
@@ -82,15 +83,17 @@ impl Writer<'_> {
     }
 
     /// What the function computes, in the words of the first block.
-    fn common_body(&self, like: &Like, function: &Called, called: &[Called]) -> Block {
-        let plain = Printer::new(&self.schedule, self.inputs, self.library, false);
-        let first = like.first();
+    fn common_body(&self, subroutine: &Subroutine, function: &Called, called: &[Called]) -> Block {
+        let plain = self.printer();
+        let first = subroutine.first();
         let place = |place: &Place| match *place {
             Place::Common(_) => Word::Input,
             Place::Element { port, index } => Word::Element(&function.ports[port], index),
             Place::Value { port, number } => {
-                let name = match &like.ports[port] {
-                    Port::Returned { like, .. } => called[*like].values[number].as_str(),
+                let name = match &subroutine.ports[port] {
+                    Port::Returned { subroutine, .. } => {
+                        called[*subroutine].values[number].as_str()
+                    }
                     Port::Argument { .. } => "",
                 };
                 Word::Field(&function.ports[port], name)
@@ -99,17 +102,17 @@ impl Writer<'_> {
         };
         let values = first.values.iter().zip(&function.values);
         let values = values.map(|(&id, name)| (id, Word::Name(name)));
-        let slots = first.slots.iter().zip(&like.slots);
+        let slots = first.slots.iter().zip(&subroutine.slots);
         let words = CommonWords {
             plain: &plain,
             words: values
                 .chain(slots.map(|(&id, at)| (id, place(at))))
                 .collect(),
-            numbers: &like.numbers,
+            numbers: &subroutine.numbers,
             next: Cell::new(0),
             puts: (&first.puts, &function.puts),
         };
-        let printer = Printer::in_words(&self.schedule, self.inputs, self.library, &words);
+        let printer = plain.in_words(&words);
         let names: FxHashMap<NodeId, &String> =
             first.values.iter().copied().zip(&function.values).collect();
         let sections = self.schedule.graph.sections();
@@ -124,20 +127,26 @@ impl Writer<'_> {
             lines.push(self.line(line.statement, comment, &printer, name));
         }
         let returned = &function.returned;
-        let fields = like.outputs.iter().map(|&n| ident(&function.values[n]));
+        let fields = subroutine
+            .outputs
+            .iter()
+            .map(|&n| ident(&function.values[n]));
         let num = printer
             .prints_numbers()
             .then(|| quote!(let num = T::from_f64;));
         let mut body: Block = parse_quote!({ #num });
         body.stmts.extend(lines);
-        if let Some(carried) = &like.carried {
-            let (name, port) = (&function.carried, ident(&function.ports[carried.port]));
-            let fields = carried.numbers.iter();
+        if let Some(live_through) = &subroutine.live_through {
+            let (name, port) = (
+                &function.live_through,
+                ident(&function.ports[live_through.port]),
+            );
+            let fields = live_through.numbers.iter();
             let fields = fields.map(|&n| ident(&function.values[n]));
             body.stmts
                 .push(parse_quote!(*#port = #name { #(#fields),* };));
         }
-        if !like.outputs.is_empty() {
+        if !subroutine.outputs.is_empty() {
             let end: Block = parse_quote!({ #returned { #(#fields),* } });
             body.stmts.extend(end.stmts);
         }
@@ -145,6 +154,7 @@ impl Writer<'_> {
     }
 
     /// What the function is given.
+    // Long: a part for each kind of argument, in the order in which they are passed.
     fn given(
         &self,
         sharing: &Sharing,
@@ -152,32 +162,32 @@ impl Writer<'_> {
         called: &[Called],
         places: &[Places],
         printer: &Printer<'_>,
-    ) -> Vec<Given> {
-        let likes = &sharing.likes;
-        let (like, function) = (&likes[i], &called[i]);
+    ) -> Vec<Parameter> {
+        let subroutines = &sharing.subroutines;
+        let (subroutine, function) = (&subroutines[i], &called[i]);
         let mut given = Vec::new();
         let time = |place: &Place| match *place {
             Place::Common(id) => self.is_time(id),
             _ => false,
         };
-        if like.slots.iter().any(time) {
-            given.push(Given {
+        if subroutine.slots.iter().any(time) {
+            given.push(Parameter {
                 passed: Passed::ByValue,
-                ..Given::named("t", quote!(T), vec![quote!(t); like.blocks.len()])
+                ..Parameter::named("t", quote!(T), vec![quote!(t); subroutine.blocks.len()])
             });
         }
-        for (place, (port, name)) in like.ports.iter().zip(&function.ports).enumerate() {
-            if let Some(carried) = &like.carried
-                && carried.port == place
+        for (place, (port, name)) in subroutine.ports.iter().zip(&function.ports).enumerate() {
+            if let Some(live_through) = &subroutine.live_through
+                && live_through.port == place
             {
-                let type_of = &function.carried;
-                let values = carried.runs.iter().map(|&run| {
-                    let variable = ident(&places[i].carried[run]);
+                let type_of = &function.live_through;
+                let values = live_through.runs.iter().map(|&run| {
+                    let variable = ident(&places[i].live_through[run]);
                     quote!(&mut #variable)
                 });
-                given.push(Given {
+                given.push(Parameter {
                     passed: Passed::ToBeChanged,
-                    ..Given::named(name, quote!(#type_of<T>), values)
+                    ..Parameter::named(name, quote!(#type_of<T>), values)
                 });
                 continue;
             }
@@ -192,10 +202,10 @@ impl Writer<'_> {
                     let from = starts.iter().map(|&start| Literal::usize_unsuffixed(start));
                     let values =
                         from.map(|from| quote!(bryant_runtime::part::<#from, _, _, _>(#all)));
-                    Given::named(name, quote!([T; #length]), values)
+                    Parameter::named(name, quote!([T; #length]), values)
                 }
                 Port::Returned {
-                    like: of,
+                    subroutine: of,
                     blocks,
                     gathered,
                 } => {
@@ -205,65 +215,65 @@ impl Writer<'_> {
                             let name = ident(&places[*of].returned[*block]);
                             return quote!(&#name);
                         }
-                        let (outputs, of) = (&likes[*of].outputs, &called[*of]);
+                        let (outputs, of) = (&subroutines[*of].outputs, &called[*of]);
                         let fields = gathered_fields(gathered, outputs, of, printer);
                         quote!(&#type_of { #(#fields),* })
                     };
                     let values = blocks.iter().zip(gathered).map(value);
-                    Given::named(name, quote!(#type_of<T>), values)
+                    Parameter::named(name, quote!(#type_of<T>), values)
                 }
             });
         }
         for (run, name) in function.puts.iter().enumerate() {
-            let places = like.blocks.iter().map(|block| {
+            let places = subroutine.blocks.iter().map(|block| {
                 let place = Literal::usize_unsuffixed(block.puts[run].start);
                 quote!(#place)
             });
-            given.push(Given {
+            given.push(Parameter {
                 passed: Passed::ByValue,
-                ..Given::named(name, quote!(usize), places)
+                ..Parameter::named(name, quote!(usize), places)
             });
         }
-        let copied = like.copied[0].len();
+        let copied = subroutine.copied[0].len();
         if copied > 0 {
             let length = Literal::usize_unsuffixed(copied);
-            let values = like.copied.iter().map(|copied| {
+            let values = subroutine.copied.iter().map(|copied| {
                 let copied = copied.iter().map(|&id| printer.value(id));
                 quote!(&[#(#copied),*])
             });
-            given.push(Given::named("x", quote!([T; #length]), values));
+            given.push(Parameter::named("x", quote!([T; #length]), values));
         }
-        let listed = like.listed[0].len();
+        let listed = subroutine.listed[0].len();
         if listed > 0 {
             let length = Literal::usize_unsuffixed(listed);
-            let values = like.listed.iter().map(|list| {
+            let values = subroutine.listed.iter().map(|list| {
                 let list = list.iter().map(|&value| number(value));
                 quote!(&[#(#list),*])
             });
-            given.push(Given::named("c", quote!([f64; #length]), values));
+            given.push(Parameter::named("c", quote!([f64; #length]), values));
         }
         given
     }
 
     /// `let mut carried = …;`: what the first call of a run finds.
-    fn first_carried(
+    fn first_live_through(
         &self,
-        like: &Like,
+        subroutine: &Subroutine,
         function: &Called,
         places: &Places,
         block: usize,
         printer: &Printer<'_>,
     ) -> Option<Stmt> {
-        let carried = like.carried.as_ref()?;
-        let Port::Returned { gathered, .. } = &like.ports[carried.port] else {
+        let live_through = subroutine.live_through.as_ref()?;
+        let Port::Returned { gathered, .. } = &subroutine.ports[live_through.port] else {
             return None;
         };
         gathered[block].as_ref()?;
         let (name, variable) = (
-            &function.carried,
-            ident(&places.carried[carried.runs[block]]),
+            &function.live_through,
+            ident(&places.live_through[live_through.runs[block]]),
         );
-        let fields = gathered_fields(&gathered[block], &carried.numbers, function, printer);
+        let fields = gathered_fields(&gathered[block], &live_through.numbers, function, printer);
         Some(parse_quote!(let mut #variable = #name { #(#fields),* };))
     }
 
@@ -274,11 +284,14 @@ impl Writer<'_> {
         }
     }
 
-    fn returned_struct(&self, like: &Like, function: &Called) -> Option<TokenStream> {
+    fn returned_struct(&self, subroutine: &Subroutine, function: &Called) -> Option<TokenStream> {
         let text = format!(" What `{}` returns.", function.function);
         let returned = &function.returned;
-        let fields = like.outputs.iter().map(|&n| ident(&function.values[n]));
-        (!like.outputs.is_empty()).then(|| {
+        let fields = subroutine
+            .outputs
+            .iter()
+            .map(|&n| ident(&function.values[n]));
+        (!subroutine.outputs.is_empty()).then(|| {
             quote! {
                 #[doc = #text]
                 struct #returned<T> { #(#fields: T),* }
@@ -286,27 +299,36 @@ impl Writer<'_> {
         })
     }
 
-    fn carried_struct(&self, like: &Like, function: &Called) -> Option<TokenStream> {
+    fn live_through_struct(
+        &self,
+        subroutine: &Subroutine,
+        function: &Called,
+    ) -> Option<TokenStream> {
         let text = format!(
             " What a call of `{}` leaves for the next.",
             function.function
         );
-        let carried = &function.carried;
-        let numbers = &like.carried.as_ref()?.numbers;
+        let live_through = &function.live_through;
+        let numbers = &subroutine.live_through.as_ref()?.numbers;
         let fields = numbers.iter().map(|&n| ident(&function.values[n]));
         Some(quote! {
             #[doc = #text]
-            struct #carried<T> { #(#fields: T),* }
+            struct #live_through<T> { #(#fields: T),* }
         })
     }
 
-    fn task_struct(&self, like: &Like, function: &Called, given: &[Given]) -> TokenStream {
+    fn task_struct(
+        &self,
+        subroutine: &Subroutine,
+        function: &Called,
+        given: &[Parameter],
+    ) -> TokenStream {
         let Called {
             function: name,
             task,
             ..
         } = function;
-        let returned = returned(like, function);
+        let returned = returned(subroutine, function);
         let text = format!(" A call of `{name}`.");
         let names: Vec<_> = given.iter().map(|given| &given.name).collect();
         let types = given.iter().map(|given| given.of(&quote!('a)));
@@ -315,7 +337,7 @@ impl Writer<'_> {
             bound,
             field,
             value,
-        } = SinkOfTask::of(like.puts());
+        } = SinkOfTask::of(subroutine.puts());
         quote! {
             #[doc = #text]
             struct #task<'a, T #generic> {
@@ -337,20 +359,23 @@ impl Writer<'_> {
 
     fn common_method(
         &self,
-        like: &Like,
+        subroutine: &Subroutine,
         function: &Called,
-        given: &[Given],
+        given: &[Parameter],
         body: Block,
     ) -> ImplItemFn {
         let name = &function.function;
-        let returned = arrow(&returned(like, function));
-        let sink = like.puts().then(|| quote!(sink: &mut impl Sink<T>));
-        let owners = like.blocks.iter().map(|b| self.owner(b.lines.end - 1));
+        let returned = arrow(&returned(subroutine, function));
+        let sink = subroutine.puts().then(|| quote!(sink: &mut impl Sink<T>));
+        let owners = subroutine
+            .blocks
+            .iter()
+            .map(|b| self.owner(b.lines.end - 1));
         let owners: Vec<String> = owners.collect();
         let text = format!(
             " What {} elements have in common in `{}`, as it is for {}: {}.",
             owners.len(),
-            self.request.name,
+            self.method.name,
             owners[0],
             list(&owners)
         );
@@ -368,17 +393,18 @@ impl Writer<'_> {
     }
 
     /// The method, with the lines that no others are like.
+    // Long: it goes over lines and calls once, and collects what they read on the way.
     fn calling_method(
         &self,
         sharing: &Sharing,
         called: &[Called],
         places: &[Places],
-        given: &[Vec<Given>],
+        given: &[Vec<Parameter>],
         printer: &Printer<'_>,
     ) -> Vec<ImplItemFn> {
         let (mut reads, mut arguments) = (BTreeSet::new(), BTreeSet::new());
-        for like in &sharing.likes {
-            for port in &like.ports {
+        for subroutine in &sharing.subroutines {
+            for port in &subroutine.ports {
                 match port {
                     Port::Argument { argument, .. } => {
                         arguments.insert(*argument);
@@ -389,10 +415,10 @@ impl Writer<'_> {
                     }
                 }
             }
-            for &id in like.copied.iter().flatten() {
+            for &id in subroutine.copied.iter().flatten() {
                 self.schedule.reads(id, &mut reads);
             }
-            let common = like.slots.iter().filter_map(|place| match *place {
+            let common = subroutine.slots.iter().filter_map(|place| match *place {
                 Place::Common(id) => Some(id),
                 _ => None,
             });
@@ -411,22 +437,23 @@ impl Writer<'_> {
                     }
                     let comment = line.begins(&mut current);
                     let comment = comment.map(|section| sections[section].as_str());
-                    let name = |id| self.schedule.name(id).map(str::to_owned);
+                    let name = |id| self.names.of(id).map(str::to_owned);
                     lines.push(self.line(line.statement, comment, printer, name));
                 }
-                Item::Call { like, block } => {
+                Item::Call { subroutine, block } => {
                     current = None;
-                    let task = &called[like].task;
-                    let names = given[like].iter().map(|given| &given.name);
-                    let values = given[like].iter().map(|given| &given.values[block]);
-                    let (of, function) = (&sharing.likes[like], &called[like]);
-                    let first = self.first_carried(of, function, &places[like], block, printer);
+                    let task = &called[subroutine].task;
+                    let names = given[subroutine].iter().map(|given| &given.name);
+                    let values = given[subroutine].iter().map(|given| &given.values[block]);
+                    let (of, function) = (&sharing.subroutines[subroutine], &called[subroutine]);
+                    let first =
+                        self.first_live_through(of, function, &places[subroutine], block, printer);
                     lines.extend(first);
                     let sink = of.puts().then(|| quote!(sink: &mut *sink));
                     let call = quote! {
                         T::enable_apart(#task { mechanism: self, #(#names: #values,)* #sink })
                     };
-                    let name = ident(&places[like].returned[block]);
+                    let name = ident(&places[subroutine].returned[block]);
                     // the last element of many may compute what nobody asks for
                     let values = &of.blocks[block].values;
                     let asked_for = of.outputs.iter().any(|&n| read.contains(&values[n]));
@@ -440,7 +467,13 @@ impl Writer<'_> {
         for &root in self.schedule.returned() {
             self.schedule.reads(root, &mut reads);
         }
-        let results = self.request.results.written(&self.schedule, printer, true);
+        let results = results::written(
+            self.method.results,
+            &self.schedule,
+            self.inputs,
+            printer,
+            true,
+        );
         arguments.extend(self.arguments_of(&reads));
         let arrays = Argument::ARRAYS
             .iter()
@@ -457,9 +490,9 @@ impl Writer<'_> {
 }
 
 /// What a call returns.
-fn returned(like: &Like, function: &Called) -> TokenStream {
+fn returned(subroutine: &Subroutine, function: &Called) -> TokenStream {
     let returned = &function.returned;
-    match like.outputs.is_empty() {
+    match subroutine.outputs.is_empty() {
         true => quote!(()),
         false => quote!(#returned<T>),
     }

@@ -5,8 +5,8 @@ use super::function::Writer;
 use super::syntax;
 use crate::expression::{NodeId, owner};
 use crate::names::{Names, camel, snake};
-use crate::program::carry::Carried;
-use crate::program::like::{Like, Number, Port, place_in};
+use crate::program::share::LiveThrough;
+use crate::program::share::{Number, Port, Subroutine, place_in};
 use proc_macro2::Ident;
 use quote::format_ident;
 use rustc_hash::FxHashMap;
@@ -25,31 +25,44 @@ pub(crate) struct Called {
     pub ports: Vec<String>,
     /// By run of places that it puts something at: where that begins.
     pub puts: Vec<String>,
-    /// The struct of what is carried from call to call.
-    pub carried: Ident,
+    /// The struct of what a call leaves for the next.
+    pub live_through: Ident,
 }
 
 /// Where the method that calls finds results.
 pub(crate) struct Places {
     /// By block: the variable of what its call returned.
     pub returned: Vec<String>,
-    /// By run: the variable of what its calls carry on.
-    pub carried: Vec<String>,
+    /// By run: the variable of what a call leaves for the next.
+    pub live_through: Vec<String>,
 }
 
 impl Writer<'_> {
     /// Names that do not name the element of the first block, which is one of many.
-    pub(crate) fn called(&self, i: usize, like: &Like, likes: &[Like]) -> Called {
-        let (method, number) = (self.request.name, i + 1);
-        let own = self.owner(like.first().lines.end - 1);
+    pub(crate) fn called(
+        &self,
+        i: usize,
+        subroutine: &Subroutine,
+        subroutines: &[Subroutine],
+    ) -> Called {
+        let (method, number) = (self.method.name, i + 1);
+        let own = self.owner(subroutine.first().lines.end - 1);
         let element = snake(own.split_once(' ').map_or(own.as_str(), |(_, name)| name));
         let mut names = Names::with(&["self", "num", "t", "x", "c", "sink"]);
-        let puts = like.first().puts.iter().map(|_| names.take("at")).collect();
-        let ports = like.ports.iter().map(|port| {
+        let puts = subroutine
+            .first()
+            .puts
+            .iter()
+            .map(|_| names.take("at"))
+            .collect();
+        let ports = subroutine.ports.iter().map(|port| {
             names.take(match port {
                 Port::Argument { argument, .. } => argument.name(),
-                Port::Returned { like, blocks, .. } => {
-                    let source = blocks[0].map(|block| likes[*like].blocks[block].lines.end - 1);
+                Port::Returned {
+                    subroutine, blocks, ..
+                } => {
+                    let source =
+                        blocks[0].map(|block| subroutines[*subroutine].blocks[block].lines.end - 1);
                     let same = source.is_some_and(|line| self.owner(line) == own);
                     if same { "own" } else { "other" }
                 }
@@ -57,8 +70,8 @@ impl Writer<'_> {
         });
         let ports = ports.collect();
         let mut temporaries = 0;
-        let values = like.first().values.iter().map(|&id| {
-            let name = self.schedule.name(id).unwrap_or_default();
+        let values = subroutine.first().values.iter().map(|&id| {
+            let name = self.names.of(id).unwrap_or_default();
             let nameless = name
                 .strip_prefix('t')
                 .is_some_and(|n| n.parse::<usize>().is_ok());
@@ -73,7 +86,7 @@ impl Writer<'_> {
             function: format_ident!("{method}_like_{number}"),
             task: format_ident!("{}LikeTask{number}", camel(method)),
             returned: format_ident!("{}Like{number}", camel(method)),
-            carried: format_ident!("{}Carried{number}", camel(method)),
+            live_through: format_ident!("{}Carried{number}", camel(method)),
             values,
             ports,
             puts,
@@ -81,42 +94,49 @@ impl Writer<'_> {
     }
 
     /// Names the places, and calls values that blocks bind by them from here on.
-    pub(crate) fn name_places(&mut self, likes: &[Like], called: &[Called]) -> Vec<Places> {
+    pub(crate) fn name_places(
+        &mut self,
+        subroutines: &[Subroutine],
+        called: &[Called],
+    ) -> Vec<Places> {
         let mut names = Names::with(&["self", "num", "sink", "q", "v", "z", "m", "a", "g", "t"]);
-        for name in self.schedule.all_names() {
+        for name in self.names.all() {
             names.take(name);
         }
         let mut places = Vec::new();
-        for (like, function) in likes.iter().zip(called) {
-            let owners: Vec<String> = (like.blocks.iter())
+        for (subroutine, function) in subroutines.iter().zip(called) {
+            let owners: Vec<String> = (subroutine.blocks.iter())
                 .map(|block| self.owner(block.lines.end - 1))
                 .collect();
             let returned: Vec<String> = (owners.iter())
                 .map(|owner| names.take(&snake(owner)))
                 .collect();
             let field = |place: &str, number: usize| format!("{place}.{}", function.values[number]);
-            for (block, place) in like.blocks.iter().zip(&returned) {
-                let outputs = like.outputs.iter();
+            for (block, place) in subroutine.blocks.iter().zip(&returned) {
+                let outputs = subroutine.outputs.iter();
                 let fields = outputs.map(|&n| (block.values[n], field(place, n)));
-                self.schedule.rename(fields);
+                self.names.rename(fields);
             }
-            let mut carried = Vec::new();
-            if let Some(Carried {
+            let mut live_through = Vec::new();
+            if let Some(LiveThrough {
                 numbers,
                 runs,
                 last,
                 ..
-            }) = &like.carried
+            }) = &subroutine.live_through
             {
                 let count = runs.iter().max().map_or(0, |run| run + 1);
-                carried.extend((0..count).map(|_| names.take("carried")));
-                for ((block, &run), &last) in like.blocks.iter().zip(runs).zip(last) {
+                live_through.extend((0..count).map(|_| names.take("carried")));
+                for ((block, &run), &last) in subroutine.blocks.iter().zip(runs).zip(last) {
                     let numbers = numbers.iter().filter(|_| last);
-                    let fields = numbers.map(|&n| (block.values[n], field(&carried[run], n)));
-                    self.schedule.rename(fields);
+                    let fields = numbers.map(|&n| (block.values[n], field(&live_through[run], n)));
+                    self.names.rename(fields);
                 }
             }
-            places.push(Places { returned, carried });
+            places.push(Places {
+                returned,
+                live_through,
+            });
         }
         places
     }
