@@ -11,7 +11,6 @@ use crate::expression::live::{Dependence, Live};
 use crate::expression::{Node, NodeId};
 use crate::model::Model;
 use crate::names::snake;
-use crate::program::breakpoints;
 
 /// A method before any pass.
 #[derive(Clone, Debug)]
@@ -257,7 +256,8 @@ fn coordinate_rates(from: &Source<'_>) -> Option<Specification> {
 }
 
 fn kink_rates(from: &Source<'_>) -> Option<Specification> {
-    let rates = breakpoints::rates(from.equations);
+    let stretched = from.equations.stretched_curves_of_time();
+    let rates: Vec<NodeId> = stretched.map(|(_, rate)| rate).collect();
     let results = Results::Array(Length::Number(rates.len()));
     (!rates.is_empty()).then(|| Specification {
         documentation: "By what time is multiplied in the curves of time that parameters stretch.",

@@ -1,10 +1,10 @@
 //! All methods of a model as lists, of the same schedules as the text.
 
+use super::lower;
 use super::order::Order;
 use super::plan::{Plan, Procedure};
 use super::schedule::Schedule;
 use super::{Costs, Curve, Facts, List, Lists, Method, Options, Routine, Start};
-use super::{breakpoints, lower};
 use crate::equations::Equations;
 use crate::method::inputs::Inputs;
 use crate::model::{ForceKind, Interpolate, Model};
@@ -38,7 +38,8 @@ pub fn counted_lists(
         curves: curves(model),
         users: users(model),
         rules: equations.conditions.iter().map(|c| c.rule).collect(),
-        stretched: breakpoints::adjustable(equations)
+        stretched: equations
+            .stretched_curves_of_time()
             .map(|(curve, _)| curve as u32)
             .collect(),
         quaternions: neighbours(&equations.quaternions),

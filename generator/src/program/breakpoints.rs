@@ -1,10 +1,9 @@
-//! When curves of time have kinks: constants where their stretch is a number, a method of the model where parameters say.
+//! When curves of time have kinks, as far as that does not depend on parameters.
 //!
 //! A curve of rate · t passes its point x_k at the smallest time with rate · t ≥ x_k as it is computed, so that a step that
 //! ends there has its last stage on the left of the point and the next one its first on the right.
 
 use crate::equations::Equations;
-use crate::expression::NodeId;
 use crate::model::Model;
 
 /// The times known beforehand, increasing.
@@ -19,17 +18,6 @@ pub(crate) fn constant(model: &Model, equations: &Equations) -> Vec<f64> {
     times.sort_by(f64::total_cmp);
     times.dedup();
     times
-}
-
-/// The rates that parameters say: what `kink_rates` returns.
-pub(crate) fn rates(equations: &Equations) -> Vec<NodeId> {
-    adjustable(equations).map(|(_, rate)| rate).collect()
-}
-
-/// The curves of time that parameters stretch, each with its rate.
-pub(crate) fn adjustable(equations: &Equations) -> impl Iterator<Item = (usize, NodeId)> + '_ {
-    let kinks = equations.curves_of_time.iter().copied();
-    kinks.filter(|(_, rate)| equations.graph.expr(*rate).as_constant().is_none())
 }
 
 /// The smallest time t with rate · t ≥ x.

@@ -1,4 +1,4 @@
-//! Which values get a `let`, and which are written where they are used.
+//! Which values are bound to a name, and which are written where they are used.
 //!
 //! A value that is used once, by its own section, and has no name is written where it is used, as long as the expression
 //! fits on a line and does not nest too deep.
@@ -8,8 +8,16 @@ use crate::expression::{Graph, Node, NodeId};
 use crate::method::inputs::{Input, Inputs};
 use rustc_hash::FxHashMap;
 
-/// Characters that an expression may take: what is left of a line after `let` and a name.
+/// Characters that an expression may take: what is left of a line after the name of its value.
 const LINE: usize = 68;
+/// Characters that stand around a number, as the scalar that is computed with.
+const AROUND_NUMBER: usize = 5;
+/// Characters before the name of a value that depends on parameters alone.
+const BEFORE_DERIVED: usize = 5;
+/// Characters before the name of a parameter.
+const BEFORE_PARAMETER: usize = 16;
+/// Characters of a name that is given when everything is in order.
+const NAMELESS: usize = 4;
 /// Characters that each name and number counts for where elements are to be found alike, whatever they are called.
 const ALIKE: usize = 10;
 /// Levels of nesting that one expression may have.
@@ -112,17 +120,17 @@ fn user_sections(graph: &Graph, uses: &[u32]) -> Vec<Option<usize>> {
 /// Width of a number or an input; `None` for an operation.
 fn leaf(node: Node, inputs: &Inputs) -> Option<usize> {
     match node {
-        Node::Constant(bits) => Some(format!("num({:?})", f64::from_bits(bits)).len()),
+        Node::Constant(bits) => Some(AROUND_NUMBER + format!("{:?}", f64::from_bits(bits)).len()),
         Node::Symbol(symbol) => Some(match inputs.input(symbol) {
-            Input::Time => "t".len(),
+            Input::Time => 1,
             Input::Coordinate(i) => inputs.coordinates[i].len(),
             Input::Velocity(i) => inputs.velocities[i].len(),
             Input::Auxiliary(i) => inputs.auxiliaries[i].len(),
             Input::Memory(i) => inputs.memory[i].len(),
             Input::Acceleration(i) => inputs.accelerations[i].len(),
             Input::Guard(i) => inputs.guards[i].len(),
-            Input::Parameter(i) => "self.parameters.".len() + inputs.parameters[i].len(),
-            Input::Derived(i) => "self.".len() + inputs.derived[i].len(),
+            Input::Parameter(i) => BEFORE_PARAMETER + inputs.parameters[i].len(),
+            Input::Derived(i) => BEFORE_DERIVED + inputs.derived[i].len(),
         }),
         _ => None,
     }
@@ -133,7 +141,7 @@ fn word(graph: &Graph, id: NodeId, labels: &FxHashMap<NodeId, String>) -> Look {
     let name = graph.name_of(id);
     let name = name.as_ref().or_else(|| labels.get(&id));
     Look {
-        width: name.map_or("t123".len(), String::len),
+        width: name.map_or(NAMELESS, String::len),
         depth: 0,
     }
 }
@@ -146,17 +154,18 @@ fn look(node: Node, looks: &[Look]) -> Look {
         width += look.width;
         depth = depth.max(look.depth);
     }
+    // what stands around the operands, roughly
     let around = match node {
         Node::Constant(_) | Node::Symbol(_) => 0,
-        Node::Neg(_) => "-".len(),
-        Node::Add(..) | Node::Sub(..) | Node::Mul(..) | Node::Div(..) => " + ".len(),
-        Node::MulAdd(..) => ".mul_add(, )".len(),
-        Node::Sqrt(_) => ".sqrt()".len(),
-        Node::Sin(_) | Node::Cos(_) => ".sin_cos()".len(),
-        Node::Atan2(..) => ".atan2()".len(),
-        Node::Max(..) | Node::Min(..) => ".max()".len(),
-        Node::Call(..) => "force::friction::coulomb_scale(, , )".len(),
-        Node::Arguments(_) => ", , ".len(),
+        Node::Neg(_) => 1,
+        Node::Add(..) | Node::Sub(..) | Node::Mul(..) | Node::Div(..) => 3,
+        Node::MulAdd(..) => 12,
+        Node::Sqrt(_) => 7,
+        Node::Sin(_) | Node::Cos(_) => 10,
+        Node::Atan2(..) => 8,
+        Node::Max(..) | Node::Min(..) => 6,
+        Node::Call(..) => 36,
+        Node::Arguments(_) => 4,
     };
     Look {
         width: width + around,

@@ -20,7 +20,7 @@
 
 mod about;
 mod assemble;
-pub(crate) mod breakpoints;
+mod breakpoints;
 mod facts;
 pub(crate) mod formula;
 pub(crate) mod hoist;

@@ -726,13 +726,14 @@ mod tests {
 
     /// The tokens and the numbers of one value.
     fn read(value: impl FnOnce(&Graph) -> NodeId) -> (Vec<Token>, Vec<f64>) {
-        let text = "{ model: m, dimension: 2, systems: [{ name: s, elements: [{ name: e, mass: 1, inertia: 1 }] }] }";
+        let text = "{ model: m, dimension: 2, systems: [{ name: s, elements: [{ name: e, mass: 1, cg: [0, -1], inertia: 1 }] }] }";
         let loader = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
         let (model, _) = read_str("m.yaml", text, &loader).expect("a model");
         let inputs = Inputs::new(&model, &derive(&model));
         let graph = Graph::new();
         let root = value(&graph);
-        let schedule = Schedule::new(graph, vec![root], &[], &inputs, Order::Owner, false);
+        let labels = ["result".to_owned()];
+        let schedule = Schedule::new(graph, vec![root], &labels, &inputs, Order::Owner, false);
         let lines = 0..schedule.lines.len();
         let (tokens, block) = Block::read(&schedule, &|function| function, lines);
         (tokens, block.numbers)

@@ -7,7 +7,7 @@ use super::results;
 use crate::equations::Equations;
 use crate::method::table::{self, Specification};
 use crate::model::Rule;
-use crate::program::{breakpoints, neighbours};
+use crate::program::neighbours;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -296,7 +296,8 @@ fn violated(equations: &Equations) -> Option<TokenStream> {
 
 /// The method by which the runtime asks for the others; nothing where there are none.
 fn kink_after(equations: &Equations, library: &Library) -> Option<TokenStream> {
-    let curves: Vec<Ident> = breakpoints::adjustable(equations)
+    let curves: Vec<Ident> = equations
+        .stretched_curves_of_time()
         .map(|(curve, _)| format_ident!("{}", library.name(curve)))
         .collect();
     let indices = (0..curves.len()).map(Literal::usize_unsuffixed);
