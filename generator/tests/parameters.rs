@@ -2,8 +2,8 @@
 
 use bryant_generator::dynamics::derive;
 use bryant_generator::effect::general;
-use bryant_generator::emit;
 use bryant_generator::model::{Model, scene};
+use bryant_generator::program;
 use std::path::Path;
 
 fn written(path: &str) -> Model {
@@ -24,7 +24,9 @@ fn what_parameters_alone_decide_is_computed_once() {
         let written = written(path);
         for model in [written.clone(), general(&written)] {
             let equations = derive(&model);
-            for (method, count) in emit::repeated(&model, &equations, &emit::Options::default()) {
+            for (method, count) in
+                program::repeated(&model, &equations, &program::Options::default())
+            {
                 // the start of a run is computed once, and so is whether it is allowed
                 let once = ["new", "initial_conditions", "initial_memory", "conditions"];
                 if !once.contains(&method) {

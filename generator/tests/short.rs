@@ -2,9 +2,10 @@
 //! form, whether the program writes the long form (`check --long`) or a person.
 
 use bryant_generator::dynamics::derive;
-use bryant_generator::emit::{self, Options};
 use bryant_generator::equations::Equations;
 use bryant_generator::model::{Model, Number, read_str, scene};
+use bryant_generator::program::Options;
+use bryant_generator::target::rust;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
@@ -27,7 +28,7 @@ fn generated(model: &Model) -> String {
     let mut model = model.clone();
     model.digest = String::new();
     let equations: Equations = derive(&model);
-    emit::module(&model, &equations, &Options::default())
+    rust::module(&model, &equations, &Options::default())
 }
 
 /// The generated text of a short form; it must equal that of its long form.

@@ -1,7 +1,8 @@
 //! User forces: their Rust files are part of the model, and the generated text contains them.
 
 use bryant_generator::model::{Model, read_str, read_without_sources};
-use bryant_generator::{Config, Diagnostics, emit};
+use bryant_generator::target::rust;
+use bryant_generator::{Config, Diagnostics};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -151,8 +152,8 @@ fn a_skeleton_is_accepted_for_what_it_was_made_for() {
         let missing = |_: &Path| Err(io::ErrorKind::NotFound.into());
         let model = read_without_sources("m.yaml", &text, &missing)
             .unwrap_or_else(|problems| panic!("{problems}"));
-        assert_eq!(emit::skeleton(&model, "nothing"), None);
-        let skeleton = emit::skeleton(&model, "all-of-it").expect("the force");
+        assert_eq!(rust::skeleton(&model, "nothing"), None);
+        let skeleton = rust::skeleton(&model, "all-of-it").expect("the force");
         assert!(skeleton.contains("pub fn all_of_it<T: Real>(input: &Input<T>)"));
         let loader = |_: &Path| Ok(skeleton.clone());
         let (model, _) = read_str("m.yaml", &text, &loader)

@@ -322,37 +322,21 @@ impl core::error::Error for Failure {}
 #[cfg(test)]
 mod tests {
     use super::{Culprit, Failure, Quantity, Reason};
+    use crate::test_models::BARE;
     use crate::{Info, OutputInfo};
 
     const QUATERNION: Info = Info {
         name: "top",
-        digest: "",
         dimension: 3,
         coordinates: &["top.w", "top.x", "top.y", "top.z"],
         velocities: &["top.p", "top.q", "top.r"],
         kinds: &[],
         units: &[],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
         outputs: &[OutputInfo {
             name: "lap belt force",
             unit: "N",
         }],
-        parameters: &[],
-        breakpoints: &[],
-        duration: 1.0,
-        every: 0.1,
+        ..BARE
     };
     const LEAVABLE: Info = Info {
         time_ends: false,

@@ -30,6 +30,65 @@ const fn unit(kind: StateKind) -> &'static str {
     }
 }
 
+/// A mass at x that has nothing else: what is not said of a model below.
+pub const BARE: Info = Info {
+    name: "",
+    digest: "",
+    dimension: 2,
+    coordinates: &["x"],
+    velocities: &["v"],
+    kinds: &[StateKind::Position, StateKind::Velocity],
+    units: &["m", "m/s"],
+    auxiliaries: &[],
+    memory: &[],
+    guards: &[],
+    kinks: &[],
+    onsets: &[],
+    corners: 0,
+    longest_step: f64::INFINITY,
+    powers: &[],
+    curves: &[],
+    time_ends: false,
+    pivots: &[],
+    conditions: &[],
+    free: false,
+    outputs: &[],
+    parameters: &[],
+    breakpoints: &[],
+    duration: 1.0,
+    every: 0.1,
+};
+
+/// What models on unit structs have in common: how many numbers there are of each kind, and where a run starts. q̇ is that of time 0, which
+/// counts only where it depends on time.
+macro_rules! bare {
+    ($model:ident, state $state:expr, outputs $outputs:expr, guards $guards:expr, kinks $kinks:expr, powers $powers:expr,
+     curves $curves:expr, from $y0:expr) => {
+        type With<U: Real> = $model;
+        type Parameters = None;
+        type State = [T; $state];
+        type Outputs = [T; $outputs];
+        type Guards = [T; $guards];
+        type Kinks = [T; $kinks];
+        type Powers = [T; $powers];
+        type Curves = [T; $curves];
+        fn new(_: None) -> Self {
+            $model
+        }
+        fn parameters(&self) -> &None {
+            &None
+        }
+        fn initial_state(&self) -> Self::State {
+            $y0.map(T::from_f64)
+        }
+        fn coordinate_rates(&self, y: &Self::State, rate: &mut Self::State) {
+            let all: Self::State = self.derivative(T::from_f64(0.0), y);
+            let coordinates = <Self as Model<T>>::INFO.coordinates.len();
+            rate[..coordinates].copy_from_slice(&all[..coordinates]);
+        }
+    };
+}
+
 /// A model without parameters and outputs, on a unit struct: names, initial state, derivative. q̇ is that of time 0, which matters only if it depends
 /// on time.
 macro_rules! model {
@@ -48,57 +107,21 @@ macro_rules! model {
         pub struct $model;
 
         impl<T: Real> Model<T> for $model {
-            type With<U: Real> = $model;
-            type Parameters = None;
-            type State = [T; [$($q,)* $($v,)*].len()];
-            type Outputs = [T; 0];
-            type Guards = [T; 0];
-            type Kinks = [T; { let names: &[&str] = &[$($name),*]; names.len() }];
-            type Powers = [T; 0];
-            type Curves = [T; 0];
+            bare!($model, state [$($q,)* $($v,)*].len(), outputs 0, guards 0, kinks { let names: &[&str] = &[$($name),*]; names.len() },
+                powers 0, curves 0, from $y0);
             const INFO: &'static Info = &Info {
                 name: stringify!($model),
-                digest: "",
-                dimension: 2,
                 coordinates: &[$($q),*],
                 velocities: &[$($v),*],
                 kinds: &[$(StateKind::$q_kind,)* $(StateKind::$v_kind,)*],
                 units: &[$(unit(StateKind::$q_kind),)* $(unit(StateKind::$v_kind),)*],
-                auxiliaries: &[],
-                memory: &[],
-                guards: &[],
                 kinks: &[$($name),*],
-                onsets: &[],
-                corners: 0,
-                longest_step: f64::INFINITY,
-                powers: &[],
-                curves: &[],
-                time_ends: false,
-                pivots: &[],
-                conditions: &[],
-                free: false,
-                outputs: &[],
-                parameters: &[],
                 breakpoints: $kinks,
                 duration: $duration,
-                every: 0.1,
+                ..BARE
             };
-            fn new(_: None) -> Self {
-                $model
-            }
-            fn parameters(&self) -> &None {
-                &None
-            }
-            fn initial_state(&self) -> Self::State {
-                $y0.map(T::from_f64)
-            }
             fn derivative(&self, $t: T, $y: &Self::State) -> Self::State {
                 $rate
-            }
-            fn coordinate_rates(&self, y: &Self::State, rate: &mut Self::State) {
-                let all: Self::State = self.derivative(T::from_f64(0.0), y);
-                let coordinates = <Self as Model<T>>::INFO.coordinates.len();
-                rate[..coordinates].copy_from_slice(&all[..coordinates]);
             }
             fn outputs(&self, _: T, _: &Self::State) -> [T; 0] {
                 []
@@ -122,24 +145,8 @@ impl Oscillator {
     pub const INFO: &'static Info = &Info {
         name: "oscillator",
         digest: "0123",
-        dimension: 2,
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
-        kinds: &[StateKind::Position, StateKind::Velocity],
-        units: &["m", "m/s"],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
         outputs: &[OutputInfo {
             name: "energy",
             unit: "J",
@@ -151,9 +158,8 @@ impl Oscillator {
             min: 0.0,
             max: 100.0,
         }],
-        breakpoints: &[],
         duration: 2.0,
-        every: 0.1,
+        ..BARE
     };
 }
 
@@ -269,31 +275,11 @@ pub struct Runaway;
 pub const SPRING: Curve<2> = Curve::new([[-1.0, 0.0], [0.45, 1e-3]], Extrapolate::Error);
 
 impl<T: Real> Model<T> for Runaway {
-    type With<U: Real> = Runaway;
-    type Parameters = None;
-    type State = [T; 2];
-    type Outputs = [T; 2];
-    type Guards = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 1];
+    bare!(Runaway, state 2, outputs 2, guards 0, kinks 0, powers 0, curves 1, from [0.0, 1.0]);
     const INFO: &'static Info = &Info {
         name: "runaway",
-        digest: "",
-        dimension: 2,
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
-        kinds: &[StateKind::Position, StateKind::Velocity],
-        units: &["m", "m/s"],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        time_ends: false,
         curves: &[CurveInfo {
             name: "spring: curve",
             first: -1.0,
@@ -303,9 +289,6 @@ impl<T: Real> Model<T> for Runaway {
             told: true,
             kind: crate::CurveKind::Curve,
         }],
-        pivots: &[],
-        conditions: &[],
-        free: false,
         outputs: &[
             OutputInfo {
                 name: "place",
@@ -316,25 +299,10 @@ impl<T: Real> Model<T> for Runaway {
                 unit: "N",
             },
         ],
-        parameters: &[],
-        breakpoints: &[],
-        duration: 1.0,
-        every: 0.1,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Runaway
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 2] {
-        [0.0, 1.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], -SPRING.value(y[0])]
-    }
-    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[0], SPRING.value(y[0])]
@@ -350,55 +318,20 @@ impl<T: Real> Model<T> for Runaway {
 pub struct Spin;
 
 impl<T: Real> Model<T> for Spin {
-    type With<U: Real> = Spin;
-    type Parameters = None;
-    type State = [T; 4];
-    type Outputs = [T; 0];
-    type Guards = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
+    bare!(Spin, state 4, outputs 0, guards 0, kinks 0, powers 0, curves 0, from [1.0, 0.0, 0.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "spin",
-        digest: "",
         dimension: 3,
         coordinates: &["w", "x", "y", "z"],
         velocities: &[],
         kinds: &[StateKind::Angle; 4],
         units: &["rad", "rad", "rad", "rad"],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
         duration: 100.0,
         every: 10.0,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Spin
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 4] {
-        [1.0, 0.0, 0.0, 0.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, q: &[T; 4]) -> [T; 4] {
         [-q[3], -q[2], q[1], q[0]]
-    }
-    fn coordinate_rates(&self, y: &[T; 4], rate: &mut [T; 4]) {
-        *rate = self.derivative(T::from_f64(0.0), y);
     }
     fn outputs(&self, _: T, _: &[T; 4]) -> [T; 0] {
         []
@@ -414,55 +347,19 @@ impl<T: Real> Model<T> for Spin {
 pub struct Ratchet;
 
 impl<T: Real> Model<T> for Ratchet {
-    type With<U: Real> = Ratchet;
-    type Parameters = None;
-    type State = [T; 3];
-    type Outputs = [T; 0];
-    type Guards = [T; 1];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
+    bare!(Ratchet, state 3, outputs 0, guards 1, kinks 0, powers 0, curves 0, from [-1.0, 0.0, -2.0]);
     const INFO: &'static Info = &Info {
         name: "ratchet",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
-        auxiliaries: &[],
         memory: &["largest"],
         guards: &["turns"],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
         duration: 10.0,
         every: 0.5,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Ratchet
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 3] {
-        [-1.0, 0.0, -2.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, &[x, v, _]: &[T; 3]) -> [T; 3] {
         [v, -x, T::from_f64(0.0)]
-    }
-    fn coordinate_rates(&self, y: &[T; 3], rate: &mut [T; 3]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
         []
@@ -482,55 +379,19 @@ impl<T: Real> Model<T> for Ratchet {
 pub struct Ledge;
 
 impl<T: Real> Model<T> for Ledge {
-    type With<U: Real> = Ledge;
-    type Parameters = None;
-    type State = [T; 3];
-    type Outputs = [T; 0];
-    type Guards = [T; 1];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
+    bare!(Ledge, state 3, outputs 0, guards 1, kinks 0, powers 0, curves 0, from [0.0, 1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "ledge",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
-        auxiliaries: &[],
         memory: &["largest"],
         guards: &["leaves"],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
         duration: 10.0,
         every: 0.5,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Ledge
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 3] {
-        [0.0, 1.0, 0.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, &[_, v, _]: &[T; 3]) -> [T; 3] {
         [v, T::from_f64(0.0), T::from_f64(0.0)]
-    }
-    fn coordinate_rates(&self, y: &[T; 3], rate: &mut [T; 3]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
         []
@@ -551,56 +412,18 @@ impl<T: Real> Model<T> for Ledge {
 pub struct Counter;
 
 impl<T: Real> Model<T> for Counter {
-    type With<U: Real> = Counter;
-    type Parameters = None;
-    type State = [T; 3];
-    type Outputs = [T; 0];
-    type Guards = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
+    bare!(Counter, state 3, outputs 0, guards 0, kinks 0, powers 0, curves 0, from [0.0, 1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "counter",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
-        auxiliaries: &[],
         memory: &["renewals"],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
         duration: 2.0,
-        every: 0.1,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Counter
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 3] {
-        [0.0, 1.0, 0.0].map(T::from_f64)
-    }
     fn derivative(&self, t: T, &[_, v, _]: &[T; 3]) -> [T; 3] {
         let (zero, push) = (T::from_f64(0.0), T::from_f64(1e4));
         [v, T::select(T::from_f64(1.234).lt(t), push, zero), zero]
-    }
-    fn coordinate_rates(&self, y: &[T; 3], rate: &mut [T; 3]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
         []
@@ -616,20 +439,9 @@ impl<T: Real> Model<T> for Counter {
 pub struct Chain;
 
 impl<T: Real> Model<T> for Chain {
-    type With<U: Real> = Chain;
-    type Parameters = None;
-    type State = [T; 5];
-    type Outputs = [T; 0];
-    type Guards = [T; 3];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
+    bare!(Chain, state 5, outputs 0, guards 3, kinks 0, powers 0, curves 0, from [0.0, 0.0, 9.0, 9.0, 9.0]);
     const INFO: &'static Info = &Info {
         name: "chain",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
         kinds: &[
             StateKind::Position,
             StateKind::Velocity,
@@ -638,40 +450,15 @@ impl<T: Real> Model<T> for Chain {
             StateKind::Memory,
         ],
         units: &["m", "m/s", "", "", ""],
-        auxiliaries: &[],
         memory: &["first", "second", "third"],
         guards: &["first", "second", "third"],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
         duration: 2.0,
         every: 0.5,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Chain
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 5] {
-        [0.0, 0.0, 9.0, 9.0, 9.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, &[_, v, ..]: &[T; 5]) -> [T; 5] {
         let zero = T::from_f64(0.0);
         [v, zero, zero, zero, zero]
-    }
-    fn coordinate_rates(&self, y: &[T; 5], rate: &mut [T; 5]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 5]) -> [T; 0] {
         []
@@ -728,55 +515,15 @@ model! {
 pub struct Leaky;
 
 impl<T: Real> Model<T> for Leaky {
-    type With<U: Real> = Leaky;
-    type Parameters = None;
-    type State = [T; 2];
-    type Outputs = [T; 0];
-    type Guards = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 1];
-    type Curves = [T; 0];
+    bare!(Leaky, state 2, outputs 0, guards 0, kinks 0, powers 1, curves 0, from [0.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "Leaky",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
-        kinds: &[StateKind::Position, StateKind::Velocity],
-        units: &["m", "m/s"],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
         powers: &["thrust"],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
         breakpoints: &[0.5],
-        duration: 1.0,
-        every: 0.1,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Leaky
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 2] {
-        [0.0, 0.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], T::from_f64(1.0)]
-    }
-    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 2]) -> [T; 0] {
         []
@@ -796,55 +543,14 @@ impl<T: Real> Model<T> for Leaky {
 pub struct Stage;
 
 impl<T: Real> Model<T> for Stage {
-    type With<U: Real> = Stage;
-    type Parameters = None;
-    type State = [T; 2];
-    type Outputs = [T; 0];
-    type Guards = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 1];
-    type Curves = [T; 0];
+    bare!(Stage, state 2, outputs 0, guards 0, kinks 0, powers 1, curves 0, from [1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "Stage",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
-        kinds: &[StateKind::Position, StateKind::Velocity],
-        units: &["m", "m/s"],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
         powers: &["spring"],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
-        duration: 1.0,
-        every: 0.1,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Stage
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 2] {
-        [1.0, 0.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], -y[0]]
-    }
-    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 2]) -> [T; 0] {
         []

@@ -1,7 +1,7 @@
 //! The operations of one evaluation, as `bryant check` counts them.
 
 use bryant_generator::model::Model;
-use bryant_generator::{dynamics, emit};
+use bryant_generator::{dynamics, program};
 use bryant_runtime::Report;
 
 /// The cost of one evaluation of the derivative.
@@ -24,11 +24,11 @@ impl Operations {
             ..dynamics::Options::default()
         };
         let equations = dynamics::derive_with(model, options);
-        let emitted = emit::Options {
+        let emitted = program::Options {
             matrices: false,
-            ..emit::Options::default()
+            ..program::Options::default()
         };
-        let costs = emit::costs(model, &equations, &emitted);
+        let costs = program::costs(model, &equations, &emitted);
         let Some((_, table)) = costs.iter().find(|(name, _)| *name == "accelerations") else {
             return Operations::default();
         };

@@ -10,7 +10,7 @@
 
 use super::library::{LoadError, names};
 use super::{BuildError, Cache, Rustc, Stage, Text, entry_name, rustc, write};
-use bryant_generator::emit::Apart;
+use bryant_generator::target::rust::Apart;
 use std::path::{Path, PathBuf};
 
 /// The text of a library.

@@ -7,8 +7,8 @@ use super::message::place_in_texts;
 use super::{BuildError, Rustc, Stage, Text};
 use bryant_engine::UserFunctions;
 use bryant_generator::diagnostic::{Diagnostic, Diagnostics};
-use bryant_generator::emit::Apart;
 use bryant_generator::model::{ForceKind, Model};
+use bryant_generator::target::rust::Apart;
 use bryant_runtime::real::{Base, Form};
 use std::sync::OnceLock;
 
@@ -52,7 +52,7 @@ impl UserForces {
         sources: Vec<(String, String)>,
         stage: &mut dyn FnMut(Stage),
     ) -> Result<Option<Self>, BuildError> {
-        let Some(apart) = bryant_generator::emit::apart(model) else {
+        let Some(apart) = bryant_generator::target::rust::apart(model) else {
             return Ok(None);
         };
         let texts: Vec<Text<'_>> = sources

@@ -6,12 +6,13 @@ use super::model_argument::{find, find_without_sources, nearest};
 use super::progress::Progress;
 use super::terminal::Terminal;
 use bryant_generator::dynamics::{self, derive_with};
-use bryant_generator::emit;
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::model::{
     Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System,
 };
+use bryant_generator::program::{self, Options};
+use bryant_generator::target::rust;
 use bryant_study::criteria::limits::Limits;
 use bryant_study::criteria::{Judged, Missing, judge};
 use bryant_study::facts::ModelFacts;
@@ -99,7 +100,7 @@ fn unjudged(limits: &Limits, all: &[Judged]) -> Option<String> {
 
 /// What `--skeleton` prints.
 fn skeleton(model: &Model, force: &str) -> Result<String, Error> {
-    emit::skeleton(model, force).ok_or_else(|| {
+    rust::skeleton(model, force).ok_or_else(|| {
         let all = model.forces.iter();
         let users = all.filter(|f| matches!(f.kind, ForceKind::User(_)));
         let names: Vec<&str> = users.map(|f| f.name.as_str()).collect();
@@ -149,11 +150,11 @@ impl Costs {
             ..dynamics::Options::default()
         };
         let equations = derive_with(model, options);
-        let emitted = emit::Options {
+        let emitted = Options {
             matrices: false,
-            ..emit::Options::default()
+            ..Options::default()
         };
-        let costs = emit::costs(model, &equations, &emitted);
+        let costs = program::costs(model, &equations, &emitted);
         let of = |method: &str| {
             let found = costs.iter().find(|(name, _)| *name == method);
             found.map_or_else(Count::default, |(_, table)| table.total.clone())

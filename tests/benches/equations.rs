@@ -3,8 +3,8 @@
 
 use bryant_generator::Config;
 use bryant_generator::dynamics::{Options, derive_with};
-use bryant_generator::emit;
 use bryant_generator::model::read;
+use bryant_generator::program;
 use bryant_runtime::{Model, ParameterSet, Vector};
 use std::hint::black_box;
 use std::path::Path;
@@ -75,8 +75,8 @@ macro_rules! evaluation {
         use $($module)::+ as module;
         let model = model($path);
         let options = Options { matrices: false, ..Options::default() };
-        let emitted = emit::Options { matrices: false, ..emit::Options::default() };
-        for (method, table) in emit::costs(&model, &derive_with(&model, options), &emitted) {
+        let emitted = program::Options { matrices: false, ..program::Options::default() };
+        for (method, table) in program::costs(&model, &derive_with(&model, options), &emitted) {
             if method == "accelerations" {
                 println!("accelerations of {}: {}", $name, table.total);
             }

@@ -3,7 +3,6 @@
 //! Counts are the same on every machine. The bounds are goals, not measurements: the snapshots have the actual counts.
 
 use bryant_generator::dynamics::{Options, derive_with};
-use bryant_generator::emit;
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
@@ -11,6 +10,7 @@ use bryant_generator::expression::passes::factor::factor;
 use bryant_generator::model::{
     Coordinates, Dimension, Model, Number, Parameter, Reference, read, read_str,
 };
+use bryant_generator::program;
 use bryant_tests::reference::load;
 use bryant_tests::trees::{Random, Shape, choices, random_charts, random_state, random_tree};
 use std::path::Path;
@@ -22,11 +22,11 @@ fn operations(model: &Model) -> usize {
         ..Options::default()
     };
     let equations = derive_with(model, options);
-    let emitted = emit::Options {
+    let emitted = program::Options {
         matrices: false,
-        ..emit::Options::default()
+        ..program::Options::default()
     };
-    let costs = emit::costs(model, &equations, &emitted);
+    let costs = program::costs(model, &equations, &emitted);
     let found = costs.iter().find(|(method, _)| *method == "accelerations");
     found.map_or(0, |(_, table)| table.total.total())
 }

@@ -2,11 +2,11 @@
 
 use super::Variant;
 use crate::dynamics::{self, derive_without};
-use crate::emit;
 use crate::equations::Equations;
 use crate::expression::NodeId;
 use crate::expression::count::{Count, Table};
 use crate::expression::live::Live;
+use crate::program;
 use crate::program::Lists;
 use std::collections::HashSet;
 
@@ -32,7 +32,7 @@ pub fn counted(variant: &Variant) -> (Cost, Lists) {
     if !variant.model.outputs.is_empty() {
         only.push("outputs");
     }
-    let (lists, tables) = emit::counted_lists(&variant.model, &equations, &EMITTED, Some(&only));
+    let (lists, tables) = program::counted_lists(&variant.model, &equations, &EMITTED, Some(&only));
     let of = |method: &str| {
         let found = tables.iter().find(|(name, _)| *name == method);
         found.map_or_else(Count::default, |(_, table): &(_, Table)| {
@@ -74,9 +74,9 @@ pub fn cost(variant: &Variant) -> Cost {
     counted(variant).0
 }
 
-const EMITTED: emit::Options = emit::Options {
+const EMITTED: program::Options = program::Options {
     matrices: false,
-    ..emit::Options::DEFAULT
+    ..program::Options::DEFAULT
 };
 
 const OPTIONS: dynamics::Options = dynamics::Options {

@@ -3,11 +3,12 @@
 mod interpret;
 
 use bryant_generator::dynamics::derive;
-use bryant_generator::emit::{self, Options};
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Function, NodeId};
 use bryant_generator::model::{Coordinates, Model, read, read_str};
+use bryant_generator::program::Options;
+use bryant_generator::target::rust;
 use interpret::{Module, Value};
 use std::path::Path;
 
@@ -74,7 +75,7 @@ outputs:
 }
 
 fn text(model: &Model, options: &Options) -> String {
-    emit::module(model, &derive(model), options)
+    rust::module(model, &derive(model), options)
 }
 
 /// An arbitrary law that depends on all arguments and on its name, because the test checks only which law is called with which arguments.
@@ -282,7 +283,7 @@ fn the_text_evaluates_to_what_the_graph_means() {
         let values = values(
             &model,
             &equations,
-            &emit::module(&model, &equations, &Options::default()),
+            &rust::module(&model, &equations, &Options::default()),
         );
         for ((method, values), expected) in values.iter().zip(&expected) {
             assert_eq!(values.len(), expected.len(), "{} {method}", model.name);
@@ -307,7 +308,7 @@ fn pieces_give_the_bits_of_the_whole() {
     for model in models() {
         let equations = derive(&model);
         let with = |statements| {
-            emit::module(
+            rust::module(
                 &model,
                 &equations,
                 &Options {

@@ -14,8 +14,8 @@ mod machine_code;
 mod runs;
 
 use bryant_generator::dynamics::{Options, derive_with};
-use bryant_generator::emit;
 use bryant_generator::model::read;
+use bryant_generator::program;
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector, Width};
 use std::hint::black_box;
@@ -165,11 +165,11 @@ fn operations(path: &str) -> usize {
         matrices: false,
         ..Options::default()
     };
-    let emitted = emit::Options {
+    let emitted = program::Options {
         matrices: false,
-        ..emit::Options::default()
+        ..program::Options::default()
     };
-    let costs = emit::costs(&model, &derive_with(&model, options), &emitted);
+    let costs = program::costs(&model, &derive_with(&model, options), &emitted);
     let part = ["accelerations", "coordinate_rates"];
     let parts = costs.iter().filter(|(method, _)| part.contains(method));
     parts.map(|(_, table)| table.total.total()).sum()
