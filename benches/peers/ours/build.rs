@@ -1,9 +1,9 @@
-//! Writes the equations of the models, and their trees as JSON for the other engines, so that all use the same description.
+//! Writes the equations of the models, and their trees as JSON for the other engines: so all are built from one description.
 //!
-//! The trees are those of the resolved model, in SI units. A model with parts that the comparison does not know (parameters, a second
-//! system, other forces than gravity) stops the build.
+//! The trees are those of the model as it was resolved, in SI units. A model that holds what the comparison does not know
+//! (parameters, a second system, forces but gravity) stops the build.
 //!
-//! If the variable `ROBOTS` names a folder, the robots of `robots.py` in it are built, too.
+//! Where the variable `ROBOTS` names a folder, its robots are built, too: those of `robots.py`.
 
 use bryant_generator::Config;
 use bryant_generator::model::{Dimension, FieldComponent, ForceKind, Model, Number, Reference};
@@ -18,7 +18,7 @@ const MODELS: [&str; 5] = [
     "../../../tests/models/large/chain100.yaml",
 ];
 
-/// URDF files in the folder `ROBOTS`, and the motion of their bases.
+/// URDF files in the folder `ROBOTS`, and what their bases do.
 const ROBOTS: [(&str, Base); 5] = [
     ("panda", Base::Fixed),
     ("ur5", Base::Fixed),
@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// A model as JSON; `None` if it has parts that the comparison does not know.
+/// A model as JSON; `None` where it holds what the comparison does not know.
 fn tree(model: &Model) -> Option<String> {
     let [system] = &model.systems[..] else {
         return None;
@@ -77,11 +77,11 @@ fn tree(model: &Model) -> Option<String> {
     let [force] = &model.forces[..] else {
         return None;
     };
-    let ForceKind::Field { acceleration, .. } = &force.kind else {
+    let ForceKind::Field(field) = &force.kind else {
         return None;
     };
     let mut gravity = [0.0; 3];
-    for (value, component) in gravity.iter_mut().zip(acceleration) {
+    for (value, component) in gravity.iter_mut().zip(&field.acceleration) {
         let FieldComponent::Constant(number) = component else {
             return None;
         };
