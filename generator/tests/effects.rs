@@ -589,6 +589,67 @@ const CASES: &[Case] = &[
         off: &["forces: [{ spring: strut, ENDS, elastic: RAMP, damping: 0 }]"],
         never: "forces: [{ spring: strut, ENDS, elastic: RAMP }]",
     },
+    // bushings
+    Case {
+        word: "plane bushing elastic along x",
+        effect: "bushing mount: elastic along x",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, along: { x: { stiffness: 3, damping: 5 } }, about: { y: { damping: 1 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { x: { elastic: never, damping: 5 } }, about: { y: { damping: 1 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, along: { x: { damping: 5 } }, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "plane bushing damping along x",
+        effect: "bushing mount: damping along x",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, along: { x: { damping: 2, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { x: { damping: 0, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, along: { x: { elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "plane bushing elastic along z",
+        effect: "bushing mount: elastic along z",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, along: { z: { stiffness: 3, damping: 5 } }, about: { y: { damping: 1 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { z: { elastic: never, damping: 5 } }, about: { y: { damping: 1 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, along: { z: { damping: 5 } }, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "plane bushing damping along z",
+        effect: "bushing mount: damping along z",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, along: { z: { damping: 2, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { z: { damping: 0, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, along: { z: { elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "plane bushing elastic about y",
+        effect: "bushing mount: elastic about y",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, about: { y: { stiffness: 3, damping: 5 } }, along: { x: { stiffness: 7 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, about: { y: { elastic: never, damping: 5 } }, along: { x: { stiffness: 7 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, about: { y: { damping: 5 } }, along: { x: { stiffness: 7 } } }]",
+    },
+    Case {
+        word: "plane bushing damping about y",
+        effect: "bushing mount: damping about y",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, about: { y: { damping: 2, elastic: THROUGH } }, along: { x: { stiffness: 7 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, about: { y: { damping: 0, elastic: THROUGH } }, along: { x: { stiffness: 7 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, about: { y: { elastic: THROUGH } }, along: { x: { stiffness: 7 } } }]",
+    },
     // loads
     Case {
         word: "plane load force x",
@@ -721,6 +782,17 @@ const CASES: &[Case] = &[
         off: &[
             "forces: [{ spring: strut, ENDS, stiffness: mu, damping: 3, enabled: false }]",
             "forces: [{ spring: strut, ENDS, elastic: never }]",
+        ],
+        never: "",
+    },
+    Case {
+        word: "force bushing",
+        effect: "bushing mount",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, along: { x: { stiffness: mu, damping: 3 } }, about: { y: { elastic: THROUGH } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { x: { stiffness: mu, damping: 3 } }, about: { y: { elastic: THROUGH } }, enabled: false }]",
+            "forces: [{ bushing: mount, ENDS, along: { x: { elastic: never, damping: 0 } }, about: { y: { elastic: never } } }]",
         ],
         never: "",
     },

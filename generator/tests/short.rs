@@ -117,6 +117,12 @@ forces:
   - { contact: left-toe, mirror: true, ellipsoid: { on: man/left-foot, center: [0.2, 0.01, 0], semi_axes: [0.03, 0.03, 0.03] }, plane: { on: man/hip, at: [0, 0.1, 0.5], normal: [0, 0.2, -1] }, stiffness: 5e4 }
   - { belt: strap-left, mirror: true, from: { on: man/left-leg, at: [0, 0.05, -0.1] }, to: { on: frame, at: [-0.3, 0.2, 0] }, stiffness: 5e4 }
   - { spring: left, mirror: true, from: { on: man/left-foot, at: [0, 0.05, 0] }, to: { on: man/hip, at: [0.2, 0.1, 0] }, stiffness: 100 }
+  - bushing: left
+    mirror: true
+    from: { on: man/hip, at: [0, 0.1, 0], axes: [0.1, 0.2, 0.3] }
+    to: { on: man/left-leg, at: [0.1, 0.02, 0.1] }
+    along: { x: { elastic: bent }, y: { elastic: bent, damping: 3 }, z: { stiffness: 10 } }
+    about: { x: { elastic: bent }, y: { elastic: bent, damping: 3 }, z: { stiffness: 10 } }
   - { load: left-push, mirror: true, on: man/left-foot, at: [0.1, 0.02, 0], force: [push, { curve: push, times: foam }, 3], moment: [push, 2, { points: [[0, 0], [1, 1]] }] }
 outputs:
   - { name: left knee, mirror: true, of: contact left-knee, what: force, component: y, axes: man/left-leg }
@@ -171,6 +177,16 @@ forces:
   - { belt: strap-right, from: { on: man/right-leg, at: [0, -0.05, -0.1] }, to: { on: frame, at: [-0.3, -0.2, 0] }, stiffness: 5e4 }
   - { spring: left, from: { on: man/left-foot, at: [0, 0.05, 0] }, to: { on: man/hip, at: [0.2, 0.1, 0] }, stiffness: 100 }
   - { spring: right, from: { on: man/right-foot, at: [0, -0.05, 0] }, to: { on: man/hip, at: [0.2, -0.1, 0] }, stiffness: 100 }
+  - bushing: left
+    from: { on: man/hip, at: [0, 0.1, 0], axes: [0.1, 0.2, 0.3] }
+    to: { on: man/left-leg, at: [0.1, 0.02, 0.1] }
+    along: { x: { elastic: bent }, y: { elastic: bent, damping: 3 }, z: { stiffness: 10 } }
+    about: { x: { elastic: bent }, y: { elastic: bent, damping: 3 }, z: { stiffness: 10 } }
+  - bushing: right
+    from: { on: man/hip, at: [0, -0.1, 0], axes: [-0.1, 0.2, -0.3] }
+    to: { on: man/right-leg, at: [0.1, -0.02, 0.1] }
+    along: { x: { elastic: bent }, y: { elastic: { points: [[-0.5, -10], [0, 0], [0.2, 30]], extrapolate: linear }, damping: 3 }, z: { stiffness: 10 } }
+    about: { x: { elastic: { points: [[-0.5, -10], [0, 0], [0.2, 30]], extrapolate: linear } }, y: { elastic: bent, damping: 3 }, z: { stiffness: 10 } }
   - { load: left-push, on: man/left-foot, at: [0.1, 0.02, 0], force: [push, { curve: push, times: foam }, 3], moment: [push, 2, { points: [[0, 0], [1, 1]] }] }
   - { load: right-push, on: man/right-foot, at: [0.1, -0.02, 0], force: [push, { curve: push, times: -foam }, 3], moment: [{ curve: push, times: -1 }, 2, { curve: { points: [[0, 0], [1, 1]] }, times: -1 }] }
 outputs:

@@ -113,6 +113,14 @@ fn elsewhere(model: &Model) -> Option<Model> {
                 move_attachment(&mut spring.from);
                 move_attachment(&mut spring.to);
             }
+            ForceKind::Bushing(bushing) => {
+                for mount in [&mut bushing.from, &mut bushing.to] {
+                    move_attachment(&mut mount.on);
+                    if mount.on.on == Body::Frame {
+                        quarter(&mut mount.axes[1]);
+                    }
+                }
+            }
             ForceKind::Airbag(_) | ForceKind::User(_) => return None,
         }
     }

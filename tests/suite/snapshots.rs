@@ -282,6 +282,13 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
             ("given length", spring.length.is_some()),
             ("damping", damps(&spring.damping)),
         ],
+        ForceKind::Bushing(bushing) => {
+            let laws = || bushing.along.iter().chain(&bushing.about);
+            vec![
+                ("elastic", laws().any(|law| law.elastic.is_some())),
+                ("damping", laws().any(|law| damps(&law.damping))),
+            ]
+        }
         ForceKind::Load(load) => vec![
             ("force", (0..3).any(|axis| acts(&load.force, axis))),
             ("moment", (0..3).any(|axis| acts(&load.moment, axis))),

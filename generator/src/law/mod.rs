@@ -13,6 +13,7 @@
 
 pub mod airbag;
 pub mod belt;
+pub mod bushing;
 pub mod contact;
 pub mod field;
 pub mod joint;
@@ -444,6 +445,11 @@ laws! {
         /// Spring and damper between two points.
         Spring,
     } asks spring::SpringQuantity;
+    /// Springs and dampers in six directions between frames of two bodies.
+    bushing::Bushing {
+        /// Springs and dampers in six directions between frames of two bodies.
+        Bushing,
+    } asks bushing::BushingQuantity;
     /// An airbag.
     airbag::Airbag {
         /// An airbag.

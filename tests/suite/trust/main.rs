@@ -4,6 +4,7 @@
 #[path = "../called.rs"]
 mod called;
 mod doubts;
+mod mounts;
 mod pages;
 mod refusals;
 

@@ -924,6 +924,101 @@ fn springs() {
     assert!(pushes > STATES / 4);
 }
 
+/// Rx(a) Ry(b) Rz(c)
+fn turned([a, b, c]: Vector) -> Matrix {
+    let (x, y, z) = (a.sin_cos(), b.sin_cos(), c.sin_cos());
+    [
+        [y.1 * z.1, -y.1 * z.0, y.0],
+        [
+            x.1 * z.0 + x.0 * y.0 * z.1,
+            x.1 * z.1 - x.0 * y.0 * z.0,
+            -x.0 * y.1,
+        ],
+        [
+            x.0 * z.0 - x.1 * y.0 * z.1,
+            x.0 * z.1 + x.1 * y.0 * z.0,
+            x.1 * y.1,
+        ],
+    ]
+}
+
+/// a b
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    let columns: [Vector; 3] = std::array::from_fn(|j| apply(a, column(b, j)));
+    std::array::from_fn(|i| columns.map(|column| column[i]))
+}
+
+#[test]
+fn bushings() {
+    const LAWS: &str = "along: { x: { elastic: { points: [[-1, -900], [0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }, damping: 30 }, y: { stiffness: 700 }, z: { stiffness: 200, damping: 60 } }, about: { x: { stiffness: 3, damping: 0.4 }, y: { elastic: { points: [[-1, -3], [0, 0], [1, 2]], extrapolate: linear } }, z: { stiffness: 5, damping: 0.7 } }";
+    const POINTS: [[f64; 2]; 4] = [[-1.0, -900.0], [0.0, 0.0], [0.1, 500.0], [1.0, 2000.0]];
+    let own = "{ on: one/body, at: [0.1, -0.05, 0.02], axes: [0.3, -0.2, 0.5] }";
+    let other = "{ on: frame, at: [0.2, 0.1, -0.1], axes: [-0.4, 0.1, 0.2] }";
+    let first = Scene::new(&format!("bushing: b, from: {own}, to: {other}, {LAWS}"), "");
+    let second = Scene::new(&format!("bushing: b, from: {other}, to: {own}, {LAWS}"), "");
+    let mut random = Random::new(11);
+    for _ in 0..STATES {
+        let body = Moving::random(&mut random, [0.0; 3], 0.5);
+        let mine = (
+            product(&body.rotation, &turned([0.3, -0.2, 0.5])),
+            body.point([0.1, -0.05, 0.02]),
+        );
+        let fixed = (turned([-0.4, 0.1, 0.2]), [0.2, 0.1, -0.1]);
+        for (what, scene, is_first) in [("first", &first, true), ("second", &second, false)] {
+            let ((a1, p1), (a2, p2)) = if is_first {
+                (mine, fixed)
+            } else {
+                (fixed, mine)
+            };
+            // of the second body less the first, at p₂
+            let sign = if is_first { -1.0 } else { 1.0 };
+            let (velocity, omega) = (times(sign, body.velocity_at(p2)), times(sign, body.omega));
+            let in_first = |v: Vector| [0, 1, 2].map(|i| dot(column(&a1, i), v));
+            let (d, rate) = (in_first(minus(p2, p1)), in_first(velocity));
+            let resists = [
+                curve(&POINTS, d[0]) + 30.0 * rate[0],
+                700.0 * d[1],
+                200.0 * d[2] + 60.0 * rate[2],
+            ];
+            let force = apply(&a1, resists);
+
+            let (x, z) = (column(&a1, 0), column(&a2, 2));
+            let s = dot(x, z);
+            let c2 = 1.0 - s * s;
+            let entry = |i: usize, j: usize| dot(column(&a1, i), column(&a2, j));
+            // A₁ᵀ A₂ = Rx Ry Rz
+            let angles = [
+                (-entry(1, 2)).atan2(entry(2, 2)),
+                s.asin(),
+                (-entry(0, 1)).atan2(entry(0, 0)),
+            ];
+            let n = [
+                times(1.0 / c2, minus(x, times(s, z))),
+                times(1.0 / c2.sqrt(), cross(z, x)),
+                times(1.0 / c2, minus(z, times(s, x))),
+            ];
+            let turning = n.map(|n| dot(n, omega));
+            let torques = [
+                3.0 * angles[0] + 0.4 * turning[0],
+                curve(&ELASTIC, angles[1]),
+                5.0 * angles[2] + 0.7 * turning[2],
+            ];
+            let moment = (0..3).fold([0.0; 3], |sum, i| plus(sum, times(torques[i], n[i])));
+            // on the first body; on the second the opposite
+            let on_first = Wrench::at(&body, p2, force).and(Wrench {
+                force: [0.0; 3],
+                moment,
+            });
+            let page = Wrench {
+                force: times(-sign, on_first.force),
+                moment: times(-sign, on_first.moment),
+            };
+            let size = norm(page.force) + 4e3 + 30.0 * norm(moment) / (c2 * c2);
+            same(what, scene.acts(&body, 0.4, &[], &[]), page, size);
+        }
+    }
+}
+
 #[test]
 fn fields_and_loads() {
     let field = Scene::new(

@@ -18,7 +18,7 @@ curves:
 ";
 
 /// A number stands as `<path=value>`; where a key has several, they are told apart by what is behind `#`.
-const SCENES: [&str; 5] = [
+const SCENES: [&str; 6] = [
     "model: belts
 dimension: 2
 HEAD
@@ -174,6 +174,28 @@ forces:
 outputs:
   - { name: plate, of: contact plate, what: force }
   - { name: z, of: ball/body, what: position, component: z }
+run: { duration: 20 ms, every: 2 ms }
+",
+    "model: mounts
+dimension: 2
+HEAD
+systems:
+  - name: one
+    elements: [{ name: body, mass: 1, cg: [0, 0], inertia: 1e-2 }]
+    start: { position: [0.01, -0.02], velocity: [0.3, -1], rates: { body: 2 } }
+forces:
+  - bushing: mount
+    from: { on: frame, at: [<from.at=0>, <from.at#2=0>], axes: <from.axes=0.1> }
+    to: { on: one/body, at: [<to.at=0>, <to.at#2=0.01>], axes: <to.axes=0.05> }
+    along:
+      x: { elastic: { curve: through, times: <along.x.elastic.times=20>, stretch: <along.x.elastic.stretch=1> }, damping: <along.x.damping=5> }
+      z: { stiffness: <along.z.stiffness=2000>, damping: <along.z.damping=3> }
+    about:
+      y: { stiffness: <about.y.stiffness=20>, damping: <about.y.damping=0.1> }
+outputs:
+  - { name: x, of: bushing mount, what: force, component: x }
+  - { name: moment, of: bushing mount, what: moment }
+  - { name: z, of: one/body, what: position, component: z }
 run: { duration: 20 ms, every: 2 ms }
 ",
 ];
