@@ -24,6 +24,7 @@ mod search;
 
 use super::event::{PLACES, inside};
 use super::schedule::{Grid, Schedule, to_meet};
+use super::standing::{Standing, WIDTH};
 use super::watch::Watch;
 use super::{Cause, Observer, Pace, Receiver, Report, Settings};
 use crate::failure::Reason;
@@ -33,7 +34,7 @@ use crate::integrate::{Evaluator, Stepper, first_non_finite};
 use crate::{Dynamics, Info, Real};
 use count::Vote;
 use onset::{KEPT, Onsets};
-use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, STANDS, STUCK, matters};
+use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, matters};
 #[cfg(feature = "std")]
 pub(crate) use search::{EASY, SEARCHES};
 
@@ -141,8 +142,7 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     approach: Option<Approach>,
     /// Kinks in a row that were approached, and steps in a row that were taken again because of something hidden in them.
     restless: u32,
-    /// Steps in a row that a guard cut down to nothing: where it jumps at the time reached, it changes its sign there again and again.
-    stuck: u32,
+    standing: Standing,
     searches: u32,
 
     /// A state within a step; another one; values of guards or kinks at [`PLACES`] places; outputs; arguments of curves.
@@ -236,7 +236,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             breakpoint: 0.0,
             approach: None,
             restless: 0,
-            stuck: 0,
+            standing: Standing::default(),
             searches: 0,
             inside: workspace.part(state),
             spare: workspace.part(state),
@@ -547,9 +547,10 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         if let Some((guard, end)) = self.guard_within(step) {
             let theta = self.way_to_guard(step, end);
             let ends = begin + theta * reach.length;
-            let stands = ends - begin <= STANDS * finest_of::<T>(begin);
-            self.stuck = if stands { self.stuck + 1 } else { 0 };
-            if theta < 1.0 && self.stuck <= STUCK {
+            let lengths = [ends - begin, reach.length];
+            let finest = finest_of::<T>(begin);
+            let goes_on = self.standing.goes_on(lengths, finest, WIDTH);
+            if theta < 1.0 && !goes_on {
                 inside(self.model, step, theta, self.y);
                 self.report.t = ends;
                 landing.whole = false;
@@ -559,9 +560,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             self.report.events += 1;
             landing.forced = Some(Cause::Guard(guard));
         }
-        // a step that goes on is not stuck
         if landing.whole {
-            self.stuck = 0;
+            self.standing.forget();
         }
         landing
     }
