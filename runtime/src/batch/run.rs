@@ -753,9 +753,9 @@ impl<'a, T: Several> Run<'a, T> {
                 let unstable = watch.unstable(i, status != Status::Done || !finite);
                 let unstable = unstable.map(|found| Doubt::Unstable(found.index));
                 let momentum = watch.momentum(i).then_some(Doubt::Momentum);
-                let unexplained = watch.unexplained(i).map(Doubt::Unexplained);
+                let errs = watch.error(i).map(Doubt::Error);
                 let energy = watch.energy(i).map(Doubt::Energy);
-                (unstable, energy.or(momentum).or(unexplained))
+                (unstable, energy.or(momentum).or(errs))
             }
             None => (None, None),
         };

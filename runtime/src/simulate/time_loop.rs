@@ -390,7 +390,17 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.past = if smooth { landing.length } else { 0.0 };
         core::mem::swap(&mut self.guards_past, &mut self.guards);
         self.guards.copy_from_slice(self.guards_ahead);
-        self.begin(step, &reach, &landing, renewed)
+        let latest = self.f.latest;
+        let goes_on = self.begin(step, &reach, &landing, renewed)?;
+        if let (Some(watch), Pace::Fixed(_)) = (&mut self.watch, self.settings.method.pace) {
+            let next = core::mem::replace(&mut self.f.latest, latest);
+            watch.estimate_error(step, &mut self.f, landing.length, self.y, self.inside);
+            self.f.latest = next;
+        }
+        if goes_on {
+            step.begin(self.report.t, self.y, self.rate);
+        }
+        Ok(())
     }
 
     /// How far the next step goes.
@@ -596,18 +606,18 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// The next step begins where this one ended, unless that is the end of the run.
+    /// The next step begins where this one ended, unless that is the end of the run. Whether there is one.
     fn begin(
         &mut self,
-        step: &mut dyn Stepper<T>,
+        step: &dyn Stepper<T>,
         reach: &Reach,
         landing: &Landing,
         renewed: bool,
-    ) -> Result<(), End> {
+    ) -> Result<bool, End> {
         let arrived = landing.whole && reach.lands && reach.stop >= self.breakpoint;
         if arrived {
             if self.breakpoint >= self.settings.duration {
-                return Ok(());
+                return Ok(false);
             }
             // beyond the kink the derivative is another one
             self.past = 0.0;
@@ -633,8 +643,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         {
             watch.compare(step, self.y, self.rate, self.spare);
         }
-        step.begin(self.report.t, self.y, self.rate);
-        Ok(())
+        Ok(true)
     }
 
     /// Evaluates the guards at the state reached.
