@@ -26,11 +26,8 @@ use std::time::Instant;
 pub const PROMISED: f64 = 1e-3;
 /// A difference beyond this says that a run by any method is wrong.
 pub const FAR: f64 = 0.1;
-/// How long a check may take at least \[s\].
-const PATIENCE: f64 = 0.3;
-/// It may take so many times as long as the run in any case: a tenth of the tolerance takes 1.6 times the steps.
-const AGAIN: f64 = 3.0;
-/// How long all sharper runs may take together at least \[s\], and of the time of the first one in any case.
+/// How long the check and all sharper runs may take together at least \[s\], and of the time of the first run in any case. A check takes 1.6 times the
+/// steps where all is well; one that takes far more has something to tell, and is waited for.
 const LONGEST: [f64; 2] = [10.0, 5.0];
 /// Kinks are located below this tolerance, where that pays.
 const LOCATED: f64 = 1e-8;
@@ -88,7 +85,7 @@ pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f
     let shrunk: Vec<f64> = columns
         .map(|output| SHRUNK * largest(&output.values))
         .collect();
-    let mut patience = PATIENCE.max(AGAIN * wall);
+    let mut patience = end;
     let first = checked.recording.answers.clone();
     let asked = &job.reading.asked[..];
     let (mut floors, mut rounding) = (Vec::new(), Vec::new());

@@ -358,6 +358,19 @@ mod tests {
         Trust::of_checked(&check::run(&once, &Job::default(), false, &mut |_| {}))
     }
 
+    /// Where others compute, too, milliseconds may take a hundred times as long.
+    #[test]
+    fn a_check_has_far_more_time_than_it_needs() {
+        let checked = checked(|job| {
+            assert!(
+                job.time_limit
+                    .is_some_and(|limit| limit > Duration::from_secs(5))
+            );
+            job.clone()
+        });
+        assert!(matches!(checked.check, Some((_, Verdict::Apart(_)))));
+    }
+
     /// What is promised and cannot be checked is no success; what there is no time for is said.
     #[test]
     fn a_check_that_fails_is_an_error_and_one_without_time_is_not() {
