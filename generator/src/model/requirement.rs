@@ -375,8 +375,13 @@ impl List<'_> {
             self.hysteresis("force", &belt.force, law, curves);
         }
         if let Some(film) = &belt.film_spool {
-            let path = "retractor.film_spool.times".into();
-            self.number(path, &film.times, Rule::Positive);
+            self.together(
+                "retractor.film_spool",
+                "must come to an end",
+                film.times.clone(),
+                Rule::Positive,
+                "scale the curve by a factor above 0; leave `film_spool` out for a reel that holds at once",
+            );
         }
         let spool = belt.retractor.as_ref().map(|r| &r.spool);
         if let (Some(spool), Some(limit)) = (spool, &belt.limiter) {
