@@ -8,6 +8,9 @@ use bryant_hard::random::Random;
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Method, Tolerances};
 
+/// Draws a scene.
+type Shape = fn(&mut Random) -> String;
+
 /// Scenes of each shape.
 const SCENES: u64 = 12;
 
@@ -168,7 +171,7 @@ fn ringed(r: &mut Random) -> String {
 
 #[test]
 fn laws_that_act_together_are_as_accurate_as_promised_or_said_not_to_be() {
-    let shapes: [(&str, fn(&mut Random) -> String); 4] = [
+    let shapes: [(&str, Shape); 4] = [
         ("chain", chain),
         ("driven", driven),
         ("stopping", stopping),
