@@ -370,9 +370,10 @@ impl<T: Several> Run<'_, T> {
         let [first, ..] = &mut step.k;
         model.derivative(step.t.min(step.latest), &step.y, first);
         step.take(model);
-        for i in 0..self.info.varying_length() {
-            let error = self.end[i] - (step.end[i] - watch.defect[i]);
-            watch.error[i] = T::select(accepted, error, watch.error[i]);
+        let integrated = self.info.varying_length();
+        for (i, error) in watch.error.iter_mut().enumerate().take(integrated) {
+            let found = self.end[i] - (step.end[i] - watch.defect[i]);
+            *error = T::select(accepted, found, *error);
         }
         let coordinates = self.info.coordinates.len();
         for lane in each(accepted.lanes()).take_while(|lane| *lane < T::LANES) {

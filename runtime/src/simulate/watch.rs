@@ -781,8 +781,8 @@ impl<'a, T: Real> Watch<'a, T> {
         if taken.is_err() {
             return;
         }
-        for i in 0..integrated {
-            self.error[i] = y[i] - (step.span().end[i] - self.defect[i]);
+        for (i, error) in self.error.iter_mut().enumerate().take(integrated) {
+            *error = y[i] - (step.span().end[i] - self.defect[i]);
         }
         let coordinates = self.info.coordinates.len();
         let entry = |i: usize| Estimated {
