@@ -27,11 +27,8 @@ use std::time::Instant;
 pub const PROMISED: f64 = 1e-3;
 /// A run by any method is wrong if it differs from its check by more than this.
 pub const FAR: f64 = 0.1;
-/// A check may always take this long \[s\].
-const PATIENCE: f64 = 0.3;
-/// A check may always take this many times as long as the run: a tenth of the tolerance needs 1.6 times the steps.
-const AGAIN: f64 = 3.0;
-/// All sharper runs together may always take this time \[s\], and this many times the time of the first run.
+/// The check and all sharper runs together may always take this time \[s\], and this many times the time of the first run. A check usually takes 1.6 times
+/// the steps; one that takes far more has something to report, so it is waited for.
 const LONGEST: [f64; 2] = [10.0, 5.0];
 /// Below this tolerance kinks are located, which pays there.
 const LOCATED: f64 = 1e-8;
@@ -89,7 +86,7 @@ pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f
     let shrunk: Vec<f64> = columns
         .map(|output| SHRUNK * largest(&output.values))
         .collect();
-    let mut patience = PATIENCE.max(AGAIN * wall);
+    let mut patience = end;
     let first = checked.recording.answers.clone();
     let asked = &job.reading.asked[..];
     let (mut floors, mut rounding) = (Vec::new(), Vec::new());

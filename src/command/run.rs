@@ -86,8 +86,7 @@ pub struct Arguments {
     #[arg(long)]
     verify: bool,
 
-    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance, for at most 0.3 s or three
-    /// times as long as the first. Where outputs or responses differ by more than 0.1 %, the run is repeated sharper
+    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance. Where outputs or responses differ by more than 0.1 %, the run is repeated sharper
     #[arg(long, conflicts_with = "verify")]
     no_verify: bool,
 

@@ -64,8 +64,8 @@ pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
         Doubt::Momentum => {
             "the balance of momentum of freely moving bodies has a gap: the fixed steps are too long".to_owned()
         }
-        Doubt::Unexplained(index) => format!(
-            "\"{}\" does not agree with the integral of its rate within the fixed steps",
+        Doubt::Error(index) => format!(
+            "\"{}\" errs by too much, as estimated from the rates within the fixed steps",
             info.state_name(index)?
         ),
         Doubt::Left(curve) if info.curves.get(curve)?.kind == CurveKind::Volume => format!(

@@ -5,12 +5,20 @@ use super::step::Step;
 use crate::real::{Mask, Several};
 use crate::simulate::Zero;
 use crate::simulate::excursion::Excursion;
+use crate::simulate::standing::WIDTH;
 use crate::{Dynamics, Real};
 
 /// Iterations at most; bisection alone needs 44 for the width.
 const ITERATIONS: u32 = 100;
-/// The time of an event errs by less than the step does, and no finer than fractions of it can be told apart.
-const WIDTH: f64 = 1e-13;
+/// The fraction of a step within which an event is found.
+pub const fn width<T: Several>() -> f64 {
+    if T::EPSILON > WIDTH {
+        T::EPSILON
+    } else {
+        WIDTH
+    }
+}
+
 /// Half of the distance over which the rate of a guard is taken, as a part of the step: the error is of its square, and of rounding
 /// over it.
 const APART: f64 = 1e-4;
@@ -125,7 +133,7 @@ pub fn first_change<T: Several>(
     let (mut was_above, mut was_below) = (none, none);
     let mut bracket = end;
     for i in 0..ITERATIONS {
-        let open = wanted.and(c(WIDTH.max(T::EPSILON)).lt(other - same));
+        let open = wanted.and(c(width::<T>()).lt(other - same));
         if !open.any() {
             break;
         }

@@ -15,7 +15,7 @@
 
 use super::bend::Bends;
 use super::control::{Controllers, first_step};
-use super::event::{Sides, Values};
+use super::event::{Sides, Values, width};
 use super::jump::Sided;
 use super::models::Models;
 use super::onset::Onsets;
@@ -31,6 +31,7 @@ use crate::patience::Patience;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, Task};
 use crate::simulate::finest;
+use crate::simulate::standing::Standing;
 use crate::{Family, Info, Real, Schedule};
 
 /// Smallest step \[s\].
@@ -67,6 +68,7 @@ pub(super) struct Lane<S> {
     pub(super) steps: u32,
     pub(super) rejected: u32,
     pub(super) searches: u32,
+    standing: Standing,
     /// How long it may take, from when its run began.
     patience: Patience,
     /// How long it had taken when that was told last \[s\].
@@ -266,6 +268,7 @@ impl<'a, T: Several> Run<'a, T> {
                     steps: 0,
                     rejected: 0,
                     searches: 0,
+                    standing: Standing::default(),
                     patience: Patience::new(None, [0.0, 0.0]),
                     told: 0.0,
                 })
@@ -338,6 +341,7 @@ impl<'a, T: Several> Run<'a, T> {
             self.bends.forget(i);
             self.onsets.missed[i] = None;
             (lane.steps, lane.rejected, lane.searches) = (0, 0, 0);
+            lane.standing.forget();
             lane.patience = Patience::new(self.settings.time_limit, [0.0, self.settings.duration]);
             lane.told = 0.0;
             self.find_stop(i, 0.0);
@@ -500,6 +504,7 @@ impl<'a, T: Several> Run<'a, T> {
         self.end.copy_from_slice(&self.step.end);
         self.models.all.normalize(&mut self.end);
         let (Sides { ahead, behind }, whole) = self.place(accepted, easy, reached);
+        let whole = whole.or(self.going_on(whole.not().and(accepted), behind));
         let reached = T::select(whole, reached, behind * self.step.h + t);
         self.deliver(accepted, whole, reached);
         let broken = whole.not().and(accepted);
@@ -542,6 +547,9 @@ impl<'a, T: Several> Run<'a, T> {
         for i in each(accepted.lanes()) {
             self.lanes[i].steps += 1;
             self.lanes[i].searches = 0;
+            if whole.lanes() >> i & 1 != 0 {
+                self.lanes[i].standing.forget();
+            }
         }
         for i in each(arrived.lanes()) {
             self.arrive(i);
@@ -574,6 +582,21 @@ impl<'a, T: Several> Run<'a, T> {
         }
         self.count_steps(arrived.or(whole.not()).and(going));
         self.give_up();
+    }
+
+    /// Which of these lanes, whose steps are cut to a part, go on all the same, because they stand still.
+    #[inline(always)]
+    fn going_on(&mut self, cut: T::Mask, part: T) -> T::Mask {
+        let mut going_on = 0;
+        for i in each(cut.lanes()).take_while(|i| *i < T::LANES) {
+            let [t, h, part] = [self.step.t, self.step.h, part].map(|x| x.lane(i).to_f64());
+            let finest = T::EPSILON / f64::EPSILON * finest(t);
+            let standing = &mut self.lanes[i].standing;
+            if standing.goes_on([part * h, h], finest, width::<T>()) {
+                going_on |= 1 << i;
+            }
+        }
+        T::Mask::of_lanes(going_on)
     }
 
     /// Gives up runs that take too many steps, or too long.
@@ -730,9 +753,9 @@ impl<'a, T: Several> Run<'a, T> {
                 let unstable = watch.unstable(i, status != Status::Done || !finite);
                 let unstable = unstable.map(|found| Doubt::Unstable(found.index));
                 let momentum = watch.momentum(i).then_some(Doubt::Momentum);
-                let unexplained = watch.unexplained(i).map(Doubt::Unexplained);
+                let errs = watch.error(i).map(Doubt::Error);
                 let energy = watch.energy(i).map(Doubt::Energy);
-                (unstable, energy.or(momentum).or(unexplained))
+                (unstable, energy.or(momentum).or(errs))
             }
             None => (None, None),
         };

@@ -486,3 +486,47 @@ fn derivatives_are_accurate_or_said_not_to_be() {
         );
     }
 }
+
+/// An oscillator of ω = 100 1/s.
+const SWINGS: &str = "\
+model: swings
+dimension: 2
+parameters: { rate: 1 rad/s }
+systems:
+  - name: wheel
+    reference: fixed
+    elements: [{ name: body, mass: 1, cg: [0, 0], inertia: 1 }]
+    start: { rates: { body: rate } }
+forces: [{ joint: wheel/body, stiffness: 1e4 }]
+outputs: [{ name: angle, of: joint wheel/body, what: angle }]
+run: { duration: 1 s, every: 10 ms }
+";
+
+/// Steps of ωh = ½ by rk4 keep 1 − y⁶/72 + y⁸/576 of the energy each, y = ωh: 4.1 % are lost in the 200 of a run.
+#[test]
+fn the_limit_of_missing_energy_is_that_of_the_study() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    std::fs::write(at.join("swings.yaml"), SWINGS).unwrap();
+    for (limit, ends) in [
+        ("", "doubtful"),
+        (", energy_limit: 3 %", "doubtful"),
+        (", energy_limit: 5 %", "done"),
+    ] {
+        let study = format!(
+            "model: swings.yaml\ndesign: list\nrows: [{{ rate: 1 }}, {{ rate: 3 }}]\nrun: {{ step: 5 ms, method: rk4{limit} }}\n\
+             responses: [{{ of: angle, what: peak }}]\ntables: [csv]\n"
+        );
+        std::fs::write(at.join("study.yaml"), study).unwrap();
+        let out = format!("out-{}", limit.len() + ends.len());
+        call(at, &["sweep", "study.yaml", "--out", &out], 0);
+        let table = Table::read(&at.join(out).join("results.csv"));
+        assert_eq!(table.words("status"), [ends; 2], "{limit}");
+        let told = table.words("reason")[0].contains("balance of energy has a gap");
+        assert_eq!(told, ends == "doubtful", "{limit}");
+    }
+    let study = "model: swings.yaml\ndesign: list\nrows: [{ rate: 1 }]\nrun: { energy_limit: 3 % }\nresponses: [{ of: angle, what: peak }]\n";
+    std::fs::write(at.join("study.yaml"), study).unwrap();
+    let (_, stderr) = call(at, &["sweep", "study.yaml"], 2);
+    assert!(stderr.contains("there is no `step`"), "{stderr}");
+}

@@ -3,6 +3,7 @@
 
 #[path = "../called.rs"]
 mod called;
+mod combined;
 mod doubts;
 mod mounts;
 mod pages;

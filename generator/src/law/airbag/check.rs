@@ -116,15 +116,18 @@ impl Resolver<'_> {
                 ));
             }
         }
-        let inflow = match &written.inflow {
-            Some(inflow) => Some(self.inflow(inflow, at.key("inflow"), &written.airbag)?),
-            None => None,
-        };
-        if inflow.is_none() && written.start.is_none() {
+        if written.inflow.is_none() && written.start.is_none() {
             self.problems.add(at.key("airbag").problem(
                 format!("nothing fills airbag {name}"),
                 "add `inflow: { fire: …, flow: …, temperature: … }`, or `start: { pressure: …, temperature: … }` for a bag that is full",
             ));
+        }
+        let inflow = written.inflow.as_ref();
+        let inflow =
+            inflow.and_then(|inflow| self.inflow(inflow, at.key("inflow"), &written.airbag));
+        // a flow that is 0 everywhere is none, and a folded bag without one does nothing
+        if inflow.is_none() && written.start.is_none() {
+            return None;
         }
         let vent = written.vent.as_ref().and_then(|vent| {
             let at = at.key("vent");

@@ -302,7 +302,10 @@ impl Resolver<'_> {
         });
         if ends != Some(true) {
             self.problems.add(place.problem(
-                "the webbing that a locked reel gives would not come to an end",
+                format!(
+                    "`retractor.film_spool` of belt {} must come to an end",
+                    quoted(name)
+                ),
                 "begin the curve with [0, 0], let no ordinate be smaller than the one before, and the last be more than 0; leave `film_spool` out for a reel that holds at once",
             ));
         }

@@ -104,8 +104,13 @@ impl Terms for Belt {
             list.hysteresis("force", &self.force, law, curves);
         }
         if let Some(film) = &self.film_spool {
-            let path = "retractor.film_spool.times".into();
-            list.number(path, &film.times, Rule::Positive);
+            list.together(
+                "retractor.film_spool",
+                "must come to an end",
+                film.times.clone(),
+                Rule::Positive,
+                "scale the curve by a factor above 0; leave `film_spool` out for a reel that holds at once",
+            );
         }
         let spool = self.retractor.as_ref().map(|r| &r.spool);
         if let (Some(spool), Some(limit)) = (spool, &self.limiter) {

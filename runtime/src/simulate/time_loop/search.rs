@@ -11,12 +11,7 @@ use crate::integrate::Stepper;
 use crate::simulate::Pace;
 use crate::simulate::event::{self, Which, Within};
 use crate::simulate::excursion::{heads_for, overshoot};
-
-/// Steps in a row that guards may cut down to nothing; then one goes on. Far more than a law has guards at one time.
-pub(super) const STUCK: u32 = 100;
-
-/// A step of so many times the finest length of time is nothing: the time goes on by a few roundings.
-pub(super) const STANDS: f64 = 4.0;
+use crate::simulate::standing::WIDTH;
 
 /// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
 pub(super) const HOP: f64 = 1e-9;
@@ -189,8 +184,6 @@ impl<T: Real> TimeLoop<'_, '_, T> {
 
     /// The part of a step that lies before the first change of a guard, which has changed at `end`, and a trifle.
     pub(super) fn way_to_guard(&mut self, step: &mut dyn Stepper<T>, end: f64) -> f64 {
-        // the time of an event then errs by less than the step does
-        const WIDTH: f64 = 1e-13;
         step.complete(&mut self.f);
         self.within(step, Which::Guards).first_change(end, WIDTH)
     }
