@@ -740,26 +740,24 @@ mod tests {
     }
 
     #[test]
-    fn blocks_of_the_same_formula_hand_over_numbers_in_one_order() {
-        // A sum is written before a product, whichever comes first in the graph: a x + (b x + x) and (b x + x) + a x are the same formula.
-        let sum = |turned: bool, [a, b]: [f64; 2]| {
+    fn formulas_are_like_each_other_but_for_their_numbers() {
+        let formula = |[a, b]: [f64; 2], slope: bool| {
             read(move |graph| {
                 let x = graph.symbol(Symbol::Coordinate(0));
-                let (product, sum) = (a * x, b * x + x);
-                let operands = match turned {
-                    false => Node::Add(product.id(), sum.id()),
-                    true => Node::Add(sum.id(), product.id()),
-                };
-                graph.intern(operands).id()
+                let other = if slope { x.sqrt() } else { x.sin() };
+                (a * x + (b * x + other)).id()
             })
         };
-        let (first, numbers) = sum(false, [2.0, 3.0]);
-        assert_eq!(numbers, [2.0, 3.0]);
-        let (other, numbers) = sum(false, [5.0, 7.0]);
-        assert_eq!((other, numbers), (first.clone(), vec![5.0, 7.0]));
-        let (turned, numbers) = sum(true, [2.0, 3.0]);
-        // but its numbers are met in the other order
-        assert_eq!(numbers, [3.0, 2.0]);
-        assert_ne!(turned, first);
+        let (first, numbers) = formula([2.0, 3.0], true);
+        let (like, others) = formula([5.0, 7.0], true);
+        assert_eq!(like, first);
+        let pairs: Vec<_> = numbers.iter().zip(&others).collect();
+        assert_eq!(pairs.len(), 2);
+        assert!(
+            pairs
+                .iter()
+                .all(|pair| [(&2.0, &5.0), (&3.0, &7.0)].contains(pair))
+        );
+        assert_ne!(formula([2.0, 3.0], false).0, first);
     }
 }
