@@ -132,6 +132,8 @@ impl<'g> Scene<'g, '_> {
                     JointQuantity::Torque => m.torque,
                     JointQuantity::Angle => m.angle,
                     JointQuantity::Rate => m.rate,
+                    JointQuantity::SetAbove => m.permanent_sets[0],
+                    JointQuantity::SetBelow => m.permanent_sets[1],
                 }),
                 _ => zero,
             },

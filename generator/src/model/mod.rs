@@ -941,6 +941,10 @@ pub enum JointQuantity {
     Angle,
     /// Its rate \[rad/s\].
     Rate,
+    /// The angle beyond the neutral one that its hysteresis keeps \[rad\]; m where it slides.
+    SetAbove,
+    /// The same before the neutral angle, where it is negative.
+    SetBelow,
 }
 
 /// Of a contact.

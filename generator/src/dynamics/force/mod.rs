@@ -177,6 +177,8 @@ pub struct JointMeasures<'g> {
     pub angle: Expr<'g>,
     /// Its rate \[rad/s\].
     pub rate: Expr<'g>,
+    /// Where the elastic torque ends that falls from here, beyond the neutral angle and before it \[rad\]; 0 without hysteresis.
+    pub permanent_sets: [Expr<'g>; 2],
 }
 
 /// Of a contact.

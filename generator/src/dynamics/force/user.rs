@@ -230,6 +230,7 @@ pub fn apply<'g>(
                 torque,
                 angle: rotation.angle,
                 rate: rotation.rate,
+                permanent_sets: [graph.constant(0.0); 2],
             });
         }
         loads.turn_joint(port.value, *parent, moment);

@@ -45,16 +45,26 @@ const OF_BODY: [(&str, &str, OfBody); 8] = [
     ("accelerometer", "m/s^2", P(PointQuantity::Accelerometer)),
 ];
 
-pub const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
+const OF_JOINT: [(&str, &str, JointQuantity); 5] = [
     ("torque", "N*m", JointQuantity::Torque),
     ("angle", "rad", JointQuantity::Angle),
     ("rate", "rad/s", JointQuantity::Rate),
+    ("permanent_set_above", "rad", JointQuantity::SetAbove),
+    ("permanent_set_below", "rad", JointQuantity::SetBelow),
 ];
 
 /// Of the law of a freedom that turns, and of one that slides.
-const OF_LAW: [[(&str, &str, JointQuantity); 1]; 2] = [
-    [("torque", "N*m", JointQuantity::Torque)],
-    [("effort", "N", JointQuantity::Torque)],
+const OF_LAW: [[(&str, &str, JointQuantity); 3]; 2] = [
+    [
+        ("torque", "N*m", JointQuantity::Torque),
+        ("permanent_set_above", "rad", JointQuantity::SetAbove),
+        ("permanent_set_below", "rad", JointQuantity::SetBelow),
+    ],
+    [
+        ("effort", "N", JointQuantity::Torque),
+        ("permanent_set_above", "m", JointQuantity::SetAbove),
+        ("permanent_set_below", "m", JointQuantity::SetBelow),
+    ],
 ];
 
 /// Of a freedom that turns, and of one that slides.
