@@ -18,7 +18,11 @@ pub struct Constant<'g> {
     pub against: Matrix,
 }
 
-/// How many times as large the numbers of a second moment may become: larger ones of opposite signs lose that factor of their digits, and 16 is little.
+/// How many times as large the numbers of a mass, a first and a second moment may become: larger ones of opposite signs lose that factor of their digits,
+/// and 16 is little.
+///
+/// The numbers of a link, of sizes h and Σ, are those of a mass h²/Σ. So |μ| ≤ 16 h²/Σ, and what is left of the link, and of those that carry it, may have
+/// sizes of 16 h and 16 Σ.
 const LARGER: f64 = 16.0;
 
 /// Whether a child can keep h_k of its parent.
@@ -27,12 +31,9 @@ fn can_keep(tree: &Tree<'_>, parent: usize, child: usize, place: Vec3<'_>, k: us
         LinkJoint::Ball { .. } => parent == 0 && tree.free && tree.carrier.is_none(),
         joint => joint.is_hinge() && k < 2,
     };
-    let [x, y, z] = place.0.map(|r| r.as_constant());
-    let (Some(x), Some(y), Some(z)) = (x, y, z) else {
-        return false;
-    };
-    let distance = (x * x + y * y + z * z).sqrt();
-    carries && tree.links[child].joint.is_hinge() && [x, y, z][k].abs() > 1e-6 * distance
+    let along = place.0[k].as_constant();
+    let known = place.0.iter().all(|r| r.as_constant().is_some());
+    carries && known && tree.links[child].joint.is_hinge() && along.is_some_and(|r| r != 0.0)
 }
 
 /// The bodies for the reference motion.
@@ -63,10 +64,18 @@ fn with_kept<'g>(
     let graph = tree.graph;
     let mut bodies = bodies.to_vec();
     let place = links[child].place;
+    let too_large = |of: &Body<'g>, link: usize| {
+        let own = links[link].body.sizes;
+        (0..2).any(|i| of.sizes[i] > LARGER * own[i])
+    };
     let point = Body {
         mass: bodies[k].first.0[axis] / place.0[axis],
         ..Body::none(graph)
     };
+    let [first, second] = links[k].body.sizes;
+    if point.mass.as_constant()?.abs() * second > LARGER * first * first {
+        return None;
+    }
     bodies[child] = bodies[child].plus(&point);
     let mut rest = bodies[k].minus(&point.moved(place));
     rest.first.0[axis] = graph.constant(0.0);
@@ -74,7 +83,7 @@ fn with_kept<'g>(
     let mut link = k;
     loop {
         // what is no number has no size that could be compared
-        if !rest.is_constant() || rest.sizes[1] > LARGER * links[link].body.sizes[1] {
+        if !rest.is_constant() || too_large(&rest, link) {
             return None;
         }
         let joint = &tree.links[link].joint;
