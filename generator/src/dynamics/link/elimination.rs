@@ -301,6 +301,11 @@ fn outwards<'g>(
             base: none,
         };
         match &inwards.eliminated[k] {
+            Eliminated::Base if !link.joint.is_ball() => {
+                (a, alpha) = inwards.outboard[k].floating_in_plane(graph);
+                result.rotation.0[0] = frame.sign * alpha.0[2];
+                result.base = choice.unit * frame.axes.times(a);
+            }
             Eliminated::Base => {
                 (a, alpha) = inwards.outboard[k].floating(graph);
                 // of the joint, where the origin is not
@@ -325,6 +330,9 @@ fn outwards<'g>(
             }
             Eliminated::Axis(axis, gains) => {
                 a = slid(a, alpha);
+                if link.joint.is_absolute() {
+                    alpha = none;
+                }
                 let rate = axis.rate(a, alpha, choice.links[k].scales_rate);
                 let rate = gains.iter().fold(rate, |rate, (row, gain)| {
                     known.get(row).map_or(rate, |other| rate - *gain * *other)

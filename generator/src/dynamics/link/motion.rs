@@ -8,8 +8,8 @@
 //! | a⁰ = Xᵀ (a⁰_p + Γ_p r) | Γ = α̂⁰ + ω̂ ω̂:  Γ_ij = ω_i ω_j ∓ α⁰_k,  Γ_ii = −(ω_j² + ω_k²) |
 //! | along a slide d = z s q: a⁰ += Γ d + 2 ω × z s q̇ + z s q̈ref | with ω and α⁰ before the turn about z |
 //!
-//! q̈ref makes α⁰_z, or a⁰_z of what slides, what costs least: mostly 0. On a ball α⁰ = 0, and of a free base a⁰ = 0: no acceleration of a
-//! field is turned from link to link.
+//! q̈ref makes α⁰_z, or a⁰_z of what slides, what costs least: mostly 0. On a ball, and on a hinge of the plane whose angle is absolute, ω is its own and
+//! α⁰ = 0, and of a free base a⁰ = 0: no acceleration of a field is turned from link to link.
 
 use super::body::Body;
 use super::frames::{Choice, Framed, ReferenceTurn};
@@ -185,6 +185,11 @@ pub fn motion<'g>(
                     motion.alpha = in_link(*bias);
                 }
             }
+            LinkJoint::Axis {
+                rate,
+                absolute: true,
+                ..
+            } => motion.omega.0[2] = frame.sign * *rate,
             LinkJoint::Axis {
                 turn,
                 rate,

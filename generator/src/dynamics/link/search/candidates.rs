@@ -39,9 +39,10 @@ impl Search<'_, '_> {
         self.attempt(None, units.into_iter().map(with).collect());
     }
 
-    /// Places of the origin of a free base: in the joints of what it carries, or level with them.
+    /// Places of the origin of a free base in space: in the joints of what it carries, or level with them.
     pub fn bases(&mut self) {
-        if !self.tree.free || self.aim != Aim::Elimination {
+        let in_space = self.tree.links[0].joint.is_ball();
+        if !self.tree.free || !in_space || self.aim != Aim::Elimination {
             return;
         }
         let mut places = vec![[0.0; 3]];
