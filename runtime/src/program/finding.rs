@@ -8,7 +8,7 @@ use crate::simulate::{Beyond, Doubt, Watch};
 pub struct Finding {
     /// Since when \[s\].
     pub since: f64,
-    /// "step", "curve", "energy" or "momentum".
+    /// "step", "curve", "energy", "momentum" or "singular".
     pub kind: String,
     /// How much: the step over the largest stable one, the argument of a curve, the share that is missing.
     pub amount: f64,
