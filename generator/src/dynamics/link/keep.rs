@@ -18,12 +18,11 @@ pub struct Constant<'g> {
     pub against: Matrix,
 }
 
-/// How many times as large the numbers of a mass, a first and a second moment may become: larger ones of opposite signs lose that factor of their digits,
-/// and 16 is little.
+/// How many times as large the numbers of a first and of a second moment may become: larger ones of opposite signs lose that factor of their digits. Of
+/// h 256 is little: some 50 roundings of 256 ε are 3e-12.
 ///
-/// The numbers of a link, of sizes h and Σ, are those of a mass h²/Σ. So |μ| ≤ 16 h²/Σ, and what is left of the link, and of those that carry it, may have
-/// sizes of 16 h and 16 Σ.
-const LARGER: f64 = 16.0;
+/// The numbers of a link, of sizes h and Σ, are those of a mass h²/Σ, so that |μ| ≤ 256 h²/Σ.
+const LARGER: [f64; 2] = [256.0, 16.0];
 
 /// Whether a child can keep h_k of its parent.
 fn can_keep(tree: &Tree<'_>, parent: usize, child: usize, place: Vec3<'_>, k: usize) -> bool {
@@ -66,14 +65,14 @@ fn with_kept<'g>(
     let place = links[child].place;
     let too_large = |of: &Body<'g>, link: usize| {
         let own = links[link].body.sizes;
-        (0..2).any(|i| of.sizes[i] > LARGER * own[i])
+        (0..2).any(|i| of.sizes[i] > LARGER[i] * own[i])
     };
     let point = Body {
         mass: bodies[k].first.0[axis] / place.0[axis],
         ..Body::none(graph)
     };
     let [first, second] = links[k].body.sizes;
-    if point.mass.as_constant()?.abs() * second > LARGER * first * first {
+    if point.mass.as_constant()?.abs() * second > LARGER[0] * first * first {
         return None;
     }
     bodies[child] = bodies[child].plus(&point);
