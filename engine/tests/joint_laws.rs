@@ -20,8 +20,10 @@ enum Of {
     Slider,
     BallAboutY,
     Torsion,
+    Flexion,
 }
 
+/// All with two sides.
 const KINDS: [Of; 5] = [
     Of::PlaneHinge,
     Of::Hinge,
@@ -72,6 +74,13 @@ fn scene(of: Of, law: &str, [q, rate]: [f64; 2], rest: &str) -> Engine {
             ", about: torsion",
             "angle",
         ),
+        Of::Flexion => (
+            "",
+            format!("angles: {{ b: [0, {q}, 0] }}, rates: {{ b: [0, {rate}, 0] }}"),
+            format!("flexion: {{ {law} }}"),
+            ", about: flexion",
+            "angle",
+        ),
     };
     let text = format!(
         "
@@ -98,8 +107,8 @@ outputs:
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 
-/// Time, q and q̇ at each sample, and the number of steps.
-fn run(engine: &Engine, duration: f64, samples: usize) -> (Vec<[f64; 3]>, f64) {
+/// Time and the first outputs at so many samples, q and q̇ before others, and the number of steps.
+fn run<const N: usize>(engine: &Engine, duration: f64, samples: usize) -> (Vec<[f64; N]>, f64) {
     let machine = engine.over::<f64>();
     let settings = Settings {
         method: Method::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE)),
@@ -111,7 +120,10 @@ fn run(engine: &Engine, duration: f64, samples: usize) -> (Vec<[f64; 3]>, f64) {
     machine.initial_state(&mut state);
     let mut rows = Vec::new();
     let report = simulate::run(&machine, &state, &settings, None, &mut |sample| {
-        rows.push([sample.t, sample.outputs[0], sample.outputs[1]]);
+        rows.push(std::array::from_fn(|i| match i {
+            0 => sample.t,
+            i => sample.outputs[i - 1],
+        }));
         ControlFlow::Continue(())
     })
     .unwrap_or_else(|failure| panic!("{failure}"));
@@ -179,7 +191,7 @@ const SETS: &str = "elastic: { curve: line, times: k }, unloading_slope: steep";
 fn each_side_keeps_its_set() {
     for of in KINDS {
         let engine = scene(of, SETS, [0.0, 2.0], "");
-        let (rows, steps) = run(&engine, 3.0, 300);
+        let (rows, steps) = run::<3>(&engine, 3.0, 300);
         for [t, q, _] in rows {
             let expected = thrown(2.0, 100.0, 400.0, t);
             let bound = bound(steps, 20.0);
@@ -189,6 +201,86 @@ fn each_side_keeps_its_set() {
             );
         }
     }
+}
+
+/// The outputs of both sets of the joint.
+fn sets(about: &str) -> String {
+    ["above", "below"]
+        .map(|side| {
+            format!("  - {{ name: {side}, of: joint s/b, what: permanent_set_{side}{about} }}\n")
+        })
+        .concat()
+}
+
+fn about(of: Of) -> &'static str {
+    match of {
+        Of::BallAboutY => ", about: y",
+        Of::Torsion => ", about: torsion",
+        Of::Flexion => ", about: flexion",
+        _ => "",
+    }
+}
+
+#[test]
+fn the_sets_are_outputs() {
+    // 1 − k/s of how far each side was ever loaded, from the neutral angle
+    let (k, s, v) = (100.0f64, 400.0f64, 2.0);
+    let kept = 1.0 - k / s;
+    let most = v / k.sqrt();
+    let quarter = FRAC_PI_2 / k.sqrt();
+    let lowest = quarter + FRAC_PI_2 / s.sqrt() + most * kept / (v * (k / s).sqrt()) + quarter;
+    for of in KINDS {
+        for neutral in [0.0, 0.3] {
+            let law = format!("{SETS}, neutral: {neutral}");
+            let engine = scene(of, &law, [neutral, v], &sets(about(of)));
+            let (rows, steps) = run::<5>(&engine, 3.0, 300);
+            for [t, q, _, above, below] in rows {
+                let at = |t: f64| thrown(v, k, s, t);
+                let expected = [at(t.min(quarter)), at(t.min(lowest)).min(0.0)];
+                for (ours, furthest) in [above, below].into_iter().zip(expected) {
+                    let bound = bound(steps, 20.0);
+                    assert!(
+                        (ours - kept * furthest).abs() <= bound,
+                        "{of:?} at {t}: {ours} for {}, allowed {bound:e}, at {q}",
+                        kept * furthest
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_set_is_of_the_time_in_which_the_force_acts() {
+    // thrown to 0.125 before the force is there; at 0.08, on the way back, it is loaded at once, and unloads from there along its line
+    let law = format!("name: back, motor: -4 }}\n  - {{ joint: s/b, {SETS}, since: now");
+    let outputs = sets(about(Of::Slider));
+    let rest = format!("{outputs}switches: [{{ switch: now, when: {{ time: 0.4 }} }}]\n");
+    let engine = scene(Of::Slider, &law, [0.0, 1.0], &rest);
+    let (rows, steps) = run::<5>(&engine, 0.425, 85);
+    for &[t, q, _, above, _] in rows.iter().filter(|row| row[0] >= 0.4) {
+        let (foot, slope) = (0.75 * 0.08, 400.0f64);
+        let (rest, turned) = (foot - 4.0 / slope, slope.sqrt() * (t - 0.4));
+        let expected = rest + (0.08 - rest) * turned.cos() - 0.6 / slope.sqrt() * turned.sin();
+        let bound = bound(steps, 20.0);
+        assert!((q - expected).abs() <= bound, "at {t}: {q} for {expected}");
+        assert!((above - foot).abs() <= bound, "at {t}: {above}");
+    }
+}
+
+#[test]
+fn flexion_keeps_one_set() {
+    // bent by a, on with v: energy says how far
+    let (k, s, a, v) = (100.0f64, 400.0f64, 0.1, 2.0f64);
+    let furthest = (a * a + v * v / k).sqrt();
+    let law = "stiffness: 100, unloading_slope: steep";
+    let engine = scene(Of::Flexion, law, [a, v], &sets(about(Of::Flexion)));
+    let (rows, steps) = run::<5>(&engine, 0.2, 2);
+    let [_, q, rate, above, below] = rows[2];
+    assert!(q < furthest && rate < 0.0, "has turned: {q} {rate}");
+    let apart = (above - (1.0 - k / s) * furthest).abs();
+    assert!(apart <= bound(steps, 20.0), "{above} {apart:e}");
+    assert_eq!(below, 0.0);
 }
 
 #[test]
@@ -262,8 +354,35 @@ fn what_unloading_gives_back_is_the_area_below_its_curve() {
     let ratio = (back / (0.5 * k * most * most)).sqrt();
     let law = "elastic: { curve: line, times: k }, unloading: { curve: line, times: 25 }, unloading_slope: steep";
     for of in KINDS {
-        let engine = scene(of, law, [0.0, v], "");
-        let (rows, steps) = run(&engine, 2.0, 20_000);
+        let engine = scene(of, law, [0.0, v], &sets(about(of)));
+        let (rows, steps) = run::<5>(&engine, 2.0, 20_000);
+        // the foot of the line: of f on the way out, of u once that is met, on the side where the joint is
+        let out = FRAC_PI_2 / k.sqrt();
+        let met = out + ((meets - foot) / (most - foot)).acos() / s.sqrt();
+        for &[t, q, rate, above, below] in rows.iter().filter(|row| row[0] < met + 0.3) {
+            let bound = bound(steps, 10.0);
+            let expected = match t {
+                t if t < out => q * (1.0 - k / s),
+                t if t < met => foot,
+                _ if q > 0.0 => q * (1.0 - u / s),
+                _ => 0.0,
+            };
+            assert!(
+                (above - expected).abs() <= bound,
+                "{of:?} at {t}: {above} for {expected}"
+            );
+            let below_expected = if q < 0.0 && rate < 0.0 {
+                q * (1.0 - k / s)
+            } else {
+                0.0
+            };
+            if q > 0.0 || rate < 0.0 {
+                assert!(
+                    (below - below_expected).abs() <= bound,
+                    "{of:?} at {t}: {below}"
+                );
+            }
+        }
         let peaks: Vec<f64> = rows
             .windows(3)
             .filter(|w| w[1][1].abs() > w[0][1].abs() && w[1][1].abs() >= w[2][1].abs())
@@ -288,7 +407,7 @@ fn what_is_held_does_not_creep() {
     let rub = "friction: 2, friction_speed: 0.01";
     for of in KINDS {
         let held = format!("{rub}, friction_displacement: 1e-3, motor: 1.8");
-        let (rows, steps) = run(&scene(of, &held, [0.0; 2], ""), 100.0, 100);
+        let (rows, steps) = run::<3>(&scene(of, &held, [0.0; 2], ""), 100.0, 100);
         for [t, q, rate] in rows.into_iter().filter(|row| row[0] > 9.0) {
             // 0.9 of the friction bends the bristle by 0.9 of its displacement; the transient of the start has decayed to e⁻⁹⁰
             let bound = bound(steps, 1.0);
@@ -300,7 +419,7 @@ fn what_is_held_does_not_creep() {
         }
         // with friction by speed it creeps with 0.9 of the tolerance speed, 1/200 s late
         let creeps = format!("{rub}, motor: 1.8");
-        let (rows, steps) = run(&scene(of, &creeps, [0.0; 2], ""), 100.0, 100);
+        let (rows, steps) = run::<3>(&scene(of, &creeps, [0.0; 2], ""), 100.0, 100);
         for [t, q, _] in rows.into_iter().filter(|row| row[0] > 0.5) {
             let expected = 0.009 * (t - 1.0 / 200.0);
             assert!(
@@ -310,7 +429,7 @@ fn what_is_held_does_not_creep() {
         }
         // above the friction limit it slides under the whole friction
         let slides = format!("{rub}, friction_displacement: 1e-3, motor: 2.2");
-        let (rows, steps) = run(&scene(of, &slides, [0.0; 2], ""), 2.0, 20);
+        let (rows, steps) = run::<3>(&scene(of, &slides, [0.0; 2], ""), 2.0, 20);
         let rate = |t: f64| {
             let row = rows.iter().find(|row| (row[0] - t).abs() < 1e-9);
             row.expect("a sample")[2]
@@ -451,7 +570,7 @@ fn motors_and_drives_move_as_their_formulas_say() {
     ];
     for of in KINDS {
         for (law, start, expected) in motions {
-            let (rows, steps) = run(&scene(of, law, start, ""), 1.0, 20);
+            let (rows, steps) = run::<3>(&scene(of, law, start, ""), 1.0, 20);
             for [t, q, _] in rows {
                 let bound = bound(steps, 1.0) + 1e-14;
                 assert!(

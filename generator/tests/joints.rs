@@ -424,6 +424,7 @@ fn mistakes_are_told_with_their_remedy() {
             "a joint cannot be hinge and slider at once",
         ),
         ("{ zero: 3 }", "this does not say which joint it is"),
+        ("[weld, { hinge: x }]", "a joint of a list has keys"),
         ("{ screw: x }", "a screw needs its pitch"),
         ("{ hinge: x, pitch: 1 }", "a hinge has no pitch"),
         ("{ hinge: x, zero: 3 m }", "an angle is needed here"),
@@ -618,6 +619,11 @@ fn mistakes_are_told_with_their_remedy() {
          - { name: left-arm, on: body, at: [0, 1, 0], mirror: true, joint: { hinge: x, follows: { joint: neck } }, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n\
          run: { duration: 1 s, every: 0.1 s }\n";
     assert!(refused(mirrored).contains("has no mirror image"));
+    let on_a_ball = "model: one\ndimension: 3\nsystems:\n  - name: s\n    elements:\n      \
+         - { name: body, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n      \
+         - { name: arm, on: body, at: [0, 1, 0], joint: { hinge: x, follows: { joint: body } }, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n\
+         run: { duration: 1 s, every: 0.1 s }\n";
+    assert!(refused(on_a_ball).contains("there is no ratio to an orientation"));
     let element = |name: &str, joint: &str| {
         format!(
             "  - name: {name}\n    reference: fixed\n    elements: [{{ name: {name}-arm, joint: {joint}, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }}]\n"
@@ -631,6 +637,30 @@ fn mistakes_are_told_with_their_remedy() {
         );
         let said = refused(&text);
         assert!(said.contains("of its own system alone"), "{said}");
+    }
+}
+
+#[test]
+fn the_length_of_an_axis_does_not_matter() {
+    // also where squares of its components overflow, or have lost their digits
+    let of = |axis: &str| read(&element(&format!("{{ hinge: {axis} }}"), ""));
+    let model = of("[1, 2, 0]");
+    for axis in [
+        "[1e200, 2e200, 0]",
+        "[1e-170, 2e-170, 0]",
+        "[3e-310, 6e-310, 0]",
+    ] {
+        let [found, expected] = [&of(axis), &model].map(|model| {
+            let axis = &model.systems[0].elements[0].joint.freedoms()[0].axis;
+            axis.each_ref().map(|a| a.value(&[]))
+        });
+        for (found, expected) in found.into_iter().zip(expected) {
+            // of the last, components themselves have eleven digits
+            assert!(
+                (found - expected).abs() < 1e-10,
+                "{axis}: {found} {expected}"
+            );
+        }
     }
 }
 

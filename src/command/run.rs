@@ -8,7 +8,7 @@ mod responses;
 
 use super::Error;
 use super::accuracy::accuracy;
-use super::caution;
+use super::caution::{self, singular::Near};
 use super::compare::{filter_standard, pair};
 use super::model_argument::find;
 use super::outputs;
@@ -315,8 +315,12 @@ impl Arguments {
                 error.cause = fastest.text();
             }
         }
-        if matches!(&recording.result, Err(error) if error.kind == ErrorKind::Run) {
-            look_for_singular_joint(&found.model, &job, &mut recording);
+        match &recording.result {
+            Ok(_) => doubt_singular_start(&found.model, &job, &mut recording),
+            Err(error) if error.kind == ErrorKind::Run => {
+                look_for_singular_joint(&found.model, &job, &mut recording);
+            }
+            Err(_) => {}
         }
         if let Some(failure) = compiled.as_ref().and_then(RustcModel::failure) {
             return Err(Error::failed(failure.to_owned()));
@@ -729,13 +733,37 @@ fn look_for_singular_joint(model: &Model, job: &Job, recording: &mut Recording) 
         let place = coordinates.iter().position(|one| one == name)?;
         state?.get(place).copied()
     };
-    let cause = caution::singular::at(model, &recording.parameters(job), value);
+    let parameters = recording.parameters(job);
+    let cause = caution::singular::at(model, &parameters, value, Near::CloseTo);
     if let (Some(cause), Err(error)) = (cause, &mut recording.result) {
-        error.cause = cause;
+        error.cause = cause.join("; ");
     }
 }
 
-/// The cost of the run, in one line.
+/// Doubts a run that starts in a singular position of a joint: rounding alone says how it leaves that.
+fn doubt_singular_start(model: &Model, job: &Job, recording: &mut Recording) {
+    let coordinates = &recording.header.coordinates;
+    let value = |name: &str| {
+        let place = coordinates.iter().position(|one| one == name)?;
+        job.start.as_ref()?.state.get(place).copied()
+    };
+    let parameters = recording.parameters(job);
+    let Some([position, remedy]) = caution::singular::at(model, &parameters, value, Near::In)
+    else {
+        return;
+    };
+    let start = Finding {
+        since: recording.first_time(),
+        kind: "singular".to_owned(),
+        amount: 0.0,
+        coordinate: String::new(),
+        message: format!("at the start {position}"),
+        remedy,
+    };
+    recording.doubts.insert(0, start);
+}
+
+/// What the run took, in one line.
 fn report(recording: &Recording) -> String {
     let Ok(report) = &recording.result else {
         return String::new();

@@ -1282,6 +1282,23 @@ fn a_start_in_a_singular_position_of_a_joint_is_named() {
     }
     // the run can continue away from there
     run("60 deg", 0);
+    // where rounding alone says how it leaves such a position, it is not trusted
+    let euler = "[ { hinge: z, name: a }, { hinge: x, name: b }, { hinge: z, name: c } ]";
+    let start = "    start: { joints: { hand: [0, 180 deg, 0] } }\nforces";
+    let text = on_a_joint(euler, "").replace("forces", start);
+    let run = |text: String, code: i32| {
+        std::fs::write(directory.path().join("several.yaml"), text).unwrap();
+        let arguments = ["run", "several.yaml", "--no-files", "--no-verify"];
+        call(directory.path(), &arguments, code).1
+    };
+    let told = run(text.clone(), 3);
+    assert!(
+        told.contains("at the start the joint of \"arm/hand\" is in a singular position")
+            && told.contains("there a and c move the element alike"),
+        "{told}"
+    );
+    // a rotor keeps the mass matrix regular
+    run(text.replace("name: c", "name: c, armature: 0.05"), 0);
 }
 
 #[test]
@@ -1319,6 +1336,11 @@ fn check_warns_of_singular_positions_of_a_joint() {
             polar,
             "",
             Some("is singular at position-x = 0 mm: there first and last move"),
+        ),
+        (
+            "[ { hinge: z, name: a, armature: 0.1 }, { hinge: x, name: b }, { hinge: z, name: c } ]",
+            "",
+            None,
         ),
         ("{ universal: [x, y] }", "", None),
         ("{ cylinder: z }", "", None),

@@ -150,7 +150,10 @@ impl Resolver<'_> {
                     "{} is on a joint without a coordinate of its own",
                     quoted(&path)
                 ),
-                "follow a joint that has one: in the plane write `joint: { hinge: y }` there",
+                match self.planar {
+                    true => "write `joint: { hinge: y }` there",
+                    false => "follow a hinge, a slider or a freedom of a list: there is no ratio to an orientation",
+                },
             ));
             return None;
         }

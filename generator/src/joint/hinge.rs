@@ -19,6 +19,7 @@ pub struct Hinge;
 pub(crate) const SPELLING: Spelling = Spelling {
     key: key::<Axis>("hinge"),
     keys: &[],
+    handed: &[],
     coordinates: &[Coordinate::Angle],
     read: |reader| Some(vec![Made::new(Hinge, reader.turning()?)]),
 };

@@ -29,6 +29,7 @@ const MOST: usize = 6;
 pub(crate) const UNIVERSAL: Spelling = Spelling {
     key: key::<Vec<Axis>>("universal"),
     keys: &[],
+    handed: &[],
     coordinates: &[Coordinate::Angle, Coordinate::Angle],
     read: |reader| {
         if reader.planar() {
@@ -51,6 +52,7 @@ const TWO_AXES: &str = "in space write two axes: `universal: [x, y]`";
 pub(crate) const CYLINDER: Spelling = Spelling {
     key: key::<Axis>("cylinder"),
     keys: &[],
+    handed: &[],
     coordinates: &[Coordinate::Length, Coordinate::Angle],
     read: |reader| {
         if reader.leads_out_of_plane("write `slider: x`, or a list of a slider and a hinge") {
@@ -68,6 +70,7 @@ pub(crate) const CYLINDER: Spelling = Spelling {
 pub(crate) const PLANAR: Spelling = Spelling {
     key: key::<Axis>("planar"),
     keys: &[],
+    handed: &[],
     coordinates: &[Coordinate::Length, Coordinate::Length, Coordinate::Angle],
     read: |reader| {
         let normal = reader.turning()?;

@@ -22,6 +22,7 @@ pub struct Screw(pub Number);
 pub(crate) const SPELLING: Spelling = Spelling {
     key: key::<Axis>("screw"),
     keys: &[key::<Quantity>("pitch")],
+    handed: &["pitch"],
     coordinates: &[Coordinate::Angle],
     read: |reader| {
         if reader.leads_out_of_plane("write `hinge: y`, or give the model `dimension: 3`") {

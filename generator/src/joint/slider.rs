@@ -19,6 +19,7 @@ pub struct Slider;
 pub(crate) const SPELLING: Spelling = Spelling {
     key: key::<Axis>("slider"),
     keys: &[],
+    handed: &[],
     coordinates: &[Coordinate::Length],
     read: |reader| Some(vec![Made::new(Slider, reader.sliding()?)]),
 };

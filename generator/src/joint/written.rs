@@ -17,7 +17,9 @@ pub(crate) struct Spelling {
     pub key: Key,
     /// Keys that belong to this spelling alone.
     pub keys: &'static [Key],
-    /// The coordinates of the degrees of freedom that it stands for, from the carrier outwards.
+    /// Those of them whose numbers say which hand it has: in a mirror image they change sign.
+    pub handed: &'static [&'static str],
+    /// The coordinates of the freedoms that it stands for, from the carrier outwards.
     pub coordinates: &'static [Coordinate],
     /// Reads these degrees of freedom; `None` if a problem is reported.
     pub read: fn(&Reader<'_>) -> Option<Vec<Made>>,
@@ -272,8 +274,7 @@ impl<'r> Reader<'r> {
         if resolver.problems.count() > before {
             return Direction::unnamed(0);
         }
-        let squares = vector.iter().map(|n| n.value(&resolver.defaults).powi(2));
-        if squares.sum::<f64>() <= 0.0 {
+        if vector.iter().all(|n| n.value(&resolver.defaults) == 0.0) {
             let constant = vector.iter().all(|n| n.constant().is_some());
             let when = match constant {
                 true => "",

@@ -8,7 +8,7 @@ use crate::simulate::{Beyond, Doubt, Watch};
 pub struct Finding {
     /// Time since which it holds \[s\].
     pub since: f64,
-    /// "step", "curve", "energy" or "momentum".
+    /// "step", "curve", "energy", "momentum" or "singular".
     pub kind: String,
     /// Its size: the step over the largest stable one, the argument of a curve, or the missing share.
     pub amount: f64,

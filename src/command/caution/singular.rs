@@ -42,6 +42,8 @@ struct One {
     advance: Option<f64>,
     /// The range that stops leave.
     stops: [f64; 2],
+    /// Inertia of its rotor as a share of that of the element.
+    rotor: f64,
 }
 
 /// One sentence for each joint that can come to a singular position or close to one, with a remedy.
@@ -54,13 +56,27 @@ pub fn cautions(model: &Model) -> Vec<String> {
         .collect()
 }
 
-/// The message about a joint that is in a singular position at a state, or within some degrees of one. `state` gives the value of a
-/// coordinate by its name; coordinates without a value are those at the start of a run with these parameters.
+/// How near a singular position a joint is.
+#[derive(Clone, Copy)]
+pub enum Near {
+    /// In it, but for rounding.
+    In,
+    /// Within some degrees.
+    CloseTo,
+}
+
+/// What is to be said of a joint in a singular position, and what helps, at a state: a value for each name of a coordinate, or, of a name
+/// without a value, the start of a run with these parameters.
 pub fn at(
     model: &Model,
     parameters: &[f64],
     state: impl Fn(&str) -> Option<f64>,
-) -> Option<String> {
+    near: Near,
+) -> Option<[String; 2]> {
+    let (least, word) = match near {
+        Near::In => (ZERO, "in"),
+        Near::CloseTo => (CLOSE, "in, or close to,"),
+    };
     let joints = joints(model, parameters);
     let found = joints.iter().find_map(|(joint, start)| {
         let names = joint.freedoms.iter().zip(start);
@@ -69,20 +85,21 @@ pub fn at(
             state(&name).unwrap_or(*start)
         });
         let q: Vec<f64> = q.collect();
-        (joint.determinant(&q) < CLOSE).then_some((joint, q))
+        (joint.determinant(&q) < least).then_some((joint, q))
     });
     found.map(|(joint, q)| {
         let named = joint.freedoms.iter().zip(&q);
         let shown: Vec<String> = named
             .map(|(one, q)| format!("{} = {}", one.name, one.shown(*q)))
             .collect();
-        format!(
-            "the joint of \"{}\" is in, or close to, a singular position ({}): there {} move the element alike; start elsewhere, let stops end the \
-             motion before, or turn the axes of the joint; what turns freely about all axes has a ball joint",
+        let position = format!(
+            "the joint of \"{}\" is {word} a singular position ({}): there {} move the element alike, and the mass matrix is singular",
             joint.name,
             shown.join(", "),
             joint.alike(&q).join(" and ")
-        )
+        );
+        let remedy = "start elsewhere, let stops end the motion before, or turn the axes of the joint; what turns freely about all axes has a ball joint";
+        [position, remedy.to_owned()]
     })
 }
 
@@ -101,6 +118,7 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
                 system: s,
                 element: e,
             };
+            let mass = element.mass.value(parameters);
             let of = |(index, freedom): (usize, &Freedom)| One {
                 name: freedom.name.clone(),
                 axis: freedom.axis.each_ref().map(|a| a.value(parameters)),
@@ -108,6 +126,10 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
                 turns: freedom.kind.turns(),
                 advance: freedom.kind.advance().map(|a| a.value(parameters)),
                 stops: stops(model, id, index, parameters),
+                rotor: {
+                    let length = if freedom.kind.turns() { LENGTH } else { 1.0 };
+                    freedom.armature.value(parameters) / (mass * length * length)
+                },
             };
             let joint = Several {
                 name: format!("{}/{}", system.name, element.name),
@@ -221,9 +243,15 @@ impl Several {
     /// Ĥᵀ Ĥ
     fn gram(&self, q: &[f64]) -> Vec<Vec<f64>> {
         let columns = self.columns(q);
-        let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum();
-        let row = |a| columns.iter().map(|b| dot(a, b)).collect();
-        columns.iter().map(row).collect()
+        let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let row = |(i, a): (usize, &[f64; 6])| -> Vec<f64> {
+            let entry = |(j, b): (usize, &[f64; 6])| match i == j {
+                true => dot(a, b) + self.freedoms[j].rotor,
+                false => dot(a, b),
+            };
+            columns.iter().enumerate().map(entry).collect()
+        };
+        columns.iter().enumerate().map(row).collect()
     }
 
     fn determinant(&self, q: &[f64]) -> f64 {

@@ -186,7 +186,21 @@ impl<'g> Articulated<'g> {
         }
     }
 
-    /// Δa and Δα of a base that nothing holds.
+    /// Δa and Δα where nothing holds it in the plane across z.
+    pub fn floating_in_plane(&self, graph: &'g Graph) -> (Vec3<'g>, Vec3<'g>) {
+        let (k, b, zero) = (&self.mass, &self.coupling.0[2], graph.constant(0.0));
+        let lower = vec![
+            vec![k.entry(0, 0)],
+            vec![k.entry(1, 0), k.entry(1, 1)],
+            vec![b[0], b[1], self.inertia.entry(2, 2)],
+        ];
+        let [x, y, _] = self.bias.force.0;
+        let right = vec![-x, -y, -self.bias.moment.0[2]];
+        let x = Ldl::of(graph, lower).solve(right);
+        (Vec3([x[0], x[1], zero]), Vec3([zero, zero, x[2]]))
+    }
+
+    /// Δa and Δα where nothing holds it.
     pub fn floating(&self, graph: &'g Graph) -> (Vec3<'g>, Vec3<'g>) {
         let entry = |i: usize, j: usize| match (i < 3, j < 3) {
             (true, true) => self.mass.entry(i, j),

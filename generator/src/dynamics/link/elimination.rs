@@ -302,6 +302,11 @@ fn outwards<'g>(
             base: none,
         };
         match &inwards.eliminated[k] {
+            Eliminated::Base if !link.joint.is_ball() => {
+                (a, alpha) = inwards.outboard[k].floating_in_plane(graph);
+                result.rotation.0[0] = frame.sign * alpha.0[2];
+                result.base = choice.unit * frame.axes.times(a);
+            }
             Eliminated::Base => {
                 (a, alpha) = inwards.outboard[k].floating(graph);
                 // the origin of the joint, which differs from that of the frame
@@ -326,6 +331,9 @@ fn outwards<'g>(
             }
             Eliminated::Axis(axis, gains) => {
                 a = slid(a, alpha);
+                if link.joint.is_absolute() {
+                    alpha = none;
+                }
                 let rate = axis.rate(a, alpha, choice.links[k].scales_rate);
                 let rate = gains.iter().fold(rate, |rate, (row, gain)| {
                     known.get(row).map_or(rate, |other| rate - *gain * *other)

@@ -197,6 +197,8 @@ impl<'g> Framed<'g> {
         let mut aligning: Vec<Vec<Turn<'g>>> = Vec::new();
         // for each aligned link, the sum of the angles, variable and constant
         let mut angles: Vec<(Expr<'g>, f64)> = Vec::new();
+        // by link, in the plane: the angles that it and its axes have in the absolute frame
+        let mut turned: Vec<[Expr<'g>; 2]> = Vec::new();
         for (k, link) in tree.links.iter().enumerate() {
             let constant = |m: &Matrix| m.map(|row| row.map(|a| graph.constant(a)));
             let carrier = link.parent.map_or(IDENTITY, |p| axes[p]);
@@ -223,6 +225,11 @@ impl<'g> Framed<'g> {
             let mut turns = Vec::new();
             let mut own_turns = Vec::new();
             let (mut angle, mut offset) = (graph.constant(0.0), 0.0);
+            let [carrier_turned, axes_turned] = match link.parent {
+                Some(p) => turned[p],
+                None => [tree.ground.angle; 2],
+            };
+            let mut own_turned = carrier_turned;
             match &link.joint {
                 LinkJoint::Ball { .. } => {
                     let own = match aligned[k] {
@@ -241,19 +248,27 @@ impl<'g> Framed<'g> {
                 LinkJoint::Axis {
                     turn,
                     position,
-                    axis: _,
+                    axis,
+                    absolute,
                     ..
                 } => {
                     let sign = natural[k].1;
                     let [outer, tilt, inner] = z_x_z(&r);
                     if *turn != 0.0 {
                         angle = sign * *position;
+                        own_turned = carrier_turned + (turn * axis[1]) * *position;
+                    }
+                    if *absolute {
+                        angle = sign * (*position - axes_turned);
+                        own_turned = *position;
                     }
                     offset = inner;
                     let on_aligned = link.parent.filter(|&p| aligned[p]);
                     if let Some(p) = on_aligned {
                         place = turned_about_z(place, angles[p]);
-                        angle = angle + angles[p].0;
+                        if !absolute {
+                            angle = angle + angles[p].0;
+                        }
                         offset += angles[p].1 + outer;
                     }
                     // for aligned links, the angle turns the links that they carry
@@ -267,6 +282,10 @@ impl<'g> Framed<'g> {
                 }
             }
             angles.push((angle, offset));
+            turned.push(match aligned[k] {
+                true => [own_turned, axes_turned],
+                false => [own_turned; 2],
+            });
             if aligned[k] {
                 match &link.joint {
                     LinkJoint::Ball { .. } => own_turns.push(Turn::Matrix(link.rotation)),

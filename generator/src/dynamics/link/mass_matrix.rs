@@ -53,7 +53,8 @@ pub fn mass_matrix<'g>(
     if let Some(base) = tree.base {
         let unit = written.choice.unit;
         let mass = (1.0 / (unit * unit)) * composites[0].mass;
-        let diagonal = (base..base + 3).map(|i| (i, i, mass));
+        let rows = base..base + tree.directions.len();
+        let diagonal = rows.map(|i| (i, i, mass));
         entries.terms.extend(diagonal);
     }
     for (k, link) in tree.links.iter().enumerate() {

@@ -186,6 +186,11 @@ pub fn motion<'g>(
                 }
             }
             LinkJoint::Axis {
+                rate,
+                absolute: true,
+                ..
+            } => motion.omega.0[2] = frame.sign * *rate,
+            LinkJoint::Axis {
                 turn,
                 rate,
                 coupled,

@@ -24,7 +24,9 @@ pub struct Tree<'g> {
     pub free: bool,
     /// Index in v of the first velocity of a free reference joint.
     pub base: Option<usize>,
-    /// ω, α⁰ and a⁰ of the first link, if it stands for the carrier of a part of a tree.
+    /// The absolute axes along which a free reference joint moves.
+    pub directions: &'static [usize],
+    /// ω, α⁰ and a⁰ of the first link, where it stands for what carries a part of a tree.
     pub carrier: Option<[Vec3<'g>; 3]>,
 }
 
@@ -39,6 +41,8 @@ pub struct Ground<'g> {
     pub alpha: Vec3<'g>,
     /// Acceleration of the reference joint minus the field common to all elements, in its axes; 0 for a free one.
     pub acceleration: Vec3<'g>,
+    /// φ in the plane, 0 in space.
+    pub angle: Expr<'g>,
 }
 
 /// One link.
@@ -105,6 +109,8 @@ pub enum LinkJoint<'g> {
         armature: Expr<'g>,
         /// Whether other links share the same row.
         coupled: bool,
+        /// Whether it is a hinge of the plane whose angle is absolute: its carrier's turn does not turn it.
+        absolute: bool,
     },
 }
 
@@ -114,7 +120,12 @@ impl LinkJoint<'_> {
         matches!(self, LinkJoint::Ball { .. })
     }
 
-    /// Whether other links share its velocity.
+    /// Whether its velocities turn it against the absolute frame, so that it does not turn with its carrier.
+    pub fn is_absolute(&self) -> bool {
+        self.is_ball() || matches!(self, LinkJoint::Axis { absolute: true, .. })
+    }
+
+    /// Whether other links have a share of its velocity.
     pub fn is_coupled(&self) -> bool {
         matches!(self, LinkJoint::Axis { coupled: true, .. })
     }
@@ -139,12 +150,7 @@ impl<'g> Tree<'g> {
         let free = matches!(system.reference, Reference::Free);
         let first_is_ball = system.elements.first()?.joint == Joint::Ball;
         let complete = spatial.tree.bodies.iter().all(|body| body.gyroscopic);
-        let absolute_in_plane = model.dimension == Dimension::Plane
-            && system
-                .elements
-                .iter()
-                .any(|element| element.joint == Joint::Ball);
-        if absolute_in_plane || (free && !first_is_ball) || !complete {
+        if (free && !first_is_ball) || !complete {
             return None;
         }
         graph.section(format!("system {}: links", system.name));
@@ -177,6 +183,23 @@ impl<'g> Tree<'g> {
             let acting = loads.map(|loads| &loads.wrenches.on_freedoms[spatial.system][k][..]);
             let acting = acting.unwrap_or_default();
             match &element.joint {
+                Joint::Ball if model.dimension == Dimension::Plane => {
+                    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+                    let joint = LinkJoint::Axis {
+                        axis: [0.0, 1.0, 0.0],
+                        turn: 1.0,
+                        slide: zero,
+                        position: motion.angle,
+                        rate: motion.omega.0[1],
+                        acting: zero,
+                        ratio: one,
+                        armature: zero,
+                        coupled: false,
+                        absolute: true,
+                    };
+                    links.push(link(shares[0].velocity, parent, joint, place));
+                    (parent, place) = (Some(links.len() - 1), none);
+                }
                 Joint::Ball => {
                     let columns = [0, 1, 2].map(|j| motion.axes[j]);
                     let joint = LinkJoint::Ball {
@@ -205,6 +228,7 @@ impl<'g> Tree<'g> {
                             ratio: shares[i].ratio,
                             armature: number(graph, &freedom.armature),
                             coupled: false,
+                            absolute: false,
                         };
                         links.push(link(shares[i].velocity, parent, joint, place));
                         (parent, place) = (Some(links.len() - 1), none);
@@ -233,6 +257,7 @@ impl<'g> Tree<'g> {
                 .layout
                 .reference_velocities(spatial.system)
                 .map(|rows| rows.start),
+            directions: spatial.layout.directions,
             carrier: None,
         };
         tree.regroup();
@@ -274,6 +299,7 @@ impl<'g> Tree<'g> {
                     ratio,
                     armature,
                     coupled,
+                    absolute,
                 } => LinkJoint::Axis {
                     axis,
                     turn,
@@ -284,6 +310,7 @@ impl<'g> Tree<'g> {
                     ratio: of(ratio),
                     armature: of(armature),
                     coupled,
+                    absolute,
                 },
             },
             place: Vec3(link.place.0.map(&mut of)),
@@ -309,6 +336,7 @@ impl<'g> Tree<'g> {
             ground: self.ground.map(&mut of),
             free: self.free,
             base: self.base,
+            directions: self.directions,
             carrier: None,
         }
     }
@@ -351,12 +379,12 @@ impl<'g> Ground<'g> {
                     - loads.wrenches.fields[spatial.system]
             }
         };
-        let (axes, omega, alpha) = match (&system.reference, first_is_ball) {
+        let (axes, omega, alpha, angle) = match (&system.reference, first_is_ball) {
             (Reference::Riding { vehicle, .. }, false) => {
                 let body = &spatial.motion.vehicles[*vehicle].body;
-                (body.rotation, body.omega, body.bias)
+                (body.rotation, body.omega, body.bias, body.angle)
             }
-            _ => (identity(graph), none, none),
+            _ => (identity(graph), none, none, graph.constant(0.0)),
         };
         let own = |v: Vec3<'g>| axes.transposed_times(v);
         Ground {
@@ -364,13 +392,16 @@ impl<'g> Ground<'g> {
             omega: own(omega),
             alpha: own(alpha),
             acceleration: own(acceleration),
+            angle,
         }
     }
 
     /// The same ground, with each expression replaced.
     pub fn map<'h>(&self, mut of: impl FnMut(Expr<'g>) -> Expr<'h>) -> Ground<'h> {
+        let angle = of(self.angle);
         let mut vector = |v: Vec3<'g>| Vec3(v.0.map(&mut of));
         Ground {
+            angle,
             acceleration: vector(self.acceleration),
             axes: Mat3(self.axes.0.map(|row| vector(Vec3(row)).0)),
             omega: vector(self.omega),

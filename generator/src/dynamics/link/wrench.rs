@@ -62,6 +62,10 @@ impl<'g> Written<'g, '_> {
                 let force = axes.transposed_times(wrench.force);
                 Arrived::InLink(of(force, none, frame.place))
             }
+            (LinkJoint::Axis { absolute: true, .. }, _) => {
+                let force = through(&frame.turns, wrench.force);
+                Arrived::InLink(of(force, none, frame.place))
+            }
             (LinkJoint::Axis { .. }, _) => {
                 let mut moment = wrench.moment;
                 if let Some(along) = self.along(k) {
@@ -96,12 +100,12 @@ impl<'g> Written<'g, '_> {
         let frame = &self.framed.links[k];
         let graph = self.tree.graph;
         let body = match (&self.tree.links[k].joint, self.along(k)) {
-            (LinkJoint::Ball { .. }, _) => Body {
+            (joint, _) if joint.is_absolute() => Body {
                 mass: body.mass,
                 ..Body::none(graph)
             },
-            (LinkJoint::Axis { .. }, None) => body.turned(&frame.turns),
-            (LinkJoint::Axis { .. }, Some(along)) => body.moved(along).turned(&frame.turns),
+            (_, None) => body.turned(&frame.turns),
+            (_, Some(along)) => body.moved(along).turned(&frame.turns),
         };
         body.moved(frame.place)
     }
@@ -147,8 +151,13 @@ impl<'g> Written<'g, '_> {
         let Some(base) = self.tree.base else {
             return Vec::new();
         };
-        let force = (1.0 / self.choice.unit) * wrench.force;
-        (0..3).map(|i| (base + i, force.0[i])).collect()
+        let force = match self.is_ball(0) {
+            true => wrench.force,
+            false => self.framed.links[0].axes.times(wrench.force),
+        };
+        let force = (1.0 / self.choice.unit) * force;
+        let directions = self.tree.directions.iter().enumerate();
+        directions.map(|(i, &d)| (base + i, force.0[d])).collect()
     }
 
     /// The velocity of a link about its z axis, as a share of the velocity in its row.

@@ -18,6 +18,10 @@ pub enum JointQuantity {
     Angle,
     /// Its rate \[rad/s\].
     Rate,
+    /// The angle beyond the neutral one that its hysteresis keeps \[rad\]; m where it slides.
+    SetAbove,
+    /// The same before the neutral angle, where it is negative.
+    SetBelow,
 }
 
 /// Which quantity of a joint force, and about what.
@@ -40,16 +44,26 @@ impl OfLaw for JointOutput {
 }
 
 /// Of a relative rotation.
-pub(crate) const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
+const OF_JOINT: [(&str, &str, JointQuantity); 5] = [
     ("torque", "N*m", JointQuantity::Torque),
     ("angle", "rad", JointQuantity::Angle),
     ("rate", "rad/s", JointQuantity::Rate),
+    ("permanent_set_above", "rad", JointQuantity::SetAbove),
+    ("permanent_set_below", "rad", JointQuantity::SetBelow),
 ];
 
 /// Of the law of a freedom that turns, and of one that slides.
-const OF_LAW: [[(&str, &str, JointQuantity); 1]; 2] = [
-    [("torque", "N*m", JointQuantity::Torque)],
-    [("effort", "N", JointQuantity::Torque)],
+const OF_LAW: [[(&str, &str, JointQuantity); 3]; 2] = [
+    [
+        ("torque", "N*m", JointQuantity::Torque),
+        ("permanent_set_above", "rad", JointQuantity::SetAbove),
+        ("permanent_set_below", "rad", JointQuantity::SetBelow),
+    ],
+    [
+        ("effort", "N", JointQuantity::Torque),
+        ("permanent_set_above", "m", JointQuantity::SetAbove),
+        ("permanent_set_below", "m", JointQuantity::SetBelow),
+    ],
 ];
 
 impl Outputs for Joint {
@@ -104,6 +118,8 @@ pub struct JointMeasures<'g> {
     pub angle: Expr<'g>,
     /// Its rate \[rad/s\].
     pub rate: Expr<'g>,
+    /// The angles beyond and before the neutral one at which the elastic torque ends that falls from here \[rad\]; 0 without hysteresis.
+    pub permanent_sets: [Expr<'g>; 2],
 }
 
 /// Of a joint: per relative rotation, then of flexion and of torsion, where a law acts or somebody looks.
@@ -119,6 +135,8 @@ impl<'g> Measures<'g> for AboutRotations<'g> {
             JointQuantity::Torque => measures.torque,
             JointQuantity::Angle => measures.angle,
             JointQuantity::Rate => measures.rate,
+            JointQuantity::SetAbove => measures.permanent_sets[0],
+            JointQuantity::SetBelow => measures.permanent_sets[1],
         }))
     }
 }

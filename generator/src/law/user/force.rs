@@ -218,6 +218,7 @@ fn apply<'g>(user: &User, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> Us
                 torque,
                 angle: rotation.angle,
                 rate: rotation.rate,
+                permanent_sets: [graph.constant(0.0); 2],
             });
         }
         loads.turn_joint(port.value, *parent, moment);

@@ -6,7 +6,7 @@ use crate::description::place::At;
 use crate::diagnostic::{quoted, suggestion};
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::joint::{JointMeasures, JointQuantity, OF_JOINT};
+use crate::law::joint::JointMeasures;
 use crate::law::{Asked as OfForce, Measures, OfLaw, Outputs, Value};
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Projection, Quantity};
@@ -70,7 +70,9 @@ enum Asked {
     Tension,
     Length,
     LengthRate,
-    Joint(JointQuantity),
+    Torque,
+    Angle,
+    AngleRate,
     Effort,
     State,
     StateRate,
@@ -78,6 +80,11 @@ enum Asked {
 
 const OF_POINT: [(&str, &str, Asked); 1] = [("force", "N", Asked::Force)];
 const OF_BODY: [(&str, &str, Asked); 1] = [("moment", "N*m", Asked::Moment)];
+const OF_JOINT: [(&str, &str, Asked); 3] = [
+    ("torque", "N*m", Asked::Torque),
+    ("angle", "rad", Asked::Angle),
+    ("rate", "rad/s", Asked::AngleRate),
+];
 const OF_LINE: [(&str, &str, Asked); 3] = [
     ("tension", "N", Asked::Tension),
     ("length", "m", Asked::Length),
@@ -112,7 +119,6 @@ impl Resolver<'_> {
     ) -> Option<(Quantity, &'static str)> {
         self.without(at, &["segment", "ring"], "anything but a belt");
         self.without(at, &["on", "relative_to"], "a user force");
-        let of_joint = OF_JOINT.map(|(name, unit, what)| (name, unit, Asked::Joint(what)));
         fn names<T>(ports: &[Port<T>]) -> Vec<&str> {
             ports.iter().map(|port| port.name.as_str()).collect()
         }
@@ -120,7 +126,7 @@ impl Resolver<'_> {
             ("a point", names(&user.points), &OF_POINT),
             ("a body", names(&user.bodies), &OF_BODY),
             ("a line", names(&user.lines), &OF_LINE),
-            ("a joint", names(&user.joints), &of_joint),
+            ("a joint", names(&user.joints), &OF_JOINT),
             ("a freedom", names(&user.freedoms), &OF_FREEDOM),
             ("a state", names(&user.states), &OF_STATE),
         ];
@@ -197,17 +203,17 @@ impl Resolver<'_> {
         &self,
         written: &Written,
         user: &User,
-        what: Asked,
+        asked: Asked,
         index: usize,
         at: At<'_>,
     ) -> Option<(UserQuantity, &'static str)> {
-        if !matches!(what, Asked::Force | Asked::Moment) {
+        if !matches!(asked, Asked::Force | Asked::Moment) {
             self.without(at, &["component", "axes"], "a scalar");
         }
-        if !matches!(what, Asked::Joint(_)) {
+        if !matches!(asked, Asked::Torque | Asked::Angle | Asked::AngleRate) {
             self.without(at, &["about"], "anything but a joint");
         }
-        Some(match what {
+        Some(match asked {
             Asked::Force => {
                 let component = self.component_of_vector(written, at)?;
                 let on = user.points.get(index)?.value.on;
@@ -229,7 +235,7 @@ impl Resolver<'_> {
             Asked::Tension => (UserQuantity::Tension(index), "N"),
             Asked::Length => (UserQuantity::Length(index), "m"),
             Asked::LengthRate => (UserQuantity::LengthRate(index), "m/s"),
-            Asked::Joint(what) => {
+            Asked::Torque | Asked::Angle | Asked::AngleRate => {
                 let about = self.about(written, at)?;
                 if about > 2 {
                     self.problems.add(at.key("about").problem(
@@ -238,10 +244,10 @@ impl Resolver<'_> {
                     ));
                     return None;
                 }
-                match what {
-                    JointQuantity::Torque => (UserQuantity::Torque(index, about), "N*m"),
-                    JointQuantity::Angle => (UserQuantity::Angle(index, about), "rad"),
-                    JointQuantity::Rate => (UserQuantity::AngleRate(index, about), "rad/s"),
+                match asked {
+                    Asked::Torque => (UserQuantity::Torque(index, about), "N*m"),
+                    Asked::Angle => (UserQuantity::Angle(index, about), "rad"),
+                    _ => (UserQuantity::AngleRate(index, about), "rad/s"),
                 }
             }
             Asked::Effort => {

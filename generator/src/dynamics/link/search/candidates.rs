@@ -41,7 +41,8 @@ impl Search<'_, '_> {
 
     /// Tries origins of a free base: in the joints of the links that it carries, or level with them.
     pub fn bases(&mut self) {
-        if !self.tree.free || self.aim != Aim::Elimination {
+        let in_space = self.tree.links[0].joint.is_ball();
+        if !self.tree.free || !in_space || self.aim != Aim::Elimination {
             return;
         }
         let mut places = vec![[0.0; 3]];

@@ -135,11 +135,13 @@ impl<'t, 'g> Search<'t, 'g> {
                 axis,
                 turn,
                 coupled,
+                absolute,
                 ..
             } = &link.joint
             {
                 signature.extend(axis.map(f64::to_bits));
-                signature.extend([turn.to_bits(), u64::from(*coupled), link.row as u64]);
+                let flags = [*coupled, *absolute].map(u64::from);
+                signature.extend([turn.to_bits(), flags[0], flags[1], link.row as u64]);
             }
         }
         let scratch = Graph::new();

@@ -90,6 +90,7 @@ impl<'g> Search<'_, 'g> {
                 ground: self.tree.ground.map(|e| self.symbol(graph, e)),
                 free: self.tree.free,
                 base: None,
+                directions: self.tree.directions,
                 carrier: None,
             },
             natural: Vec::new(),
@@ -119,6 +120,7 @@ impl<'g> Search<'_, 'g> {
             part.of.push(None);
             part.tree.free = true;
             part.tree.carrier = Some([vector(), vector(), vector()]);
+            part.tree.ground.angle = vector().0[0];
             let (natural, _) = &self.natural[carrier];
             let turn = choice.links[carrier].turn;
             part.natural.push((turned_axes(natural, turn), 1.0));
@@ -175,8 +177,8 @@ impl<'g> Search<'_, 'g> {
         }
         let (first, diagonal, off) = (vector(), vector().0, vector().0);
         let mut body = Body::none(first.0[0].graph());
-        // a ball passes no moment, and a hinge no mass, because bodies are regrouped
-        if left_out.iter().any(|&c| !links[c].joint.is_ball()) {
+        // a ball passes no moment, and a hinge no mass of regrouped bodies
+        if left_out.iter().any(|&c| !links[c].joint.is_absolute()) {
             (body.first, body.second) = (first, Sym3 { diagonal, off });
         }
         if left_out
@@ -204,6 +206,7 @@ impl<'g> Search<'_, 'g> {
             ground: self.tree.ground,
             free: self.tree.free,
             base: None,
+            directions: self.tree.directions,
             carrier: None,
         };
         part.map(graph, |e| self.symbol(graph, e))

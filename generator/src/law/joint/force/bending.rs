@@ -27,6 +27,7 @@ use crate::dynamics::numbers::number;
 use crate::equations::NO_BEARING;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Function, Graph};
+use crate::law::joint::JointMeasures;
 use crate::model::JointTorque;
 
 /// Below this, sin² β is taken for it: the square of the rounding of a unit vector.
@@ -94,7 +95,7 @@ impl<'g> Bent<'g> {
         }
     }
 
-    /// The moment of flexion on the child, and its component along n.
+    /// The moment of flexion on the child, and what can be asked of it; its torque is the component along n.
     pub fn flexion(
         &self,
         graph: &'g Graph,
@@ -102,7 +103,7 @@ impl<'g> Bent<'g> {
         owner: &str,
         gate: Gate<'g>,
         law: &JointTorque,
-    ) -> (Vec3<'g>, Expr<'g>) {
+    ) -> (Vec3<'g>, JointMeasures<'g>) {
         let Rotation {
             angle,
             rate,
@@ -127,7 +128,7 @@ impl<'g> Bent<'g> {
             );
         };
         if let Some(resists) = resists {
-            along("elastic", -resists);
+            along("elastic", -resists.0);
         }
         if let Some(law) = &law.stop {
             along("stop", stop(graph, law, angle, rate));
@@ -158,7 +159,12 @@ impl<'g> Bent<'g> {
         }
         (
             torque * direction - resistance * self.swing,
-            torque - resistance * rate,
+            JointMeasures {
+                torque: torque - resistance * rate,
+                angle,
+                rate,
+                permanent_sets: resists.map_or([graph.constant(0.0); 2], |resists| resists.1),
+            },
         )
     }
 }

@@ -102,9 +102,9 @@ fn apply<'g>(joint: &Joint, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> 
             Dimension::Plane => owner.clone(),
             Dimension::Space => format!("{owner} about {}", ["x", "y", "z"][i]),
         };
-        let torque = apply_torques(graph, loads, (&owner, &about), gate, law, rotation);
-        moment = moment + torque * rotation.direction;
-        measures[i] = Some(measured(torque, rotation));
+        let measured = apply_torques(graph, loads, (&owner, &about), gate, law, rotation);
+        moment = moment + measured.torque * rotation.direction;
+        measures[i] = Some(measured);
     }
     let looked = [3, 4].map(|i| looked_at(model, index, i));
     if bending.is_some() || looked.contains(&true) {
@@ -114,16 +114,16 @@ fn apply<'g>(joint: &Joint, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> 
         let flexion = bending.map_or(&none, |b| &b.flexion);
         let torsion = bending.map_or(&none, |b| &b.torsion);
         if *flexion != none || looked[0] {
-            let (resists, torque) = bent.flexion(graph, loads, &owner, gate, flexion);
+            let (resists, measured) = bent.flexion(graph, loads, &owner, gate, flexion);
             moment = moment + resists;
-            measures[3] = Some(measured(torque, bent.bend));
+            measures[3] = Some(measured);
         }
         if *torsion != none || looked[1] {
             let about = format!("{owner} torsion");
             let names = (&*format!("{owner}: torsion"), &*about);
-            let torque = apply_torques(graph, loads, names, gate, torsion, bent.twist);
-            moment = moment + torque * bent.twist.direction;
-            measures[4] = Some(measured(torque, bent.twist));
+            let measured = apply_torques(graph, loads, names, gate, torsion, bent.twist);
+            moment = moment + measured.torque * bent.twist.direction;
+            measures[4] = Some(measured);
         }
     }
     if gate.waits() {
@@ -172,21 +172,13 @@ fn apply_to_freedom<'g>(
         direction: motion.element(child).axes[freedom],
         unit,
     };
-    let torque = apply_torques(graph, loads, (&owner, &owner), gate, law, rotation);
+    let measured = apply_torques(graph, loads, (&owner, &owner), gate, law, rotation);
     if gate.waits() {
         loads.curves_act(curves, gate.of(graph.constant(1.0)));
     }
     let on = &mut loads.wrenches.on_freedoms[child.system][child.element][freedom];
-    *on = *on + torque;
-    measured(torque, rotation)
-}
-
-fn measured<'g>(torque: Expr<'g>, rotation: Rotation<'g>) -> JointMeasures<'g> {
-    JointMeasures {
-        torque,
-        angle: rotation.angle,
-        rate: rotation.rate,
-    }
+    *on = *on + measured.torque;
+    measured
 }
 
 /// Whether an output or a switch looks at a rotation of a joint.
@@ -202,17 +194,18 @@ fn looked_at(model: &Model, force: usize, about: usize) -> bool {
     })
 }
 
-/// Q of one relative rotation, its powers counted by term; the names are that of the effects and that of memory and
+/// Q of one relative rotation, and what can be asked of it, its powers counted by term; the names are that of the effects and that of memory and
 /// kinks.
-pub fn apply_torques<'g>(
+fn apply_torques<'g>(
     graph: &'g Graph,
     loads: &mut Loads<'g>,
     (owner, memory): (&str, &str),
     gate: Gate<'g>,
     law: &JointTorque,
     rotation: Rotation<'g>,
-) -> Expr<'g> {
-    let terms: Vec<_> = torques(graph, loads, memory, gate, law, rotation)
+) -> JointMeasures<'g> {
+    let (terms, permanent_sets) = torques(graph, loads, memory, gate, law, rotation);
+    let terms: Vec<_> = terms
         .into_iter()
         .map(|(term, torque)| (term, gate.of(torque)))
         .collect();
@@ -223,7 +216,12 @@ pub fn apply_torques<'g>(
         };
         loads.work(work, Product::Scalars(*torque, rotation.rate));
     }
-    sum(graph, terms.iter().map(|(_, torque)| *torque))
+    JointMeasures {
+        torque: sum(graph, terms.iter().map(|(_, torque)| *torque)),
+        angle: rotation.angle,
+        rate: rotation.rate,
+        permanent_sets,
+    }
 }
 
 /// What carries an element: its parent, a vehicle, or the absolute frame.
@@ -239,7 +237,7 @@ pub fn parent(model: &Model, child: ElementId) -> Body {
     }
 }
 
-/// The terms of Q of one relative rotation, by name.
+/// The terms of Q of one relative rotation, by name, and the sets of its hysteresis.
 fn torques<'g>(
     graph: &'g Graph,
     loads: &mut Loads<'g>,
@@ -247,18 +245,20 @@ fn torques<'g>(
     gate: Gate<'g>,
     law: &JointTorque,
     rotation: Rotation<'g>,
-) -> Vec<(&'static str, Expr<'g>)> {
+) -> (Vec<(&'static str, Expr<'g>)>, [Expr<'g>; 2]) {
     let Rotation {
         angle, rate, unit, ..
     } = rotation;
-    let mut torques = Vec::new();
+    let (mut torques, mut sets) = (Vec::new(), [graph.constant(0.0); 2]);
     if let Some(elastic) = &law.elastic {
         let neutral = law
             .neutral
             .as_ref()
             .map_or(graph.constant(0.0), |n| number(graph, n));
         let argument = move || angle - neutral;
-        let resists = elastic_torque(loads, owner, gate, elastic, law, argument, rate, unit);
+        let (resists, kept) =
+            elastic_torque(loads, owner, gate, elastic, law, argument, rate, unit);
+        sets = kept;
         torques.push(("elastic", -resists));
     }
     if let Some(damping) = &law.damping {
@@ -283,10 +283,10 @@ fn torques<'g>(
         let torque = drive::drive(graph, loads, owner, law, rotation);
         torques.push(("drive", torque));
     }
-    torques
+    (torques, sets)
 }
 
-/// What an elastic curve resists with, and whatever is to be told of it.
+/// What an elastic curve resists with, the sets of its hysteresis, and whatever is to be told of it.
 #[expect(
     clippy::too_many_arguments,
     reason = "whose, what law, and where on it"
@@ -300,7 +300,7 @@ pub fn elastic_torque<'g>(
     argument: impl Fn() -> Expr<'g> + Copy + 'g,
     rate: Expr<'g>,
     unit: &'static str,
-) -> Expr<'g> {
+) -> (Expr<'g>, [Expr<'g>; 2]) {
     loads.curve_of_state(owner, "elastic curve", elastic, Acts::Everywhere, argument);
     loads.onset_of_curve(owner, gate, elastic, argument, rate);
     loads.corners(owner, "elastic curve", gate, elastic, argument, move || {
@@ -311,7 +311,7 @@ pub fn elastic_torque<'g>(
         Some(law) => {
             hysteresis::apply_both_ways(loads, owner, unit, law, gate, argument, loading, rate)
         }
-        None => loading,
+        None => (loading, [rate.graph().constant(0.0); 2]),
     }
 }
 
