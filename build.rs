@@ -1,4 +1,4 @@
-//! Tells the program which commit it is built from, "unknown" where there is no repository, and puts the texts of the bundled models into it.
+//! Tells the program the commit that it is built from ("unknown" without a repository), and puts the texts of the bundled models into it.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ fn main() -> std::io::Result<()> {
     list_models()
 }
 
-/// Writes the table of all files in `models/`, by their path there.
+/// Writes the table of all files in `models/`, by their paths in it.
 fn list_models() -> std::io::Result<()> {
     let models = std::path::absolute("models")?;
     let mut files = Vec::new();
@@ -27,7 +27,7 @@ fn list_models() -> std::io::Result<()> {
     std::fs::write(Path::new(&out).join("models.rs"), table)
 }
 
-/// The files of a directory and of those in it.
+/// Collects the files of a directory and of its subdirectories.
 fn collect(directory: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
     println!("cargo::rerun-if-changed={}", directory.display());
     for entry in std::fs::read_dir(directory)? {
@@ -48,7 +48,7 @@ fn tell_commit() {
         let text = String::from_utf8(output.stdout).ok()?;
         output.status.success().then(|| text.trim().to_owned())
     };
-    // A package inside of some other repository is no commit of that.
+    // a package inside of another repository has no commit of its own
     let here = std::env::current_dir().and_then(std::fs::canonicalize).ok();
     let top =
         git(&["rev-parse", "--show-toplevel"]).and_then(|top| std::fs::canonicalize(top).ok());
@@ -59,7 +59,7 @@ fn tell_commit() {
         commit.as_deref().unwrap_or("unknown")
     );
     println!("cargo::rerun-if-changed=build.rs");
-    // Every commit and every change of branch is written there.
+    // every commit and every change of branch writes to these files
     for file in ["HEAD", "logs/HEAD"] {
         if let Some(path) = git(&["rev-parse", "--git-path", file]).filter(|_| own)
             && std::path::Path::new(&path).exists()

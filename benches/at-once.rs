@@ -1,11 +1,11 @@
-//! How long a person waits: the commands on two scenes of real size, and the compilation of a crate of one's own.
+//! The waiting times of a user: the commands on two scenes of real size, and the compilation of a user's crate.
 //!
 //! ```text
 //! cargo bench --bench at-once                  the commands
 //! cargo bench --bench at-once -- --crates      and a crate with a model, compiled three ways
 //! ```
 //!
-//! Every line is the median of a few runs of the whole process, wall time, beside the goal. What a goal calls the first row is the first line on
+//! Every line is the median of a few runs of the whole process, in wall time, beside its goal. The first row of a goal is the first line on
 //! standard output.
 
 use std::io::{BufRead, BufReader, Read};
@@ -15,12 +15,12 @@ use std::time::Instant;
 
 type Failed = Box<dyn std::error::Error>;
 
-/// Repetitions of what takes less than a second.
+/// Number of repetitions of commands that take less than a second.
 const REPETITIONS: usize = 5;
 
 fn main() -> Result<(), Failed> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    // `cargo test --bench at-once` only tries that the commands still know the names in the scenes
+    // `cargo test --bench at-once` only checks that the names in the scenes are still valid
     let measures = arguments.iter().any(|argument| argument == "--bench");
     let place = std::env::temp_dir().join(format!("bryant-at-once-{}", std::process::id()));
     std::fs::create_dir_all(&place)?;
@@ -34,7 +34,7 @@ fn main() -> Result<(), Failed> {
     result
 }
 
-/// What one run of a process took \[s\].
+/// The times of one run of a process \[s\].
 struct Took {
     first_line: f64,
     all: f64,
@@ -80,7 +80,7 @@ fn commands(place: &Path, measures: bool) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Runs a command several times, each time on a model that was edited, and prints the median.
+/// Runs a command several times, each time on an edited model, and prints the median.
 fn measure(place: &Path, repetitions: usize, words: &[&str], goal: f64) -> Result<(), Failed> {
     let mut took = Vec::new();
     for repetition in 0..repetitions {
@@ -105,7 +105,7 @@ fn measure(place: &Path, repetitions: usize, words: &[&str], goal: f64) -> Resul
     Ok(())
 }
 
-/// Changes the title, and so the digest of the file, and not the scene.
+/// Changes the title, and so the digest of the file, but not the scene.
 fn edit(path: &Path, repetition: usize) -> Result<(), Failed> {
     let text = std::fs::read_to_string(path)?;
     let lines = text.lines().map(|line| match line.starts_with("title:") {
@@ -133,14 +133,14 @@ fn run(place: &Path, words: &[&str]) -> Result<Took, Failed> {
     output.read_to_end(&mut Vec::new())?;
     let status = child.wait()?;
     let all = start.elapsed().as_secs_f64();
-    // a doubtful run has another status than success, and its time counts
+    // a doubtful run does not end with success, but its time counts
     match status.code() {
         Some(0 | 3) => Ok(Took { first_line, all }),
         _ => Err(format!("bryant {} ended with {status}", words.join(" ")).into()),
     }
 }
 
-/// What a crate of one's own takes to compile in release, when its dependencies are there.
+/// The compile time of a user's crate in release, with compiled dependencies.
 fn crates(place: &Path) -> Result<(), Failed> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     for (name, program, goal) in [

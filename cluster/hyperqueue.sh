@@ -2,8 +2,8 @@
 # A study in shards on the workers of a HyperQueue server that is running: cluster/hyperqueue.sh STUDY.yaml FOLDER [SHARDS]
 #
 # Submits an array with a task for each shard, waits for it and merges. A shard whose worker dies is started again elsewhere, up to
-# 20 times. FOLDER and the program must be where all workers find them. FOLDER.logs gets what the shards say,
-# SHARD-ATTEMPT each.
+# 20 times. All workers must be able to read FOLDER and the program. FOLDER.logs gets the messages of each shard in a file
+# SHARD-ATTEMPT.
 #
 # HQ             the program hq (default: hq on the path)
 # BRYANT         the program bryant (default: target/release/bryant of the repository, else bryant on the path)
@@ -30,7 +30,7 @@ bryant=$(command -v "$BRYANT") || { echo "there is no program $BRYANT: name it b
 bryant=$(realpath "$bryant")
 
 mkdir -p "$folder.logs"
-# Pinned to its processors, so that a shard has as many threads as processors.
+# A shard is pinned to its processors, so it has as many threads as processors.
 if ! "$hq" submit --wait --name bryant --array "0-$((shards - 1))" --crash-limit 20 --cpus "${CPUS:-1}" --pin taskset \
     --stdout none --stderr "$folder.logs/%{TASK_ID}-%{INSTANCE_ID}" -- \
     bash -c 'exec "$0" sweep "$1" --out "$2" --shard "$HQ_TASK_ID/$3"' "$bryant" "$study" "$folder" "$shards"; then

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Whether a study survives the death of a worker, with nothing but PyPI's HyperQueue: cluster/test-hyperqueue.py [STUDY.yaml]
+"""Tests that a study survives the death of a worker, with HyperQueue's package from PyPI alone: cluster/test-hyperqueue.py [STUDY.yaml]
 
 Starts a HyperQueue server and three workers on this machine, submits the study in 12 shards, kills a worker in the middle with
 SIGKILL, and compares every table, byte by byte, with those of one process. Ends what it started. BRYANT names the program
-(target/release/bryant). Without STUDY it is a study of sled-pendulum.
+(default: target/release/bryant). Without STUDY it uses a study of sled-pendulum.
 
     python3 -m pip install -r cluster/requirements.txt
 
-The package has server, workers and client of the program `hq`, but no `hq`, and starts its workers as threads of the server's process,
-where none can be killed alone. So each worker here is a process of its own: it starts a server that nobody uses, and then lets
-its folder point to the access file of the real one before it adds its worker, which thereby belongs to the real server. Processes,
-sockets, heartbeats and what the server does about a worker that is lost are those of `hq worker start`.
+The package has the server, the workers and the client of the program `hq`, but not `hq` itself. It starts its workers as threads of the server's process,
+where no single worker can be killed. So each worker here is a process of its own. It starts a server that nobody uses, and then lets
+its folder point to the access file of the real server. After that it adds its worker, which therefore belongs to the real server. Processes,
+sockets, heartbeats and the treatment of a lost worker are those of `hq worker start`.
 """
 
 import os

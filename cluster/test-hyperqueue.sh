@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Whether a study survives the death of a worker: cluster/test-hyperqueue.sh [STUDY.yaml]
+# Tests that a study survives the death of a worker: cluster/test-hyperqueue.sh [STUDY.yaml]
 #
 # Starts a HyperQueue server and three workers on this machine, all on the loopback address, submits the study in 12 shards, kills a
 # worker in the middle with SIGKILL, and compares every table, byte by byte, with those of one process. Ends what it started.
-# HQ and BRYANT name the programs (hq of the path, target/release/bryant). Without STUDY it is a study of sled-pendulum. Where there is no hq,
+# HQ and BRYANT name the programs (defaults: hq on the path, target/release/bryant). Without STUDY it uses a study of sled-pendulum. If there is no hq,
 # test-hyperqueue.py does the same with HyperQueue's package from PyPI.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// A module per model, and the table of all of them.
+/// A module for each model, and the table of all models.
 fn all(models: &[Generated]) -> Result<String, Box<dyn std::error::Error>> {
     let here = std::env::var("CARGO_MANIFEST_DIR")?;
     let (mut modules, mut table) = (String::new(), String::new());

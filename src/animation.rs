@@ -1,8 +1,8 @@
 //! A run as an animation in glTF 2.0: one binary file that Blender, game engines and viewers on the web open.
 //!
-//! Every body is a node with keyframes of its place and its turn at the samples of the run; its ellipsoids, bones and planes are meshes on nodes below it. A belt or a
-//! spring is a rod, whose keyframes turn and stretch it from one end to the other. Everything hangs on one node that turns z up into y up, as glTF has it. Units are metres and
-//! seconds.
+//! Every body is a node with keyframes of its position and its rotation at the samples of the run; its ellipsoids, bones and planes are
+//! meshes on nodes below it. A belt or a spring is a rod; keyframes rotate and stretch it from one end to the other. All nodes are below
+//! one node that rotates z up into y up, as glTF requires. Units are metres and seconds.
 
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
@@ -10,16 +10,16 @@ use std::f64::consts::{PI, TAU};
 type Vec3 = [f64; 3];
 type Quaternion = [f64; 4];
 
-/// Circles of latitude and of longitude of a sphere.
+/// Number of circles of latitude and of longitude on a sphere.
 const AROUND: (usize, usize) = (16, 24);
 
-/// Sides of a rod.
+/// Number of sides of a rod.
 const SIDES: usize = 10;
 
 /// Radius of bones and of belts \[m\].
 const RADII: [f64; 2] = [0.008, 0.01];
 
-/// Colours of systems, safe for the colour-blind; of vehicles, planes, belts and springs.
+/// Colours, safe for the colour-blind: of systems, vehicles, planes, and belts and springs.
 const COLOURS: [[f64; 4]; 4] = [
     [0.0, 0.29, 0.48, 1.0],
     [0.70, 0.35, 0.0, 1.0],
@@ -30,14 +30,14 @@ const OF_VEHICLES: [f64; 4] = [0.45, 0.47, 0.5, 1.0];
 const OF_PLANES: [f64; 4] = [0.55, 0.57, 0.6, 0.35];
 const OF_LINES: [f64; 4] = [0.80, 0.37, 0.0, 1.0];
 
-/// The file of an animation. `scene` is what [`Scene::json`](crate::report::Scene::json) gives.
+/// The bytes of an animation. `scene` is the value of [`Scene::json`](crate::report::Scene::json).
 ///
 /// # Errors
-/// There are fewer than two instants to move between.
+/// There are fewer than two instants.
 pub fn glb(title: &str, scene: &Value) -> Result<Vec<u8>, String> {
     let times = numbers(&scene["times"]);
     if times.len() < 2 {
-        return Err("the run has no two instants that an animation could go between".into());
+        return Err("an animation needs at least two instants of the run".into());
     }
     let mut file = File::new(title, &times);
     let bodies = file.bodies(scene);
@@ -48,22 +48,22 @@ pub fn glb(title: &str, scene: &Value) -> Result<Vec<u8>, String> {
     Ok(file.finish())
 }
 
-/// A glTF that grows.
+/// A glTF file under construction.
 struct File {
     json: Value,
     binary: Vec<u8>,
     times: usize,
     count: usize,
-    /// Meshes of unit size by their colour: spheres and rods.
+    /// Meshes of unit size with their colours: spheres and rods.
     meshes: Vec<(Shape, [f64; 4], usize)>,
     shapes: Vec<(Shape, [usize; 3])>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
 enum Shape {
-    /// Of radius 1.
+    /// A sphere of radius 1.
     Sphere,
-    /// Of radius 1 along z, from 0 to 1.
+    /// A rod of radius 1 along z, from 0 to 1.
     Rod,
 }
 
@@ -88,7 +88,7 @@ impl File {
             meshes: Vec::new(),
             shapes: Vec::new(),
         };
-        // times begin at 0, as players expect
+        // players expect that times begin at 0
         let relative: Vec<f64> = times.iter().map(|t| t - times[0]).collect();
         file.times = file.floats(&relative, 1, None);
         file
@@ -107,7 +107,7 @@ impl File {
         list.len() - 1
     }
 
-    /// A node below another one.
+    /// Adds a node below another one.
     fn node(&mut self, parent: usize, node: Value) -> usize {
         let index = self.add("nodes", node);
         let children = &mut self.json["nodes"][parent]["children"];
@@ -118,7 +118,7 @@ impl File {
         index
     }
 
-    /// Bytes of the buffer.
+    /// Adds bytes to the buffer.
     fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
         while !self.binary.len().is_multiple_of(4) {
             self.binary.push(0);
@@ -132,7 +132,7 @@ impl File {
         self.add("bufferViews", view)
     }
 
-    /// An accessor of numbers, `width` to an entry, with their bounds.
+    /// Adds an accessor of numbers, `width` of them in each entry, with their bounds.
     fn floats(&mut self, values: &[f64], width: usize, target: Option<u32>) -> usize {
         let single: Vec<f32> = values.iter().map(|value| *value as f32).collect();
         let bytes: Vec<u8> = single
@@ -207,7 +207,7 @@ impl File {
         self.add("meshes", json!({ "primitives": [primitive] }))
     }
 
-    /// The mesh of a shape in a colour, made once.
+    /// The mesh of a shape in a colour; each is made once.
     fn shape(&mut self, shape: Shape, colour: [f64; 4]) -> usize {
         if let Some((.., mesh)) = self
             .meshes
@@ -234,7 +234,7 @@ impl File {
         mesh
     }
 
-    /// Keyframes of a node.
+    /// Adds keyframes of a node.
     fn key(&mut self, node: usize, path: &str, values: &[f64], width: usize) {
         debug_assert_eq!(values.len(), width * self.count);
         let output = self.floats(values, width, None);
@@ -252,7 +252,7 @@ impl File {
         push("channels", json!({ "sampler": sampler, "target": channel }));
     }
 
-    /// A node for each body, with its keyframes.
+    /// Adds a node for each body, with its keyframes.
     fn bodies(&mut self, scene: &Value) -> Vec<usize> {
         let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
         let mut nodes = Vec::new();
@@ -293,7 +293,7 @@ impl File {
         }
     }
 
-    /// Rods within a body; those between two bodies, of joints that slide, are left out.
+    /// Adds rods within bodies. Rods between two bodies, of sliding joints, are left out.
     fn bones(&mut self, scene: &Value, bodies: &[usize]) {
         for bone in list(&scene["bones"]) {
             if bone[0] != bone[2] {
@@ -326,7 +326,7 @@ impl File {
         }
     }
 
-    /// Belts and springs.
+    /// Adds belts and springs.
     fn lines(&mut self, scene: &Value) {
         let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
         for line in list(&scene["lines"]) {
@@ -391,7 +391,7 @@ fn vector(value: &Value) -> Vec3 {
     std::array::from_fn(|i| all.get(i).copied().unwrap_or(0.0))
 }
 
-/// The node of a body: −1 is the frame, which is the node that all hang on.
+/// The node of a body: −1 is the frame, which is the node above all others.
 fn node_of(bodies: &[usize], body: &Value) -> usize {
     let index = body.as_i64().and_then(|index| usize::try_from(index).ok());
     index
@@ -399,7 +399,7 @@ fn node_of(bodies: &[usize], body: &Value) -> usize {
         .unwrap_or(0)
 }
 
-/// A point of a body at an instant.
+/// The position of a point of a body at an instant.
 fn place(frame: &[f64], body: &Value, at: Vec3) -> Vec3 {
     let Some(index) = body.as_i64().and_then(|index| usize::try_from(index).ok()) else {
         return at;
@@ -424,7 +424,7 @@ fn unit(q: Quaternion) -> Quaternion {
     q.map(|x| x / size)
 }
 
-/// The turn (x, y, z, w) of z into the direction from one point to another, and their distance.
+/// The rotation (x, y, z, w) of z into the direction from one point to another, and their distance.
 fn along(from: Vec3, to: Vec3) -> (Quaternion, f64) {
     let d: Vec3 = std::array::from_fn(|i| to[i] - from[i]);
     let length = d.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -432,14 +432,14 @@ fn along(from: Vec3, to: Vec3) -> (Quaternion, f64) {
         return ([0.0, 0.0, 0.0, 1.0], 0.0);
     }
     let [x, y, z] = d.map(|x| x / length);
-    // half way between z and the direction; a half turn about x where they are opposite
+    // half way between z and the direction; a half turn about x if they are opposite
     match z < -1.0 + 1e-9 {
         true => ([1.0, 0.0, 0.0, 0.0], length),
         false => (unit([-y, x, 0.0, 1.0 + z]), length),
     }
 }
 
-/// Unit quaternions, each the nearer one of q and −q to that before: players go between keyframes the shorter way.
+/// Unit quaternions with the sign, q or −q, that is closer to the one before: players interpolate along the shorter way.
 fn continuous(turns: Vec<Quaternion>) -> Vec<Quaternion> {
     let mut all: Vec<Quaternion> = Vec::with_capacity(turns.len());
     for turn in turns {
@@ -453,7 +453,7 @@ fn continuous(turns: Vec<Quaternion>) -> Vec<Quaternion> {
     all
 }
 
-/// Places, normals and triangles of a sphere.
+/// Positions, normals and triangles of a sphere.
 fn sphere() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
     let (rings, sides) = AROUND;
     let mut places = Vec::new();
@@ -475,7 +475,7 @@ fn sphere() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
     (places.clone(), places, indices)
 }
 
-/// Places, normals and triangles of a rod, without its ends.
+/// Positions, normals and triangles of a rod, without its ends.
 fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
     let (mut places, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
     for j in 0..=SIDES {
@@ -521,7 +521,7 @@ mod tests {
         assert!(turns[1][3] > 0.0 && turns[1][2] > 0.0);
     }
 
-    /// Triangles run round to the left of their normals.
+    /// Triangles are counter-clockwise about their normals.
     #[test]
     fn meshes_look_outward() {
         for (places, normals, indices) in [sphere(), rod()] {

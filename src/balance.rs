@@ -3,10 +3,10 @@
 use bryant_runtime::program::{Energy, Header};
 use serde_json::{Value, json};
 
-/// Works below this share of the largest are summed up in one line, unless all are asked for.
+/// Works below this share of the largest are summed up in one line, unless all are requested.
 const SMALL: f64 = 2e-3;
 
-/// The balance as a table, a line per effect that matters, or per effect; no line end behind the last.
+/// The balance as a table: a line for each effect that matters, or for each effect; the last line has no line end.
 pub fn text(header: &Header, energy: &Energy, all: bool) -> String {
     let largest = energy.works.iter().fold(0.0f64, |m, w| m.max(w.abs()));
     let matters = |work: f64| all || work.abs() >= SMALL * largest;
@@ -48,7 +48,7 @@ pub fn text(header: &Header, energy: &Energy, all: bool) -> String {
     text
 }
 
-/// The number that so many decimals show, without the sign of zero.
+/// The number rounded to this many decimals; zero has no sign.
 fn rounded(value: f64, decimals: usize) -> f64 {
     let scale = 10f64.powi(decimals as i32);
     (value * scale).round() / scale + 0.0

@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 /// All files of the bundled models, by their path in `models/`.
 static FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
-/// Where the scenes of the applications and of certification tests stand.
+/// Directories of the scenes of applications and of certification tests.
 const SCENES: [&str; 2] = ["applications/", "certification/"];
 
 /// A bundled model.
@@ -28,18 +28,18 @@ static MODELS: LazyLock<Vec<Bundled>> = LazyLock::new(|| {
         let path = file.strip_suffix(".yaml")?;
         let scene = SCENES.iter().find_map(|of| path.strip_prefix(of));
         let name = scene.unwrap_or(path);
-        // what stands in other directories is for models to include
+        // files in other directories are parts that models include
         (!name.contains('/')).then_some(Bundled { name, file, yaml })
     });
     models.collect()
 });
 
-/// All of them, in the order of their names.
+/// All bundled models, in the order of their names.
 pub fn all() -> &'static [Bundled] {
     &MODELS
 }
 
-/// The one of this name.
+/// The bundled model with this name.
 pub fn find(name: &str) -> Option<&'static Bundled> {
     all().iter().find(|model| model.name == name)
 }
@@ -53,15 +53,15 @@ pub fn file(path: &Path) -> Option<&'static str> {
         .map(|(_, text)| *text)
 }
 
-/// What a bundled model describes.
+/// The model that a bundled text describes.
 ///
 /// # Errors
-/// Every problem of the text. Tests read all of them, so there is none.
+/// Every problem of the text. Tests read all bundled texts, so there is none.
 pub fn model(bundled: &Bundled) -> Result<Model, Diagnostics> {
     scene(bundled).map(|scene| scene.model)
 }
 
-/// The same with what its text mentions, and where.
+/// The same, together with the items that its text mentions and their places.
 ///
 /// # Errors
 /// As [`model`].

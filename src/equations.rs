@@ -12,7 +12,7 @@ pub use bryant_engine::Engine;
 /// Derives the equations of a model without user forces. Nothing is compiled.
 ///
 /// # Errors
-/// The model calls a function of the user's.
+/// The model calls a user function.
 pub fn of(model: &Model) -> Result<Engine, Error> {
     with_users(model, None)
 }
@@ -20,12 +20,12 @@ pub fn of(model: &Model) -> Result<Engine, Error> {
 /// Derives the equations of a model. `users` are the functions of its user forces.
 ///
 /// # Errors
-/// The model calls a function of the user's that is not there.
+/// The model calls a user function that is not available.
 pub fn with_users(model: &Model, users: Option<Arc<UserForces>>) -> Result<Engine, Error> {
     of_lists(Config::new().matrices(false).lists(model), users)
 }
 
-/// The same of lists that are there already.
+/// The same for lists that exist already.
 ///
 /// # Errors
 /// As [`with_users`].

@@ -1,5 +1,4 @@
-//! S, r_s, r_k and v̇ at one state, by evaluating the graph of the equations: nothing is compiled but the
-//! functions of user forces.
+//! S, r_s, r_k and v̇ at one state, by evaluation of the graph of the equations. Only functions of user forces are compiled.
 
 use bryant_engine::UserFunctions;
 use bryant_generator::equations::{Equations, LawState};
@@ -24,10 +23,10 @@ pub struct State {
     pub q: Vec<f64>,
     /// Velocities.
     pub v: Vec<f64>,
-    /// States of force laws; those at the start of a run where none are given.
+    /// States of force laws; if none are given, those at the start of a run.
     #[serde(default)]
     pub z: Vec<f64>,
-    /// What force laws remember; as at the start of a run where none is given.
+    /// Memory of force laws; if none is given, that at the start of a run.
     #[serde(default)]
     pub m: Vec<f64>,
 }
@@ -53,19 +52,19 @@ pub struct Evaluation {
 /// A state that does not fit the model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StateError {
-    /// Too few numbers or too many.
+    /// There are too few numbers or too many.
     #[error("\"{key}\" has {given} numbers, but there are {} {what}: {}", .names.len(), .names.join(", "))]
     Length {
         /// "q" or "v".
         key: &'static str,
-        /// What its numbers are.
+        /// The meaning of its numbers.
         what: &'static str,
         /// How many there are.
         given: usize,
-        /// What they should be.
+        /// The names of the expected numbers.
         names: Vec<String>,
     },
-    /// Four numbers that are no orientation.
+    /// Four numbers are not an orientation.
     #[error(
         "the quaternion {element}.qw … {element}.qz has length {length}, but an orientation has 1\n  help: divide its four numbers by their length; no rotation is 1, 0, 0, 0"
     )]
@@ -75,9 +74,9 @@ pub enum StateError {
         /// √(w² + x² + y² + z²).
         length: f64,
     },
-    /// A function of the user's that was not handed over: it is Rust, and not part of the graph.
+    /// A user function is not available: it is written in Rust, and not part of the graph.
     #[error(
-        "the user force \"{force}\" is computed by the Rust function {function}, which is not here\n  help: compile it by `UserForces::of`, and hand it over; `enabled: false` leaves it out"
+        "the user force \"{force}\" is computed by the Rust function {function}, which is not available\n  help: compile it by `UserForces::of`, and hand it over; `enabled: false` leaves it out"
     )]
     User {
         /// The force.
@@ -85,31 +84,31 @@ pub enum StateError {
         /// The function.
         function: String,
     },
-    /// Parameters of which there is no such model.
+    /// The parameters violate a condition of the model.
     #[error("{condition}, which is not so with these parameters")]
     Refused {
-        /// What they do not keep.
+        /// The condition.
         condition: String,
     },
-    /// A state so far out that the equations have no finite value there.
+    /// The state is so far out that the equations have no finite value there.
     #[error(
         "{quantity} of {velocity} is {value} at this state\n  help: look for numbers that are too large, angles at a singularity, and curves left beyond their last point"
     )]
     NotFinite {
-        /// What is not finite.
+        /// The quantity that is not finite.
         quantity: &'static str,
         /// The velocity that it belongs to.
         velocity: String,
-        /// What it is instead.
+        /// Its value.
         value: f64,
     },
 }
 
-/// How far from 1 the length of a quaternion may be: a few digits of a state that someone wrote down may be lost.
+/// Allowed deviation of the length of a quaternion from 1: a state that someone wrote down may lack a few digits.
 const QUATERNION_TOLERANCE: f64 = 1e-4;
 
-/// Evaluates the equations; they must have been derived with S, r_s and r_k. Parameters are in the model's order (SI). `users` are the
-/// functions of user forces, where the model has such.
+/// Evaluates the equations, which must have been derived with S, r_s and r_k. Parameters are in the model's order (SI). `users` are the
+/// functions of user forces, if the model has any.
 pub fn at(
     model: &Model,
     equations: &Equations,
@@ -186,7 +185,7 @@ pub fn at(
         &inputs,
         &functions_with(model, users),
     );
-    // Minus zero says nothing.
+    // a zero has no sign
     values.iter_mut().for_each(|value| *value += 0.0);
     let (matrix, vectors) = values.split_at(size * size);
     if let Some(entry) = matrix.iter().position(|value| !value.is_finite()) {
@@ -218,7 +217,7 @@ pub fn at(
     })
 }
 
-/// The states of force laws where a run starts.
+/// The states of force laws at the start of a run.
 fn initial(
     model: &Model,
     equations: &Equations,
@@ -229,7 +228,7 @@ fn initial(
     of_parameters(model, equations, &roots, parameters)
 }
 
-/// What parameters do not keep, if there is something.
+/// The condition that the parameters violate, if they violate one.
 fn refused(model: &Model, equations: &Equations, parameters: &[f64]) -> Option<String> {
     let roots: Vec<NodeId> = equations.conditions.iter().map(|c| c.value).collect();
     let values = of_parameters(model, equations, &roots, parameters);
@@ -238,7 +237,7 @@ fn refused(model: &Model, equations: &Equations, parameters: &[f64]) -> Option<S
     Some(broken.0.name.clone())
 }
 
-/// Values that parameters alone decide.
+/// The values that depend only on parameters.
 fn of_parameters(
     model: &Model,
     equations: &Equations,

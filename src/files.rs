@@ -1,4 +1,4 @@
-//! Files that are either whole or not there: written beside their place, then moved into it.
+//! Files that are either complete or not there: they are written beside their place and then moved to it.
 
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
@@ -13,7 +13,7 @@ pub struct WriteError {
     pub source: io::Error,
 }
 
-/// Replaces a file by what `content` writes. Directories on the way to it are created; a failure leaves the old file.
+/// Replaces a file by the output of `content`. Missing directories are created; after a failure the old file remains.
 pub fn replace(
     path: &Path,
     content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -34,7 +34,7 @@ fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
         return Err(io::Error::other("it is a directory"));
     }
     std::fs::create_dir_all(directory)?;
-    // What is not a regular file (a pipe, /dev/null) cannot be replaced, only written to.
+    // A file that is not regular (a pipe, /dev/null) cannot be replaced, only written to.
     if path.exists() && !path.is_file() {
         let mut file = BufWriter::new(std::fs::OpenOptions::new().write(true).open(path)?);
         content(&mut file)?;
@@ -42,7 +42,7 @@ fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     }
     let mut builder = tempfile::Builder::new();
     builder.prefix(".bryant-");
-    // Readable as any file that a program creates, not only by its owner.
+    // The file is readable like any file that a program creates, not only by its owner.
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -62,10 +62,10 @@ fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     Ok(())
 }
 
-/// Links on the way to a file at most, as many as Linux allows.
+/// Largest number of links on the way to a file, the same as in Linux.
 const MOST_LINKS: usize = 40;
 
-/// The file that a path names, behind all links: the link stays, what it points to is replaced. The file need not be there.
+/// The file that a path leads to through all links: the link remains, and its target is replaced. The file need not exist.
 fn behind_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -77,8 +77,8 @@ fn behind_links(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many links"))
 }
 
-/// The place that a path names, behind all links and however it is written: two paths to one file have one place, whether the file is there
-/// or not.
+/// The real place of a path, through all links and in whatever form it is written: two paths to one file have the same place, whether the
+/// file exists or not.
 pub fn place(path: &Path) -> PathBuf {
     let path = behind_links(path).unwrap_or(path.to_owned());
     if let Ok(place) = path.canonicalize() {
@@ -90,7 +90,7 @@ pub fn place(path: &Path) -> PathBuf {
     };
     match path.components().next_back() {
         Some(Component::Normal(name)) => place(directory).join(name),
-        // of what is not there yet
+        // for a path that does not exist yet
         Some(Component::ParentDir) => place(directory).parent().map_or(path, Path::to_owned),
         _ => path,
     }

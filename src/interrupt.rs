@@ -1,7 +1,7 @@
-//! Ctrl-C: what is being computed comes to an end, and what was computed is kept.
+//! Ctrl-C: the computation ends, and the results so far are kept.
 //!
-//! A command that computes for long calls [`watch`] when it begins. From then on the first Ctrl-C makes [`asked`] true, and whatever works on
-//! parts of a whole begins no further part; the second one ends the program at once, as ever. Where the system is not Unix, the first does.
+//! A long command calls [`watch`] at its beginning. After that, the first Ctrl-C makes [`asked`] true, and loops over parts begin no
+//! further part. The second Ctrl-C ends the program at once. On systems that are not Unix, the first one does.
 #![cfg_attr(
     unix,
     expect(unsafe_code, reason = "handlers of signals are the system's")
@@ -10,17 +10,17 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Exit code of a command that was interrupted: 128 and the number of the signal, as shells have it.
+/// Exit code of an interrupted command: 128 plus the number of the signal, as shells define it.
 pub const EXIT_CODE: u8 = 130;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// Whether somebody pressed Ctrl-C since [`watch`].
+/// Whether Ctrl-C was pressed since [`watch`].
 pub fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)
 }
 
-/// Breaks off where [`asked`].
+/// Breaks if Ctrl-C was pressed.
 pub fn unless_asked() -> ControlFlow<()> {
     match asked() {
         true => ControlFlow::Break(()),
@@ -28,7 +28,7 @@ pub fn unless_asked() -> ControlFlow<()> {
     }
 }
 
-/// Waits for Ctrl-C. A program that was started to ignore it goes on to.
+/// Begins to handle Ctrl-C. A program that was started to ignore it continues to ignore it.
 pub fn watch() {
     #[cfg(unix)]
     unix::watch();
@@ -42,7 +42,7 @@ mod unix {
     const SAID: &str = "\nstopping; Ctrl-C again ends at once\n";
 
     pub fn watch() {
-        // SAFETY: the handler lives as long as the program, and uses an atomic flag and `write` alone. A structure of zeros is one of no flags.
+        // SAFETY: the handler lives as long as the program, and uses only an atomic flag and `write`. A structure of zeros has no flags.
         unsafe {
             let mut action: sigaction = std::mem::zeroed();
             sigaction(SIGINT, std::ptr::null(), &mut action);
@@ -50,7 +50,7 @@ mod unix {
                 return;
             }
             action.sa_sigaction = interrupted as *const () as usize;
-            // after the first the signal does what it did before
+            // after the first time, the signal has its former effect
             action.sa_flags = SA_RESETHAND | SA_RESTART;
             libc::sigemptyset(&mut action.sa_mask);
             sigaction(SIGINT, &action, std::ptr::null_mut());
@@ -59,7 +59,7 @@ mod unix {
 
     extern "C" fn interrupted(_: c_int) {
         ASKED.store(true, Ordering::Relaxed);
-        // SAFETY: the text is as long as it says. What cannot be written is lost.
+        // SAFETY: pointer and length are those of the text. A failed write is ignored.
         unsafe { libc::write(2, SAID.as_ptr().cast::<c_void>(), SAID.len()) };
     }
 }

@@ -7,35 +7,34 @@
 //!                     └─generator→ Rust source ─rustc→ model of a crate of your own
 //! ```
 //!
-//! This crate is the whole of it: the parts that can be used alone, under short names, and what the command `bryant` is
-//! made of. A crate that wants the equations of its own mechanism needs [`generator`] in its build script and [`runtime`]
-//! in its program, and nothing of this one.
+//! This crate contains all of bryant: the other crates under short names, and the parts of the command `bryant`. A crate that needs only
+//! the equations of its own mechanism uses [`generator`] in its build script and [`runtime`] in its program, and nothing of this crate.
 //!
 //! | module | what it holds |
 //! |---|---|
 //! | [`generator`] | model → equations → source |
 //! | [`runtime`] | what generated source links against: scalars, force laws, integrators, runs |
 //! | [`bundled`] | the models that come with the program |
-//! | [`equations`] | those of a model, ready to be evaluated |
+//! | [`equations`] | the equations of a model, ready to be evaluated |
 //! | [`build_on_demand`] | functions of user forces, compiled once and kept |
 //! | [`simulation`] | one run, recorded |
-//! | [`accuracy`] | what accuracy costs in time: a study of one model |
+//! | [`accuracy`] | the cost of accuracy in time: a study of one model |
 //! | [`stability`] | hard cases, and how far from their bounds they stay |
 //! | [`sweep`] | studies: many runs of one model, in lanes |
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
-//! | [`timing`] | what one evaluation takes |
+//! | [`timing`] | the time of one evaluation |
 //! | [`settling`] | a state of rest |
 //! | [`report`] | a run as one page of HTML |
 //! | [`animation`] | the motion of a run in glTF |
 //! | [`criteria`] | injury criteria of a recording beside the limits of regulations |
-//! | [`table`], [`picture`], [`balance`] | what a person reads |
-//! | [`pose`] | the model at plain numbers: positions |
-//! | [`orientation`] | states in Bryant angles, said in quaternions |
+//! | [`table`], [`picture`], [`balance`] | output for people |
+//! | [`pose`] | positions of a model over plain numbers |
+//! | [`orientation`] | states in Bryant angles, converted to quaternions |
 //! | [`notation`], [`quantity`] | names in printed equations, units on the command line |
-//! | [`files`] | files that are whole or not there |
+//! | [`files`] | files that are complete or not there |
 //! | [`parallel`] | the same work on many items |
 //! | [`interrupt`] | Ctrl-C |
-//! | [`process`] | what the system does to a process without a word |
+//! | [`process`] | signals and closed descriptors, reported as errors |
 //! | [`command`] | the command line |
 //!
 //! A bundled model, run for 20 ms:

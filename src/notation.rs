@@ -1,7 +1,7 @@
-//! What the inputs of a model are called where its equations are read: `phi_head` in text, `\phi_{\mathrm{head}}` in LaTeX.
+//! Names of a model's inputs in printed equations: `phi_head` in text, `\phi_{\mathrm{head}}` in LaTeX.
 //!
-//! A variable `man/head.phi` is its component and its element; the system is named too where the element alone could be
-//! mistaken. Curves and parameters keep their names.
+//! A variable `man/head.phi` is named by its component and its element; the system is added if the element alone is ambiguous. Curves and
+//! parameters keep their names.
 
 use bryant_generator::equations::{Equations, Variable};
 use bryant_generator::expression::print::{self, latex};
@@ -15,11 +15,11 @@ pub struct Notation {
     velocities: Vec<Name>,
     parameters: Vec<String>,
     curves: Vec<String>,
-    /// Of each user force, by its index, what its function returns.
+    /// For each user force, by its index, the names of the results of its function.
     users: Vec<Vec<String>>,
 }
 
-/// A component and whose it is.
+/// A component and its element or system.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Name {
     component: String,
@@ -27,7 +27,7 @@ struct Name {
 }
 
 impl Notation {
-    /// Of a model.
+    /// The notation of a model.
     pub fn new(model: &Model, equations: &Equations) -> Self {
         let names =
             |variables: &[Variable]| variables.iter().map(|v| Name::new(model, v)).collect();
@@ -120,7 +120,7 @@ impl Name {
             Some(element) => {
                 let elements = model.systems.iter().flat_map(|s| &s.elements);
                 let unique = elements.filter(|e| e.name == *element).count() == 1;
-                // A name of an element that is that of a system would be two things.
+                // An element with the name of a system would be ambiguous.
                 let alone = unique && model.systems.iter().all(|s| s.name != *element);
                 let system = (!alone).then(|| identifier(&system.name));
                 system.into_iter().chain([identifier(element)]).collect()
@@ -169,7 +169,7 @@ impl Name {
     }
 }
 
-/// A name as an identifier: what is no letter, digit or underscore is an underscore.
+/// A name as an identifier: other characters than letters, digits and underscores become underscores.
 fn identifier(name: &str) -> String {
     let replaced = name
         .chars()

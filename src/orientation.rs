@@ -1,13 +1,12 @@
-//! States without charts: what a model in Bryant angles computes, said in quaternions.
+//! States without charts: the states of a model in Bryant angles, converted to quaternions.
 //!
-//! What three Bryant angles mean depends on the chart that their element is in, and so do their rates: A = Rx(φ₁) Ry(φ₂)
-//! Rz(φ₃) in chart 0, with Ry(−90°) behind it in chart 1. Who compares states of two runs, or draws them, takes them in
-//! quaternions (w, x, y, z) and angular velocities in absolute axes, as of the same model with `coordinates: quaternion`.
-//! States of other models are left as they are.
+//! The meaning of three Bryant angles and their rates depends on the chart that their element is in: A = Rx(φ₁) Ry(φ₂) Rz(φ₃) in chart 0,
+//! with Ry(−90°) behind it in chart 1. To compare states of two runs or to draw them, they are converted to quaternions (w, x, y, z) and
+//! angular velocities in absolute axes, as those of the same model with `coordinates: quaternion`. States of other models stay as they are.
 
 use bryant_runtime::program::Header;
 
-/// How the states of a model are put in quaternions.
+/// The conversion of the states of a model to quaternions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WithoutCharts {
     /// Names of the coordinates, with quaternions.
@@ -19,7 +18,7 @@ pub struct WithoutCharts {
     elements: Vec<Charted>,
 }
 
-/// Where the orientation of an element stands in the state.
+/// The place of an element's orientation in the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Charted {
     angles: usize,
@@ -28,7 +27,7 @@ struct Charted {
 }
 
 impl WithoutCharts {
-    /// Of a model: elements whose chart is among the memory are in Bryant angles.
+    /// The conversion for a model: an element with a chart in memory has Bryant angles.
     pub fn of(header: &Header) -> Self {
         let find = |names: &[String], name: String| names.iter().position(|n| *n == name);
         let before = header.coordinates.len() + header.velocities.len();
@@ -85,7 +84,7 @@ impl WithoutCharts {
         q
     }
 
-    /// A whole state of the model; what stands behind the velocities stays.
+    /// A whole state of the model; the entries behind the velocities stay.
     pub fn state(&self, state: &[f64]) -> Vec<f64> {
         let mut y = self.q(state);
         let mut from = self.lengths[0];
@@ -182,7 +181,7 @@ mod tests {
             assert_eq!(y.len(), 3 + 4 + 3 + 3 + 3);
             assert_eq!((&y[..3], &y[7..10]), (&state[..3], &state[6..9]));
             assert_eq!(y[13..], [0.125, chart, 7.0]);
-            // a quarter of a turn about y turns x to −z and z to x; back, the columns of A are (r₃, r₂, −r₁)
+            // a quarter of a turn about y takes x to −z and z to x; before that turn, the columns of A are (r₃, r₂, −r₁)
             let r = bryant_rotation(angles);
             let expected = match chart {
                 0.0 => r,
@@ -192,7 +191,7 @@ mod tests {
             for (a, b) in ours.iter().flatten().zip(expected.iter().flatten()) {
                 assert!((a - b).abs() < 8.0 * f64::EPSILON, "{ours:?} {expected:?}");
             }
-            // a rate of φ₃ alone turns about the third axis of R
+            // a rate of φ₃ alone is a rotation about the third axis of R
             for i in 0..3 {
                 assert!((y[10 + i] - 2.0 * r[i][2]).abs() < 8.0 * f64::EPSILON);
             }

@@ -4,8 +4,8 @@ use crate::interrupt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 
-/// What `work` makes of each item, in the order of the items; `None` of those that were not begun, or not done, when Ctrl-C came.
-/// `progress` hears how many are done.
+/// The results of `work` for all items, in their order; `None` for an item whose work had not begun or ended when Ctrl-C was pressed.
+/// `progress` is called with the number of finished items.
 pub fn map<T: Sync, R: Send>(
     items: &[T],
     work: impl Fn(&T) -> R + Sync,
@@ -23,7 +23,7 @@ pub fn map<T: Sync, R: Send>(
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(item) = items.get(index) else { return };
                     let result = work(item);
-                    // What an interruption cut short is no result. Whoever listens is gone only where the whole is broken off.
+                    // The result of interrupted work is not used. The receiver is gone only if the whole call was broken off.
                     if interrupt::asked() || tell.send((index, result)).is_err() {
                         return;
                     }

@@ -1,9 +1,9 @@
-//! Where everything is: x_c = x_p + A_p s_c, from the root of each tree to its leaves.
+//! The positions of all bodies: x_c = x_p + A_p s_c, from the root of each tree to its leaves.
 //!
-//! The coordinates of a tree are those of its reference joint, where it is free, then those of every element: of the freedoms of its joint,
-//! relative to its carrier, or of its orientation on a ball joint:
-//! one angle in the plane, three Bryant angles or a unit quaternion (w, x, y, z) in space. Orientations are absolute. The
-//! states of a run in Bryant angles may be in another chart: they are put in [quaternions](crate::orientation) before.
+//! The coordinates of a tree are those of its reference joint, if it is free, followed by those of every element: the freedoms of its
+//! joint, relative to its carrier, or its orientation on a ball joint: one angle in the plane, three Bryant angles or a unit quaternion (w,
+//! x, y, z) in space. Orientations are absolute. States in Bryant angles may be in another chart; they are converted to
+//! [quaternions](crate::orientation) first.
 
 use crate::evaluation::stop;
 use bryant_generator::joint::placement::placed;
@@ -31,7 +31,7 @@ pub struct Pose {
     systems: Vec<Vec<Frame>>,
 }
 
-/// Which coordinates belong to what.
+/// The assignment of coordinates to joints and elements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     systems: Vec<SystemLayout>,
@@ -42,18 +42,18 @@ pub struct Layout {
 struct SystemLayout {
     /// Index of the coordinate of the reference joint along each absolute axis.
     reference: [Option<usize>; 3],
-    /// First coordinate of each element and how many there are (1, 3 or 4).
+    /// First coordinate and number of coordinates (1, 3 or 4) of each element.
     elements: Vec<(usize, usize)>,
 }
 
-/// The coordinates named do not describe the model.
+/// The named coordinates do not belong to the model.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the coordinates do not fit the model: {0}")]
 pub struct Mismatch(String);
 
 impl Layout {
-    /// Reads the layout off the names of the coordinates: `man.x` is of the reference joint of the system man, and every
-    /// name before whose last dot stands `man/head` is of its element head.
+    /// Reads the layout from the names of the coordinates: `man.x` belongs to the reference joint of the system man, and a name with
+    /// `man/head` before its last dot belongs to the element head of this system.
     pub fn new<S: AsRef<str>>(model: &Model, names: &[S]) -> Result<Self, Mismatch> {
         let owner = |name: &str| {
             name.rsplit_once('.')
@@ -183,7 +183,7 @@ impl Pose {
         }
     }
 
-    /// Absolute position of a point fixed in a body \[m\].
+    /// Absolute position of a point that is fixed in a body \[m\].
     pub fn point(&self, numbers: &Numbers<'_>, attachment: &Attachment) -> Vec3 {
         self.body(attachment.on)
             .point(numbers.vector(&attachment.at))
@@ -212,9 +212,9 @@ impl Frame {
 /// The numbers of a model at given parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct Numbers<'a> {
-    /// Whose numbers.
+    /// The model.
     pub model: &'a Model,
-    /// SI, in the model's order.
+    /// The values of its parameters: SI, in the model's order.
     pub parameters: &'a [f64],
 }
 
@@ -224,7 +224,7 @@ impl Numbers<'_> {
         std::array::from_fn(|i| numbers[i].value(self.parameters))
     }
 
-    /// Where a given translation from `start` is at time `t`.
+    /// Position at time `t` of a prescribed translation that begins at `start`.
     fn moved(&self, translation: &Translation, start: Vec3, velocity: Vec3, t: f64) -> Vec3 {
         std::array::from_fn(|axis| {
             let mut moving = t;
@@ -338,7 +338,7 @@ mod tests {
 
     #[test]
     fn quaternion_and_bryant_angles_agree() {
-        // The quaternion of Rx(φ₁) Ry(φ₂) Rz(φ₃) is the product of those of the three turns.
+        // The quaternion of Rx(φ₁) Ry(φ₂) Rz(φ₃) is the product of the quaternions of the three rotations.
         let angles: Vec3 = [0.4, -0.7, 1.1];
         let half = angles.map(|a| (a / 2.0).sin_cos());
         let product = |a: [f64; 4], b: [f64; 4]| {

@@ -1,4 +1,4 @@
-//! What the system does to a process before `main`, or without a word, told as errors.
+//! Effects of the system on a process, before `main` or without a message, turned into errors.
 #![cfg_attr(
     unix,
     expect(
@@ -7,11 +7,11 @@
     )
 )]
 
-/// Whether standard output was closed when the process began, as by `bryant run MODEL >&-`. What is printed then is lost.
+/// Whether standard output was closed when the process began, as by `bryant run MODEL >&-`. Printed text is then lost.
 ///
-/// The standard library opens `/dev/null` in the place of what is closed before `main` begins, so that writing succeeds and nothing can
-/// tell any more. Whoever wants to know has to look earlier: the loader of programs calls what stands in the section `.init_array`
-/// before. Where the system is not Unix, nobody looks, and closed is taken for open.
+/// The standard library opens `/dev/null` in place of closed descriptors before `main` begins. After that, writing succeeds and the loss
+/// cannot be detected. So the descriptor is checked earlier: the loader of programs calls the functions in the section `.init_array` first.
+/// On systems that are not Unix there is no check, and a closed output counts as open.
 pub fn stdout_was_closed() -> bool {
     #[cfg(unix)]
     return early::CLOSED.load(std::sync::atomic::Ordering::Relaxed);
@@ -19,8 +19,8 @@ pub fn stdout_was_closed() -> bool {
     false
 }
 
-/// From now on a file that grows beyond the limit of the process (`ulimit -f`) is an error of whoever writes it, who removes what is
-/// unfinished. Otherwise a signal would end the program, and leave it.
+/// From now on, a file that grows beyond the limit of the process (`ulimit -f`) is an error for the code that writes it, and that code
+/// removes the unfinished file. Otherwise a signal would end the program and leave the file.
 pub fn outlive_limits_of_files() {
     // SAFETY: no handler is called.
     #[cfg(unix)]
@@ -33,11 +33,11 @@ pub fn outlive_limits_of_files() {
 mod early {
     use std::sync::atomic::{AtomicBool, Ordering};
 
-    /// Whether descriptor 1 was closed before anything else ran.
+    /// Whether descriptor 1 was closed before all other code ran.
     pub static CLOSED: AtomicBool = AtomicBool::new(false);
 
-    // SAFETY: the section has addresses of functions without result, which are called with arguments that this one does not look at. It
-    // makes a single call of the system's and needs nothing of the standard library that is set up later.
+    // SAFETY: the section holds addresses of functions without a result, which are called with arguments that this function ignores. The
+    // function makes a single system call and needs nothing that the standard library sets up later.
     #[used]
     #[cfg_attr(
         target_vendor = "apple",
@@ -47,7 +47,7 @@ mod early {
     static LOOK: extern "C" fn() = look;
 
     extern "C" fn look() {
-        // SAFETY: it asks for the flags of a descriptor, and fails only where there is none.
+        // SAFETY: the call asks for the flags of a descriptor, and fails only if the descriptor is closed.
         let closed = unsafe { libc::fcntl(1, libc::F_GETFD) } < 0;
         CLOSED.store(closed, Ordering::Relaxed);
     }

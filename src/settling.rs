@@ -1,41 +1,42 @@
-//! A state of rest: where the forces on every body are in balance.
+//! Search for a state of rest: a state in which the forces on every body are in balance.
 //!
-//! The model is let go from its start, with time standing still, and its motion is stopped wherever its kinetic energy has passed a maximum (kinetic damping, Cundall 1976; Day
-//! 1965 has its elder brother, dynamic relaxation). Each stop takes energy away, so what is left is a place from which nothing moves: a state of rest of the very equations, for
-//! nothing was added to them. A law that dissipates only while something moves, such as damping or friction of speed, has no part in it; what a law remembers, such as a permanent
-//! set or a hold, is what the way to rest has made of it.
+//! The model is released from its start while time stands still. Its motion is stopped whenever its kinetic energy has passed a maximum
+//! (kinetic damping, Cundall 1976; the older method is dynamic relaxation, Day 1965). Each stop removes energy, so the search ends in a
+//! position from which nothing moves. This is a state of rest of the unchanged equations, because nothing was added to them. A law that
+//! dissipates only during motion, such as damping or friction by speed, does not act there. Memory of a law, such as a permanent set or a
+//! hold, has the value that it took on the way to rest.
 //!
-//! Damped motions creep, and stops do not help them. So between stops the model also goes where its accelerations a(q) pull it, q' = a(q), by implicit steps
-//! δ = (1/h − ∂a/∂q)⁻¹ a with the model's own Jacobian: pseudo-transient continuation (Kelley and Keyes 1998). h grows as the accelerations fall, and at last the steps
-//! are Newton's.
+//! Damped motions creep, and stops do not help there. So between stops the model also follows its accelerations a(q) by q' = a(q), in
+//! implicit steps δ = (1/h − ∂a/∂q)⁻¹ a with the model's own Jacobian: pseudo-transient continuation (Kelley and Keyes 1998). The length h
+//! grows as the accelerations fall, and the last steps are Newton steps.
 //!
-//! Motion between two stops is integrated by the method of Bogacki and Shampine (1989), third order with an estimate of the second. The way does not matter, its end does:
-//! the accelerations there are those of the equations.
+//! The motion between two stops is integrated by the method of Bogacki and Shampine (1989), of third order with an error estimate of second
+//! order. The accuracy of the way does not matter, only its end: the accelerations there are those of the equations.
 //!
-//! **What moves at the start.** A system that moves along with a vehicle rests where nothing moves against that motion: velocities of reference joints are kept, and
-//! coordinates are those of an observer who moves along. Angular velocities are left out.
+//! **Motion at the start.** A system that moves along with a vehicle is at rest if nothing moves relative to that motion: velocities of
+//! reference joints are kept, and coordinates are those of an observer who moves along. Angular velocities are not kept.
 //!
-//! A place may be a state of rest and yet be left at a touch, as a rod that stands on its end. So the model is pushed, slightly, and watched.
+//! A state of rest may be unstable, such as a rod that stands on its end. So the model is pushed slightly and watched.
 
 use bryant_runtime::{Dynamics, StateKind};
 
-/// What the search is asked for.
+/// The goal of the search.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted {
     /// The largest acceleration that a state of rest may have \[m/s²\].
     pub acceleration: f64,
-    /// Evaluations of the equations at most.
+    /// Largest number of evaluations of the equations.
     pub evaluations: u64,
 }
 
-/// The end of the search.
+/// The result of the search.
 #[derive(Clone, Debug)]
 pub struct Settled {
-    /// The state, of which only reference joints have velocities: those of the start.
+    /// The state; only reference joints have velocities, those of the start.
     pub state: Vec<f64>,
-    /// The largest acceleration that is left \[m/s²\].
+    /// The largest remaining acceleration \[m/s²\].
     pub acceleration: f64,
-    /// How often the motion was stopped.
+    /// Number of stops.
     pub stops: u32,
     /// How the search ended.
     pub end: End,
@@ -46,33 +47,34 @@ pub struct Settled {
 pub enum End {
     /// The model rests.
     Rest,
-    /// It rests, but leaves at a touch.
+    /// The model rests, but a slight push moves it away.
     Unstable,
-    /// It still moves after all evaluations.
+    /// The model still moves after all evaluations.
     Moving,
-    /// Numbers are not finite any more.
+    /// Its numbers are no longer finite.
     NotFinite,
 }
 
-/// Error of a step that is allowed, relative and absolute \[m, rad, m/s, …\]: the way need not be exact.
+/// Allowed error of a step, relative and absolute \[m, rad, m/s, …\]: the way need not be exact.
 const RELATIVE: f64 = 1e-4;
 const ABSOLUTE: f64 = 1e-6;
 /// The longest step of a motion \[s\].
 const LONGEST_STEP: f64 = 0.01;
-/// After so many stops each the model follows its accelerations, for so many steps at most.
+/// Each time after this many stops the model follows its accelerations, for at most this many steps.
 const STOPS: u32 = 10;
 const FOLLOWED: u32 = 300;
-/// The length of the first of these steps \[s²\], and how far the accelerations alone may carry one \[m, rad\]: a longer one could pass through a body.
+/// Length of the first of these steps \[s²\], and the distance that the accelerations alone may move the model in one step \[m, rad\]: a
+/// longer step could pass through a body.
 const FIRST: f64 = 1e-5;
 const LONGEST: f64 = 0.005;
-/// Speeds of the push at which stability is tried, and how long it is watched \[m/s, rad/s; s\].
+/// Velocities of the push that tests stability \[m/s, rad/s\], and the time of the test \[s\].
 const PUSH: f64 = 1e-3;
 const WATCH: f64 = 2.0;
-/// How much further than the push alone would bring it something may move and still rest.
+/// At rest, a coordinate may move this many times as far as the push alone would move it.
 const DRIFT: f64 = 10.0;
 
-/// Looks for a state of rest from a state on, at a time that stands still. `acceleration` is the largest acceleration \[m/s²\] of a state in
-/// which nothing moves against the start.
+/// Searches for a state of rest, from a state and at a time that stands still. `acceleration` is the largest acceleration \[m/s²\] of a
+/// state in which nothing moves relative to the start.
 pub fn settle(
     model: &dyn Dynamics<f64>,
     time: f64,
@@ -129,12 +131,12 @@ pub fn settle(
     }
 }
 
-/// Whether the model stays near a state after pushes of all its velocities, in two directions.
+/// Whether the model stays near a state after a push of all its velocities, in two directions.
 fn stays(model: &dyn Dynamics<f64>, time: f64, state: &[f64]) -> bool {
     [1.0, -1.0].into_iter().all(|sign| {
         let mut motion = Motion::new(model, time, state);
         for index in motion.velocities() {
-            // directions that no symmetry hides
+            // no symmetry cancels this direction
             let part = (1.0 + index as f64 * 0.618_033_988_749_895).fract();
             motion.state[index] += sign * PUSH * (0.5 + 0.5 * part);
         }
@@ -155,14 +157,14 @@ fn stays(model: &dyn Dynamics<f64>, time: f64, state: &[f64]) -> bool {
     })
 }
 
-/// The state with what its integration needs.
+/// A state with the data of its integration.
 struct Motion<'m> {
     model: &'m dyn Dynamics<f64>,
     time: f64,
     state: Vec<f64>,
-    /// ẏ at the state, as an observer sees it who moves along.
+    /// ẏ at the state, for an observer who moves along.
     rate: Vec<f64>,
-    /// Velocities that are kept, and the rates of coordinates that come of them.
+    /// Velocities that are kept, and the rates of coordinates that they cause.
     kept: Vec<f64>,
     drift: Vec<f64>,
     step_length: f64,
@@ -212,7 +214,7 @@ impl<'m> Motion<'m> {
         self.evaluations += 1;
     }
 
-    /// ẏ of a state, as an observer sees it who moves along.
+    /// ẏ of a state, for an observer who moves along.
     fn rate_at(&self, state: &[f64], rate: &mut [f64]) {
         self.model.derivative(self.time, state, rate);
         for (rate, drift) in rate.iter_mut().zip(&self.drift) {
@@ -220,14 +222,14 @@ impl<'m> Motion<'m> {
         }
     }
 
-    /// Makes all velocities those that are kept.
+    /// Sets all velocities to those that are kept.
     fn stop(&mut self) {
         let velocities = self.velocities();
         self.state[velocities].copy_from_slice(&self.kept);
         self.look();
     }
 
-    /// The kinetic energy of what moves against the velocities that are kept: T is ½ uᵀMu + bᵀu + c in it.
+    /// The kinetic energy of the motion relative to the velocities that are kept: T = ½ uᵀMu + bᵀu + c, of which this is the first term.
     fn energy(&self) -> f64 {
         let first = self.coordinates();
         let of = |share: f64| {
@@ -240,7 +242,7 @@ impl<'m> Motion<'m> {
         0.5 * (of(1.0) + of(-1.0)) - of(0.0)
     }
 
-    /// Follows its accelerations, by implicit steps of growing length, until they are gone or steps are used up.
+    /// Follows the accelerations by implicit steps of growing length, until the accelerations are small or all steps are used.
     fn follow(&mut self, small: f64) {
         let (count, first) = (self.state.len(), self.coordinates());
         let freedoms = self.velocities().len();
@@ -302,7 +304,7 @@ impl<'m> Motion<'m> {
         }
     }
 
-    /// What a velocity of 1 in each freedom does to the coordinates in unit time.
+    /// For each freedom, the rates of the coordinates at a velocity of 1.
     fn directions(&self) -> Vec<Vec<f64>> {
         let velocities = self.velocities();
         let column = |index: usize| {
@@ -315,7 +317,7 @@ impl<'m> Motion<'m> {
         velocities.clone().map(column).collect()
     }
 
-    /// Moved by a step in each freedom.
+    /// The motion after a step in each freedom.
     fn moved(&self, columns: &[Vec<f64>], step: &[f64]) -> Motion<'m> {
         let mut moved = Motion {
             state: self.state.clone(),
@@ -336,7 +338,7 @@ impl<'m> Motion<'m> {
         moved
     }
 
-    /// One step; false where no step, however short, has finite numbers.
+    /// One step; false if no step, however short, has finite numbers.
     fn step(&mut self) -> bool {
         let count = self.state.len();
         let (mut second, mut third, mut last) =
@@ -382,7 +384,7 @@ impl<'m> Motion<'m> {
     }
 }
 
-/// A⁻¹ b by elimination with pivots; not finite where A is singular.
+/// A⁻¹ b by elimination with pivoting; not finite if A is singular.
 fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
     let count = b.len();
     for k in 0..count {
@@ -413,7 +415,7 @@ mod tests {
     use bryant_generator::model;
     use bryant_runtime::Family;
 
-    /// Settles a scene, by the largest rate of a velocity.
+    /// Settles a scene; the acceleration is the largest rate of a velocity.
     fn settled(text: &str) -> Settled {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("scene.yaml");
@@ -468,11 +470,11 @@ forces:
         let found = settled(BALL);
         assert_eq!(found.end, End::Rest);
         let depth = 0.1 - found.state[1];
-        // an acceleration of 1e-4 m/s² is 5e-4 N of 1e5 N/m
+        // an acceleration of 1e-4 m/s² is 5e-4 N at 1e5 N/m
         assert!((depth - 5.0 * 9.81 / 1e5).abs() <= 5e-9, "{depth}");
     }
 
-    /// The same on a floor that moves, with the ball moving along.
+    /// The same on a moving floor, with a ball that moves along.
     #[test]
     fn a_ball_rests_on_a_floor_that_moves_with_it() {
         let moving = BALL
@@ -507,7 +509,7 @@ forces:
   - { field: earth, acceleration: [0, -9.81] }
 ";
 
-    /// A rod hangs, from wherever it is let go; one that stands upright does not rest.
+    /// A rod hangs after a release from any angle; a rod that stands upright does not rest.
     #[test]
     fn a_rod_hangs_and_does_not_stand() {
         let hangs = settled(&ROD.replace("ANGLE", "100 deg"));
@@ -522,7 +524,7 @@ forces:
         assert_eq!(stands.end, End::Unstable);
     }
 
-    /// Two rods and a spiral spring in each joint: the equations of statics, solved by Newton's method here.
+    /// Two rods with a spiral spring in each joint, against the equations of statics, solved by Newton's method.
     #[test]
     fn a_chain_rests_where_statics_says() {
         let text = "model: chain
@@ -560,7 +562,7 @@ forces:
         );
     }
 
-    /// Nothing carries it: it never rests, and says so.
+    /// Nothing carries the ball: it never rests, and the search says so.
     #[test]
     fn what_falls_does_not_rest() {
         let falls = settled(

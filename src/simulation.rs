@@ -1,4 +1,4 @@
-//! One run of a model, recorded: the samples for the table, poses for the picture, what it took.
+//! One recorded run of a model: the samples of the table, poses for the picture, and the cost.
 
 use crate::build_on_demand::RustcModel;
 use crate::equations::Engine;
@@ -15,7 +15,7 @@ use bryant_runtime::{Info, Report, Response};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant as Clock};
 
-/// What came out of a run, also of one that failed on the way.
+/// The result of a run, complete or failed.
 #[derive(Clone, Debug)]
 pub struct Recording {
     /// Names and units.
@@ -24,32 +24,32 @@ pub struct Recording {
     pub table: Table,
     /// Names of the coordinates of poses: those of the model, with quaternions instead of Bryant angles.
     pub coordinates: Vec<String>,
-    /// Poses, spread evenly over the samples, the first and the last among them.
+    /// Poses, evenly spread over the samples, with the first and the last.
     pub instants: Vec<Instant>,
-    /// The state of the last sample: q, v, z, m, as in [`Info::state_name`]; empty where there is no sample.
+    /// The state of the last sample: q, v, z, m, as in [`Info::state_name`]; empty if there is no sample.
     pub last_state: Vec<f64>,
-    /// What it took, or what stopped it.
+    /// The cost of the run, or its failure.
     pub result: Result<Report, RunError>,
-    /// [Responses](bryant_runtime::program::Reading) that the job asks for; none where the run did not reach its end, or is not to be trusted.
+    /// [Responses](bryant_runtime::program::Reading) that the job requests; empty if the run did not reach its end or cannot be trusted.
     pub answers: Vec<Answer>,
-    /// Samples of the channels that the job wants [kept](bryant_runtime::program::Kept); none where the run did not reach its end.
+    /// Samples of the channels that the job wants [kept](bryant_runtime::program::Kept); empty if the run did not reach its end.
     pub kept: Vec<Vec<f64>>,
-    /// Works of effects over time, where the job wants them.
+    /// Works of effects over time, if the job requests them.
     pub history: Option<History>,
-    /// Where the energy went, if anything ran.
+    /// The balance of energy, if anything ran.
     pub energy: Option<Energy>,
     /// Why it cannot be trusted.
     pub doubts: Vec<Finding>,
-    /// What is worth knowing of it.
+    /// Notes about the run.
     pub notes: Vec<String>,
-    /// Time that the computation took, with the writing of machine code, without deriving, starting and printing.
+    /// Time of the computation, including the writing of machine code, without deriving, starting and printing.
     pub wall: Duration,
 }
 
-/// Poses kept at most; more than any picture needs.
+/// At most this many poses are kept; no picture needs more.
 const MOST_INSTANTS: usize = 4096;
 
-/// A model that runs jobs, whatever evaluates it.
+/// A model that runs jobs, independent of how it is evaluated.
 pub trait Runs {
     /// Names, units and sizes.
     fn info(&self) -> &'static Info;
@@ -67,7 +67,7 @@ impl Runs for Engine {
     }
 }
 
-/// In double precision, whatever the job asks for.
+/// Runs in double precision, whatever the job requests.
 impl Runs for RustcModel {
     fn info(&self) -> &'static Info {
         RustcModel::info(self)
@@ -78,7 +78,7 @@ impl Runs for RustcModel {
     }
 }
 
-/// Runs a job, until it is [interrupted](interrupt) at most; `progress` hears from time to time of the time reached \[s\].
+/// Runs a job until its end, or until an [interrupt](interrupt); `progress` is called from time to time with the time reached \[s\].
 pub fn run(model: &dyn Runs, job: &Job, progress: &mut dyn FnMut(f64)) -> Recording {
     let mut recorder = Recorder::new(Header::of(model.info()));
     let start = Clock::now();
@@ -100,8 +100,8 @@ pub fn run(model: &dyn Runs, job: &Job, progress: &mut dyn FnMut(f64)) -> Record
 }
 
 impl Recording {
-    /// Takes the samples of channels, and shows them in the rows of the outputs in whose place they are. A filter needs the whole run: of one that did
-    /// not reach its end nothing is known.
+    /// Puts the samples of filtered channels into the rows of their outputs. A filter needs the whole run: the values are unknown if the
+    /// run did not reach its end.
     fn show(&mut self, reading: &Reading, kept: Vec<Vec<f64>>) {
         let times = self.table.columns[0].values.clone();
         let ends = [times.first(), times.last()].map(|t| t.copied().unwrap_or(0.0));
@@ -130,7 +130,7 @@ struct Recorder {
     times: Vec<f64>,
     outputs: Vec<Vec<f64>>,
     instants: Vec<Instant>,
-    /// Samples between two poses kept.
+    /// One pose is kept for this many samples.
     stride: usize,
     latest: Option<Instant>,
     last_state: Vec<f64>,
@@ -315,11 +315,11 @@ mod tests {
         let times: Vec<f64> = ends.iter().map(|i| i.time).collect();
         assert_eq!((times[0], times[2], times.len()), (0.0, last, 3));
         assert!(ends.iter().all(|i| i.coordinates == [i.time]));
-        // Poses are as far apart as the stride, so the nearest is at most half of it away.
+        // Poses are one stride apart, so the nearest is at most half a stride away.
         assert!((times[1] - 100.2).abs() <= recorder_stride(samples) as f64 / 2.0);
     }
 
-    /// Samples between two poses after so many samples.
+    /// Number of samples between two poses after a run of this many samples.
     fn recorder_stride(samples: usize) -> usize {
         samples.div_ceil(MOST_INSTANTS).next_power_of_two()
     }

@@ -11,8 +11,8 @@
 //! }
 //! ```
 //!
-//! Everything is in SI units, under the names that [`Info`] has, with every digit of a double. What a law integrates is under `laws`, what it
-//! remembers under `memory`; a group that the model has none of may be left out.
+//! All numbers are in SI units and have all digits of a double; their names are those of [`Info`]. `laws` has the continuous states of
+//! force laws, `memory` their discrete states; a group that the model does not have may be left out.
 
 use crate::simulation::Recording;
 use bryant_generator::description::load::read_file;
@@ -55,7 +55,7 @@ impl<'de> Deserialize<'de> for Group {
             fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Group, A::Error> {
                 let mut group = BTreeMap::new();
                 while let Some(name) = entries.next_key::<String>()? {
-                    // before its value is read, so that the place is that of the name
+                    // checked before the value is read, so that the error shows the place of the name
                     if group.contains_key(&name) {
                         return Err(A::Error::custom(format_args!("\"{name}\" is given twice")));
                     }
@@ -68,7 +68,7 @@ impl<'de> Deserialize<'de> for Group {
     }
 }
 
-/// The last state of a run, which has one, as the text of a file.
+/// The last state of a run, which must have one, as the text of a file.
 pub fn text(recording: &Recording) -> String {
     let header = &recording.header;
     let names = [
@@ -123,7 +123,8 @@ fn of_groups(model: &str, names: [Vec<&str>; 4], time: f64, state: &[f64]) -> St
 /// Reads a state of a model.
 ///
 /// # Errors
-/// A file that cannot be read or is no state, a name that the model lacks, a name that the file lacks: with file, names and remedy.
+/// The file cannot be read or is not a state, or names are missing in the model or in the file; the message has the file, the names and a
+/// remedy.
 pub fn read(path: &Path, info: &Info) -> Result<Start, String> {
     let shown = path.display();
     let text =

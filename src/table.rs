@@ -1,8 +1,7 @@
 //! A table of columns with units: for people, for spreadsheets, for programs.
 //!
-//! For people a column has as many decimals as its largest value calls for: those of the unit's natural resolution
-//! (newtons whole, metres to the millimetre), and more where three digits of the largest value need them. The files
-//! hold every digit.
+//! For people, the number of decimals of a column follows from its unit (newtons without decimals, metres to the millimetre), with more
+//! decimals if three digits of the largest value need them. Files have all digits.
 
 use bryant_picture::text::wrap;
 use std::fmt::Write as _;
@@ -11,7 +10,7 @@ use std::io;
 /// Named columns of equal length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
-    /// From left to right; the first is what the others are a function of.
+    /// From left to right; the other columns are functions of the first.
     pub columns: Vec<Column>,
 }
 
@@ -26,12 +25,12 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
-/// How a table is laid out for people.
+/// The layout of a table for people.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
     /// Significant digits of the largest value of every column; `None`: by the unit.
     pub digits: Option<usize>,
-    /// Characters per line; columns that do not fit follow below, each time with the first column. `None`: no limit.
+    /// Characters in a line; columns that do not fit follow below, each time with the first column. `None`: no limit.
     pub width: Option<usize>,
 }
 
@@ -73,7 +72,7 @@ impl Table {
         writer.flush()
     }
 
-    /// `{"columns": [{"name", "unit"}, …], "rows": [[…], …]}`; what is not a finite number is `null`.
+    /// `{"columns": [{"name", "unit"}, …], "rows": [[…], …]}`; a value that is not finite is `null`.
     pub fn json(&self) -> serde_json::Value {
         let columns: Vec<_> = self
             .columns
@@ -184,7 +183,7 @@ impl Format {
             Format::Decimals(decimals) => format!("{value:.decimals$}"),
             Format::Scientific(digits) => format!("{value:.digits$e}"),
         };
-        // What rounds to zero has no sign.
+        // A number that rounds to zero has no sign.
         match text.strip_prefix('-') {
             Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_owned(),
             _ => text,
@@ -202,7 +201,7 @@ fn natural_decimals(unit: &str) -> usize {
     }
 }
 
-/// Decimals that tell apart the rows of a column of equidistant times; `None` for any other column.
+/// Number of decimals that distinguishes the rows of a column of equidistant times; `None` for any other column.
 fn spacing_decimals(column: &Column) -> Option<usize> {
     let values = &column.values;
     if column.unit != "s" || values.len() < 2 {
@@ -210,7 +209,7 @@ fn spacing_decimals(column: &Column) -> Option<usize> {
     }
     let step = values[1] - values[0];
     let equidistant = |pair: &[f64]| (pair[1] - pair[0] - step).abs() <= 1e-6 * step;
-    // The last sample of a run need not lie on the grid.
+    // The last sample of a run need not be on the grid.
     if step <= 0.0 || !values[..values.len() - 1].windows(2).all(equidistant) {
         return None;
     }
@@ -228,7 +227,7 @@ pub(crate) fn typeset(unit: &str) -> String {
     unit.replace("^2", "²").replace("^3", "³").replace('*', "·")
 }
 
-/// Which columns stand side by side.
+/// The columns that stand side by side.
 fn blocks(cells: &[Cells], width: Option<usize>) -> Vec<Vec<usize>> {
     let Some(first) = cells.first() else {
         return Vec::new();
@@ -293,7 +292,7 @@ mod tests {
         }
     }
 
-    /// The rows of figure 5 of the paper, at times with all columns at work.
+    /// The rows of figure 5 of the paper, at times when all columns have values.
     fn figure_5() -> Table {
         Table {
             columns: vec![

@@ -1,19 +1,19 @@
-//! Times of one evaluation of several models, measured against each other.
+//! Times of one evaluation of several models, measured in comparison with each other.
 //!
-//! All of them run in this process in turn, round after round, so that whatever slows the machine down slows all of them down. States are off the
-//! special values of the start, and several.
+//! All models run in this process in turn, round after round, so that a disturbance of the machine slows all of them down. Several states
+//! are used, which avoid the special values of the start.
 
 use crate::equations::Engine;
 use bryant_runtime::Adjustable;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// What is timed.
+/// The method that is timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// The derivative of the state, of which accelerations are most.
+    /// The derivative of the state, whose main part is the accelerations.
     Accelerations,
-    /// The outputs, with the accelerations where they need them.
+    /// The outputs, with the accelerations if they need them.
     Outputs,
 }
 
@@ -27,12 +27,12 @@ impl Method {
     }
 }
 
-/// What was measured of one method of one model.
+/// The measurements of one method of one model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     /// Median time of one evaluation \[s\].
     pub time: f64,
-    /// Length of its machine code; `None` where it is interpreted.
+    /// Length of its machine code; `None` if it is interpreted.
     pub bytes: Option<u64>,
 }
 
@@ -53,7 +53,7 @@ pub fn time(models: &[(&Engine, Method)]) -> Vec<Measured> {
     let mut times = vec![Vec::with_capacity(ROUNDS); all.len()];
     for _ in 0..ROUNDS {
         for ((evaluations, times), &count) in all.iter_mut().zip(&mut times).zip(&counts) {
-            // The models before have taken its place in the caches.
+            // the models before have displaced it from the caches
             evaluations.take(count / 8);
             times.push(evaluations.take(count) / count as f64);
         }
@@ -81,7 +81,7 @@ fn bytes(engine: &Engine, method: Method) -> Option<u64> {
     engine.code_bytes(method).map(|bytes| bytes as u64)
 }
 
-/// A model that is evaluated again and again.
+/// Repeated evaluations of a model.
 struct Evaluations<'a> {
     model: Box<dyn Adjustable<f64> + 'a>,
     method: Method,
@@ -113,7 +113,7 @@ impl<'a> Evaluations<'a> {
         }
     }
 
-    /// How many evaluations are a turn.
+    /// Number of evaluations in a turn.
     fn in_a_turn(&mut self) -> u64 {
         let once = (0..5)
             .map(|_| self.take(20) / 20.0)
@@ -121,7 +121,7 @@ impl<'a> Evaluations<'a> {
         (TURN / once).clamp(16.0, 1e6) as u64
     }
 
-    /// Seconds of so many evaluations.
+    /// Time of this many evaluations \[s\].
     fn take(&mut self, count: u64) -> f64 {
         let info = self.model.info();
         let length = match self.method {

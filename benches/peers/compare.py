@@ -18,20 +18,20 @@ import engines
 import judge
 import states
 
-# Accelerations are the same to this share of the largest, and leave over no more of the moments.
+# Accelerations agree to this share of the largest, and the remaining moments are at most this share.
 AGREE = 1e-9
-# Models on which every engine has to agree. On longer chains of ball joints the peers may be wrong, which is then marked.
+# Models on which all engines must agree. On longer chains of ball joints the peers may be wrong, and this is marked.
 SURE = ["planar9", "chain5", "dummy15"]
-# The whole fall [s]; its ends agree to this share of the largest entry of the state.
+# Duration of the fall [s]; the ends agree to this share of the largest entry of the state.
 DURATION, STEP = 0.15, 1e-4
 FALLS_AGREE = 1e-9
-# What a fall may err by, of the largest entry of the state at its end, and the numbers of steps that are tried for it.
+# Allowed errors of a fall, relative to the largest entry of the state at its end, and the numbers of steps that are tried.
 ERRORS = [1e-6, 1e-9, 1e-12, 1e-14]
 STEPS = [3, 5, 8, 10, 15, 20, 30, 50, 75, 100, 150, 250, 400, 600, 1000, 1500]
 METHODS = {"rk4": "RK4", "dop853": "order 8", "adams": "Adams"}
-# Those with little enough to do in a step to be compared in steps of one length.
+# Methods with so little work in a step that they can be compared in steps of one length.
 IN_EQUAL_STEPS = ["rk4", "adams"]
-# Steps of order 8 for the exact end: from 10 on only roundings are left, and with some hundred there are few of these.
+# Steps of order 8 for the exact end: with 10 or more only rounding is left, and with some hundred there is little of it.
 EXACT_STEPS = 150
 
 
@@ -130,13 +130,13 @@ def difference(found, expected):
 
 
 def exact_end(tree, columns, start):
-    """The end of the fall in EXACT_STEPS of order 8. That it is the right one for all, their own ends show: engines that share no code
-    come to it within their own errors."""
+    """The end of the fall in EXACT_STEPS of order 8. The other ends confirm it: engines that share no code agree with it within
+    their own errors."""
     return signed(tree, columns[0].fall(tree, start, DURATION, DURATION / EXACT_STEPS, "dop853").rows[0])
 
 
 def falls_in_equal_steps(tree, columns, arguments):
-    """By each method, a row of the time [ns] and the error at the end, for each column; None where it has not the method."""
+    """For each method, a row with the time [ns] and the error at the end, for each column; None if a column lacks the method."""
     start = np.array(ask(arguments.ours, "start", tree["name"]).split(), dtype=float)
     exact = exact_end(tree, columns, start)
     tries = [(k, method) for k, column in enumerate(columns) for method in IN_EQUAL_STEPS if method in column.methods]
@@ -155,10 +155,10 @@ def falls_in_equal_steps(tree, columns, arguments):
 
 
 def within_errors(tree, columns, arguments):
-    """For each of ERRORS, a row of the least time [ns], the number of steps and the method of each column; None where none will do."""
+    """For each of ERRORS, a row with the least time [ns], the number of steps and the method of each column; None if none suffices."""
     start = np.array(ask(arguments.ours, "start", tree["name"]).split(), dtype=float)
     exact = exact_end(tree, columns, start)
-    # the first steps by Adams' method are of order 8
+    # the first steps of Adams' method have order 8
     own = {"adams": 6}
     tries = [
         (k, method, steps)
@@ -174,7 +174,7 @@ def within_errors(tree, columns, arguments):
     errors = {key: difference(signed(tree, run(*key).rows[0])[None], exact[None]) for key in tries}
     rows = []
     for error in ERRORS:
-        # of each method the fewest steps that do
+        # for each method the fewest steps that suffice
         fewest = {}
         for key in tries:
             if errors[key] <= error:

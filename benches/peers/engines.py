@@ -21,7 +21,7 @@ MUJOCO = states.Relative(scalar_last=False, body_velocity=False)
 
 
 class Measurement:
-    """What one run of a program answered: nanoseconds of each batch, and rows in the variables of this project."""
+    """The answer of one run of a program: nanoseconds of each batch, and rows in the variables of this project."""
 
     def __init__(self, output, convert):
         lines = output.splitlines()
@@ -38,7 +38,7 @@ def _run(command, rows):
 
 
 def _build(folder, compiler, sources, flags, text=""):
-    """A program of sources and flags, compiled unless it is there already."""
+    """A program from sources and flags, compiled unless it already exists."""
     digest = hashlib.sha256()
     for path in [*sources, HERE / "programs" / "common.h", HERE / "programs" / "tree.hpp"]:
         digest.update(pathlib.Path(path).read_bytes())
@@ -122,7 +122,7 @@ def mjcf(tree):
         element = elements[i]
         inertia = element["inertia"]
         if tree["plane"]:
-            # about x and z nothing turns, but a moment of inertia of 0 is refused
+            # nothing rotates about x and z, but a moment of inertia of 0 is refused
             inertia = [inertia[1]] * 3
         if tree["plane"]:
             slides = '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
@@ -165,7 +165,7 @@ def mjcf_of_robot(robot, text):
 
 
 def _depth_first(elements, parent=None):
-    """Indices of the elements, each followed by all that it carries."""
+    """Indices of the elements, each followed by all elements that it carries."""
     order = []
     for i, element in enumerate(elements):
         if element["parent"] == parent:
@@ -174,10 +174,10 @@ def _depth_first(elements, parent=None):
 
 
 class Pinocchio(Peer):
-    """What is common to programs made from Pinocchio's headers."""
+    """The common parts of programs made from Pinocchio's headers."""
 
     relative = PINOCCHIO
-    # as the CMake files of the package ask for
+    # as the CMake files of the package require
     DEFINITIONS = [
         "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
         "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30",

@@ -1,4 +1,4 @@
-"""Who is right: the moments that the accelerations leave over, by the equations of Newton and Euler in 80 bits.
+"""Judges accelerations: the moments that remain in the equations of Newton and Euler, in 80 bits.
 
 The joints transmit no moment, and a free reference joint no force. So, summed over all elements that a joint carries,
 
@@ -16,7 +16,7 @@ EXACT = np.longdouble
 
 
 def residual(tree, state, accelerations):
-    """The largest moment or force that is left over, as a share of the largest term of its kind; infinity for what is not finite."""
+    """The largest remaining moment or force, as a share of the largest term of its kind; infinity if it is not finite."""
     if not np.isfinite(accelerations).all():
         return np.inf
     state, accelerations = state.astype(EXACT), accelerations.astype(EXACT)
@@ -34,7 +34,7 @@ def residual(tree, state, accelerations):
     else:
         angular = accelerations[axes:].reshape(-1, 3)
 
-    # from the root outwards: accelerations of joints, what each element alone asks of its joint
+    # from the root outwards: accelerations of joints, and the load of each element alone on its joint
     joints, forces, moments, arms, terms = [], [], [], [], []
     for i, element in enumerate(elements):
         rotation = states.matrix(np.array(orientation[i], dtype=EXACT))

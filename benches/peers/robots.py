@@ -131,7 +131,7 @@ def read(folder, name, program):
     for j in range(1, model.njoints):
         place, inertia, joint = model.jointPlacements[j], model.inertias[j], model.names[j]
         first = free and j == 1
-        # a hinge without limits is a point of a circle to Pinocchio; here it is an angle
+        # Pinocchio describes a hinge without limits by a point on a circle; here it is an angle
         kind = "free" if first else {"prismatic": "slider"}.get(written[joint].get("type"), "hinge")
         joints.append({
             "parent": int(model.parents[j]),
@@ -149,7 +149,7 @@ def read(folder, name, program):
 
 
 def clean(name):
-    """A name without what separates its words."""
+    """A name without the separators of its words."""
     return re.sub("[^a-z0-9]", "", name.lower())
 
 
@@ -176,7 +176,7 @@ def random(robot, count, seed):
 
 
 class Relative:
-    """The variables of another engine, of robots: as states.Relative has them of trees."""
+    """The variables of another engine for robots, like those of states.Relative for trees."""
 
     def __init__(self, of):
         self.of = of

@@ -16,8 +16,8 @@ if ! cmp -s "$here/requirements.txt" "$folder/venv/installed.txt"; then
     cp "$here/requirements.txt" "$folder/venv/installed.txt"
 fi
 
-# Twice: as cargo builds for any processor, and for this one. With a target named, flags are not those of the build script, too,
-# so that the generator is compiled once.
+# Builds twice: for any processor, as cargo does by default, and for this one. With an explicit target the flags do not apply to the
+# build script, so that the generator is compiled once.
 host=$(rustc -vV | sed -n 's/^host: //p')
 build() {
     (cd "$here/ours" && CARGO_TARGET_DIR=$folder/target RUSTFLAGS=$2 cargo build --locked --release --quiet --target "$host")

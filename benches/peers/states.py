@@ -13,7 +13,7 @@ import numpy as np
 
 
 def random(tree, count, seed):
-    """States at random: orientations uniform over all, velocities normal with a deviation of 2 rad/s and 1 m/s."""
+    """Random states: uniform orientations, velocities normal with a deviation of 2 rad/s and 1 m/s."""
     generator = np.random.default_rng(seed)
     n = len(tree["elements"])
     axes = 2 if tree["plane"] else 3
@@ -95,7 +95,7 @@ class Relative:
         return join(position, orientations, velocity, relative_rates)
 
     def accelerations(self, tree, state, theirs):
-        """dv/dt of this project, of theirs at a state of this project."""
+        """dv/dt of this project, from theirs at a state of this project."""
         _, orientation, velocity, rates = split(tree, state)
         axes = len(velocity)
         linear, angular = theirs[:axes], theirs[axes:]
@@ -117,7 +117,7 @@ class Relative:
         return join(linear, result)
 
     def absolute(self, tree, theirs):
-        """A state of this project, of one of theirs; in space."""
+        """A state of this project, from one of theirs; in space."""
         n = len(tree["elements"])
         axes = 3 if tree["free"] else 0
         position, orientations, velocity, rates = np.split(theirs, np.cumsum([axes, 4 * n, axes]))

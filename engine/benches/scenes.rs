@@ -1,13 +1,13 @@
-//! Scenes of real size: the derivative, a run, and a row of a study in lanes, each beside what it consists of.
+//! Times for scenes of real size: the derivative, a run, and a row of a study in lanes. Each is shown beside its parts.
 //!
 //! ```text
 //! cargo bench -p bryant-engine --bench scenes
 //! cargo bench -p bryant-engine --bench scenes -- occupant
 //! ```
 //!
-//! A run is that of `bryant run`: watched, with its samples. Its time stands over that of its evaluations. Calls of every method are counted
-//! and timed in a second run. The time of a call is the median, less what a look at the clock takes, so that a busy machine says the same as
-//! one that is alone; the time of a run is that of the processor, where the system tells it.
+//! A run is watched and has its samples, as in `bryant run`. Its time is divided by that of its evaluations. A second run counts and times
+//! the calls of every method. The time of a call is the median, less the time of reading the clock, so a busy machine gives the same result
+//! as an idle one. The time of a run is processor time, where the system tells it.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -26,7 +26,7 @@ use std::time::Instant;
 
 type Failed = Box<dyn std::error::Error>;
 
-/// A scene, and its study in few words: parameters with their ranges \[SI\], time between samples \[s\], responses.
+/// A scene and its study: parameters with their ranges \[SI\], time between samples \[s\], responses.
 struct Scene {
     name: &'static str,
     file: &'static str,
@@ -87,7 +87,7 @@ const SCENES: [Scene; 3] = [
 ];
 
 fn main() -> Result<(), Failed> {
-    // `cargo test` builds this, too, and runs it once: nothing is measured then
+    // `cargo test` builds this file, too, and runs it once; then nothing is measured
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if !arguments.iter().any(|argument| argument == "--bench") {
         return Ok(());
@@ -115,7 +115,7 @@ fn measure(scene: &Scene) -> Result<(), Failed> {
     Ok(())
 }
 
-/// One run, over the derivative, and what it consists of.
+/// One run: its time over that of the derivative, and its parts.
 fn single(engine: &Engine) -> Result<(), Failed> {
     let machine = engine.over::<f64>();
     watched(&machine)?;
@@ -142,11 +142,11 @@ fn single(engine: &Engine) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Runs that are timed together, and how often that is done.
+/// The number of runs that are timed together, and how often this is repeated.
 const RUNS: usize = 5;
 const ROUNDS: usize = 5;
 
-/// The time that this thread has had of the processor, or, where the system does not tell it, the time.
+/// The processor time of this thread, or the wall time where the system does not tell it.
 struct Clock {
     start: Instant,
     processor: Option<f64>,
@@ -162,7 +162,7 @@ impl Clock {
 
     /// \[s\]
     fn processor() -> Option<f64> {
-        // what runs is accounted for when it yields
+        // the time of a running thread is updated when it yields
         std::thread::yield_now();
         let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
         Some(1e-9 * text.split(' ').next()?.parse::<f64>().ok()?)
@@ -177,7 +177,7 @@ impl Clock {
     }
 }
 
-/// A watched run as the model says; how many evaluations and steps it took.
+/// A watched run as the model says. Returns the numbers of evaluations and of steps.
 fn watched(machine: &dyn Dynamics<f64>) -> Result<(u64, u64), Failed> {
     let info = machine.info();
     let settings = Settings::of(info);
@@ -198,7 +198,7 @@ fn watched(machine: &dyn Dynamics<f64>) -> Result<(u64, u64), Failed> {
     Ok((report.evaluations, report.steps + report.rejected))
 }
 
-/// Rows of the study, each with its estimate.
+/// Rows of the study in lanes, each with its error estimate.
 fn in_lanes(engine: &Engine, scene: &Scene, width: Width) -> Result<(), Failed> {
     if !width.there() {
         println!("  no registers of width {}", width.name());
@@ -261,7 +261,7 @@ fn job(info: &Info, scene: &Scene, width: Width) -> Result<Job, Failed> {
     })
 }
 
-/// Rows that fill the ranges of the parameters evenly: Weyl's sequence.
+/// Rows that fill the ranges of the parameters uniformly: Weyl's sequence.
 fn spread(scene: &Scene, count: usize) -> Vec<f64> {
     let mut rows = Vec::new();
     for row in 0..count {
@@ -273,7 +273,7 @@ fn spread(scene: &Scene, count: usize) -> Vec<f64> {
     rows
 }
 
-/// By method: the time of each call \[s\].
+/// For each method, the times of its calls \[s\].
 type Shared = RefCell<BTreeMap<&'static str, Vec<f32>>>;
 
 /// The median of the times of a method \[s\].
@@ -336,7 +336,7 @@ impl<M> Counted<M> {
     }
 }
 
-/// A family whose models count into one place.
+/// A family whose models all count into one table.
 struct CountedFamily<'a>(&'a Engine, &'a Shared);
 
 struct CountedIn<'a, T: Real> {
@@ -364,7 +364,7 @@ impl Family for CountedFamily<'_> {
     }
 }
 
-/// [`Dynamics`] of a holder of a model, with every call counted.
+/// [`Dynamics`] for a type that holds a model, with every call counted.
 macro_rules! counted {
     ($($name:ident($($given:ident: $type:ty),*) $(-> $output:ty)?;)*) => {
         $(

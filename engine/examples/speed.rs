@@ -1,4 +1,5 @@
-//! How long models take from YAML to their first evaluation, and then for each, with and without derivatives.
+//! The time from YAML to the first evaluation of a model, and the time of each further evaluation, with and without
+//! derivatives.
 //!
 //! `cargo run --release -p bryant-engine --example speed MODEL.yaml…`
 
@@ -46,7 +47,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Times of derivatives at a state.
+/// Times of evaluations with derivatives, at one state.
 fn derivatives(engine: &Engine, y: &[f64]) {
     let one = y.iter().map(|value| Dual::variable(*value));
     let one: Vec<Dual<f64>> = one.collect();
@@ -79,7 +80,7 @@ fn derivatives(engine: &Engine, y: &[f64]) {
     );
 }
 
-/// Rates of one engine over lanes.
+/// The evaluation rates of one engine over lanes.
 struct Rates<'a>(&'a Engine);
 
 impl OfAnyWidth for Rates<'_> {
@@ -104,7 +105,7 @@ fn measure<T: Real>(machine: &impl Dynamics<T>, y: &[T]) -> f64 {
     })
 }
 
-/// The least time of one of so many in a row \[µs\].
+/// The least time of one call, from `times` calls in a row \[µs\].
 fn least_of(times: u32, mut task: impl FnMut()) -> f64 {
     let mut least = Duration::MAX;
     for _ in 0..200 {

@@ -1,4 +1,4 @@
-//! What lists call: curves, force laws, functions of the user's.
+//! The functions that lists call: curves, force laws, functions of the user.
 
 use crate::info::extrapolate;
 use crate::user::UserFunctions;
@@ -10,11 +10,11 @@ use bryant_runtime::force::{belt, contact, ellipsoid, friction, power, switch};
 use bryant_runtime::{Real, Task};
 use std::sync::Arc;
 
-/// Everything that the lists of one model call.
+/// All functions that the lists of one model call.
 #[derive(Debug)]
 pub struct Library {
     curves: Vec<Table>,
-    /// `None` where the model calls no function of the user's.
+    /// `None` if the model calls no function of the user.
     users: Option<Arc<dyn UserFunctions>>,
 }
 
@@ -41,7 +41,8 @@ impl Library {
         &self.curves[index as usize]
     }
 
-    /// Calls a function; of several results it gives all, in order. It is compiled once for each scalar, for the instructions that it needs.
+    /// Calls a function and writes all its results, in order. It is compiled once for each scalar, for the instructions that the scalar
+    /// needs.
     #[inline(never)]
     pub fn call<T: Real>(&self, function: Function, arguments: &[T], results: &mut [T]) {
         T::enable(Call {

@@ -1,7 +1,7 @@
-//! Machine code in memory, and calls from and to it. All `unsafe` code of this crate is here.
+//! Machine code in memory, with calls into it and out of it. All `unsafe` code of this crate is here.
 //!
-//! The code comes from [`assemble`] alone, in this file, so that nobody else can have other bytes run. It reads and writes only the slots that it
-//! is given, as many as it says; the tests run it on a machine that checks every access.
+//! Only [`assemble`] in this file makes code, so no other bytes can be run. The code reads and writes only the slots that it is given, and says how
+//! many these are. The tests run it on an emulated processor that checks every access.
 
 #![expect(
     unsafe_code,
@@ -19,11 +19,11 @@ use std::ffi::c_void;
 
 /// A function that a list calls.
 pub trait Call<T> {
-    /// Puts the results there. Both slices are as long as the function says.
+    /// Writes the results. Both slices have the lengths of the function.
     fn call(&self, arguments: &[T], results: &mut [T]);
 }
 
-/// The pointers that code is given, in the order of [`Base`].
+/// The pointers that are passed to the code, in the order of [`Base`].
 #[repr(C)]
 struct Pointers<T> {
     time: *const T,
@@ -37,7 +37,7 @@ struct Pointers<T> {
     functions: *const Entry,
 }
 
-/// A function as code calls it.
+/// A function in the form in which code calls it.
 #[repr(C)]
 struct Entry {
     function: *const c_void,
@@ -52,24 +52,24 @@ struct Called<C> {
     results: usize,
 }
 
-/// A list as machine code over a scalar that consists of numbers side by side; `C` are the functions that it calls.
+/// A list as machine code over a scalar that consists of numbers side by side. `C` is the type of the functions that it calls.
 pub struct Compiled<T, C> {
     memory: Mmap,
-    /// Slots of each region.
+    /// The number of slots of each region.
     slots: [u32; Base::ALL.len()],
     entries: Vec<Entry>,
-    /// What entries point to.
+    /// The functions that the entries point to.
     _called: Vec<Box<Called<C>>>,
-    /// The frame, while nobody works in it.
+    /// The frame, while no evaluation uses it.
     frame: Cell<Vec<T>>,
 }
 
 impl<T: Real, C: Call<T>> Compiled<T, C> {
-    /// The code of a list of a model with these curves. `function` gives the functions that it calls; sine, cosine and the angle of a point are those of the scalar. `None`
-    /// where memory cannot be made executable.
+    /// The code of a list of a model with these curves. `function` gives the functions that it calls. Sine, cosine and `atan2` are those of the
+    /// scalar. `None` where memory cannot be made executable.
     ///
     /// # Panics
-    /// Where `target` is not that of the scalar, which [`native`](crate::native) finds.
+    /// If `target` is not that of the scalar, which [`native`](crate::native) finds.
     pub(crate) fn new(
         list: &List,
         curves: &[Curve],
@@ -112,7 +112,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
         })
     }
 
-    /// Length of the code, with its constants.
+    /// Length of the code in bytes, with its constants.
     pub fn bytes(&self) -> usize {
         self.memory.len()
     }
@@ -120,7 +120,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
     /// Evaluates the list.
     ///
     /// # Panics
-    /// Where a slice is too short.
+    /// If a slice is too short.
     #[inline]
     pub fn run(&self, given: Given<T>, parameters: &[T], derived: &[T], results: &mut [T]) {
         let slots = |base: Base| self.slots[base as usize] as usize;
@@ -131,7 +131,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
             && derived.len() >= slots(Base::Derived)
             && results.len() >= slots(Base::Results);
         assert!(enough, "a slice is shorter than the list needs");
-        // a function that is called may evaluate the list again, with another frame
+        // a called function may evaluate the list again, with another frame
         let mut frame = self.frame.take();
         if frame.len() < slots(Base::Frame) {
             frame.resize(slots(Base::Frame), T::from_f64(0.0));
@@ -147,9 +147,9 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
             frame: frame.as_mut_ptr(),
             functions: self.entries.as_ptr(),
         };
-        // SAFETY: the code was assembled for the layout of T and has this signature. The processor has its instructions, as `target` found.
-        // It reads and writes no slot beyond those that it says, which are there: the lengths are checked above. Results and frame are
-        // exclusive. Every bit pattern of numbers is a T.
+        // SAFETY: the code was assembled for the layout of T and has this signature. The processor has its instructions, as `target` found. It reads
+        // and writes only the slots that it declares, and these exist: the lengths are checked above. Results and frame are exclusive. Every bit
+        // pattern of numbers is a T.
         unsafe {
             let function: extern "sysv64" fn(*const Pointers<T>) =
                 std::mem::transmute(self.memory.as_ptr());
@@ -168,7 +168,7 @@ impl<T, C> std::fmt::Debug for Compiled<T, C> {
     }
 }
 
-/// Memory with this content, which may be executed and not written. It is written before it may be executed.
+/// Memory with this content that may be executed but not written. It is written before it becomes executable.
 fn executable(bytes: &[u8]) -> Option<Mmap> {
     let mut memory = MmapMut::map_anon(bytes.len()).ok()?;
     memory.copy_from_slice(bytes);
@@ -183,7 +183,7 @@ fn direct<T>(function: extern "sysv64" fn(*const c_void, *const T, *mut T)) -> E
     }
 }
 
-/// (sin, cos), compiled for the instructions of the scalar.
+/// (sin, cos) as a task, compiled for the instructions of the scalar.
 struct SinCos<T>(T);
 
 impl<T: Real> Task for SinCos<T> {
@@ -194,7 +194,7 @@ impl<T: Real> Task for SinCos<T> {
     }
 }
 
-/// The angle of a point, compiled for the instructions of the scalar.
+/// `atan2` as a task, compiled for the instructions of the scalar.
 struct Atan2<T>(T, T);
 
 impl<T: Real> Task for Atan2<T> {
@@ -205,10 +205,10 @@ impl<T: Real> Task for Atan2<T> {
     }
 }
 
-// Code calls the following three. Panics do not pass through it: `extern` functions end the process instead.
+// Code calls the following three functions. A panic does not pass through code: `extern` functions end the process instead.
 
 extern "sysv64" fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
-    // SAFETY: code hands over one argument and room for two results.
+    // SAFETY: code passes one argument and room for two results.
     unsafe {
         let (sine, cosine) = T::enable(SinCos(*arguments));
         *results = sine;
@@ -217,7 +217,7 @@ extern "sysv64" fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, resul
 }
 
 extern "sysv64" fn atan2<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
-    // SAFETY: code hands over two arguments and room for one result.
+    // SAFETY: code passes two arguments and room for one result.
     unsafe { *results = T::enable(Atan2(*arguments, *arguments.add(1))) };
 }
 
@@ -226,9 +226,8 @@ extern "sysv64" fn any<T: Real, C: Call<T>>(
     arguments: *const T,
     results: *mut T,
 ) {
-    // SAFETY: the context is the `Called` that stands beside this function in the table, and lives as long as the code. Code hands over as
-    // many arguments as the function has, and room for its results, apart from the arguments. They are initialised: the frame and all
-    // slices are.
+    // SAFETY: the context is the `Called` that stands beside this function in the table, and lives as long as the code. Code passes as many arguments
+    // as the function has, and room for its results, which do not overlap. All are initialised, because the frame and all slices are.
     unsafe {
         let called = &*context.cast::<Called<C>>();
         let arguments = std::slice::from_raw_parts(arguments, called.arguments);

@@ -1,4 +1,4 @@
-//! Evaluation by machine code where that is possible, by the interpreter elsewhere.
+//! Evaluation by machine code where that is possible, and by the interpreter elsewhere.
 
 use crate::execute::{Execute, Given};
 use crate::interpret::Interpreter;
@@ -10,22 +10,22 @@ use bryant_runtime::Real;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-/// Evaluates lists over one scalar: as machine code over numbers and registers of numbers, where the processor and the system at hand allow it.
-/// Results have the same bits either way.
+/// Evaluates lists over one scalar. Numbers and registers of numbers use machine code where the processor and the system allow it; everything
+/// else uses the interpreter. Both give the same bits.
 ///
-/// A method is compiled when it is run for the first time.
+/// A method is compiled when it runs for the first time.
 #[derive(Debug)]
 pub struct Evaluator<T: Real> {
     shared: Arc<Shared>,
     parameters: Vec<T>,
     derived: Vec<T>,
-    /// By method, what was tried; `None` where there is no code.
+    /// For each method, its code once compiled; `None` where compilation was tried and there is no code.
     compiled: [OnceCell<Option<Code<T>>>; Method::ALL.len()],
-    /// By combination of methods.
+    /// The same for each combination of methods.
     combined: [OnceCell<Option<Code<T>>>; Combination::ALL.len()],
-    /// Of the outputs that are wanted, where only some are.
+    /// The same for the wanted outputs, if only some are wanted.
     outputs: OnceCell<Option<Code<T>>>,
-    /// For methods without code.
+    /// The interpreter for methods without code.
     interpreter: OnceCell<Interpreter<T>>,
 }
 
@@ -45,12 +45,12 @@ impl<T: Real> Evaluator<T> {
         }
     }
 
-    /// Whether the method is run as machine code.
+    /// Whether the method runs as machine code.
     pub fn is_compiled(&self, method: Method) -> bool {
         self.compiled(method).is_some()
     }
 
-    /// Length of the machine code of a method, with its constants; `None` where it is interpreted.
+    /// Length of the machine code of a method in bytes, with its constants; `None` where it is interpreted.
     pub fn bytes(&self, method: Method) -> Option<usize> {
         self.compiled(method).map(Code::bytes)
     }
@@ -140,7 +140,7 @@ impl<T: Real> Execute<T> for Evaluator<T> {
     }
 }
 
-/// A function of the runtime or of the user, as code calls it.
+/// A function of the runtime or of the user, in the form that code calls.
 #[derive(Debug)]
 struct LibraryFunction {
     shared: Arc<Shared>,

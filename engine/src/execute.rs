@@ -1,21 +1,21 @@
-//! How the methods of a model are evaluated, apart from what they are.
+//! The interface of everything that evaluates the methods of a model.
 
 use bryant_generator::program::{Combination, Method};
 use bryant_runtime::Real;
 
-/// What a method starts from, besides parameters and what is derived from them.
+/// The inputs of a method, besides the parameters and the values derived from them.
 #[derive(Clone, Copy, Debug)]
 pub struct Given<'a, T> {
     /// t \[s\].
     pub time: T,
-    /// The state y: q, v, z, m; nothing for methods that need parameters alone.
+    /// The state y: q, v, z, m; empty for methods that need parameters alone.
     pub state: &'a [T],
-    /// Accelerations or guards, where the method starts from them; else nothing.
+    /// Accelerations or event functions, for methods that start from them; otherwise empty.
     pub before: &'a [T],
 }
 
 impl<T: Real> Given<'_, T> {
-    /// Nothing: for methods that need parameters alone.
+    /// Empty inputs, for methods that need parameters alone.
     pub fn nothing() -> Self {
         Given {
             time: T::from_f64(0.0),
@@ -27,13 +27,13 @@ impl<T: Real> Given<'_, T> {
 
 /// Evaluates the lists of one model over one scalar.
 pub trait Execute<T: Real> {
-    /// Takes the parameters and what is derived from them, for all that is run from now on. [`Method::Derived`] is run with parameters
-    /// alone: `derived` is then empty.
+    /// Sets the parameters and the values derived from them, for all later calls. [`Method::Derived`] computes the derived values from the
+    /// parameters alone; for it `derived` is empty.
     fn set_constants(&mut self, parameters: &[T], derived: &[T]);
-    /// Evaluates a method. `results` is as long as the results of its list. Nothing is allocated.
+    /// Evaluates a method. `results` has the length of the results of its list. Nothing is allocated.
     fn run(&self, method: Method, given: Given<'_, T>, results: &mut [T]);
-    /// Evaluates several methods at once, where that is possible; false where it is not, and nothing is written then. `results` is at least as
-    /// long as those of the methods, which stand there one behind the other. No method needs anything from before.
+    /// Evaluates several methods at once, if possible; otherwise returns false and writes nothing. `results` takes the results of the methods,
+    /// one after the other, and is at least as long as these. No method of a combination has inputs from an earlier method.
     fn run_combined(
         &self,
         combination: Combination,
@@ -43,12 +43,12 @@ pub trait Execute<T: Real> {
         let _ = (combination, given, results);
         false
     }
-    /// Evaluates these outputs, by their index, where several methods at once are possible; false where they are not, and nothing is written
-    /// then. `results` is as long as `wanted`, which is the same at every call until [`Execute::forget_outputs`].
+    /// Evaluates the outputs with these indices, if several methods at once are possible; otherwise returns false and writes nothing.
+    /// `results` is as long as `wanted`, which is the same at every call until [`Execute::forget_outputs`].
     fn run_outputs(&self, wanted: &[usize], given: Given<'_, T>, results: &mut [T]) -> bool {
         let _ = (wanted, given, results);
         false
     }
-    /// Other outputs will be wanted.
+    /// From now on other outputs will be wanted.
     fn forget_outputs(&mut self) {}
 }

@@ -1,5 +1,5 @@
-//! Runs, rows and gradients of a model by its engine. None of these functions is generic, so all time loops over all scalars are compiled
-//! with this crate, and crates that use them only call them.
+//! Runs, rows and gradients of a model by its engine. None of these functions is generic. So all time loops over all scalars are compiled
+//! with this crate, and crates that use it only call them.
 
 use crate::model::Engine;
 use bryant_runtime::batch::rows::{self, Gradients, NoSuchRegisters, Results, Sampled};
@@ -7,19 +7,19 @@ use bryant_runtime::program::{Job, Observer, Outcome, Sink, run_job_observed};
 use bryant_runtime::{Adjustable, DoubleDouble, Family};
 
 impl Engine {
-    /// The model over doubles, at the default values of all parameters.
+    /// The model over doubles, with the default values of all parameters.
     #[inline(never)]
     pub fn in_double(&self) -> Box<dyn Adjustable<f64> + '_> {
         Family::over(self)
     }
 
-    /// The same over double-doubles.
+    /// The model over double-doubles, with the default values of all parameters.
     #[inline(never)]
     pub fn in_double_double(&self) -> Box<dyn Adjustable<DoubleDouble> + '_> {
         Family::over(self)
     }
 
-    /// Runs a job: [`run_job_observed`].
+    /// Runs a job: see [`run_job_observed`].
     #[inline(never)]
     pub fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome {
         run_job_observed(self, job, sink, observer)
@@ -28,16 +28,16 @@ impl Engine {
     /// Runs rows of parameters \[SI\]: [`rows::rows`].
     ///
     /// # Errors
-    /// A processor without the registers asked for.
+    /// If the processor lacks the registers that the job asks for.
     #[inline(never)]
     pub fn rows(&self, job: &rows::Job, rows: &[f64]) -> Result<Results, NoSuchRegisters> {
         rows::rows(self, job, rows)
     }
 
-    /// The same, telling of rows that take long: [`rows::rows_heard`].
+    /// The same, with reports of rows that take long: [`rows::rows_heard`].
     ///
     /// # Errors
-    /// A processor without the registers asked for.
+    /// If the processor lacks the registers that the job asks for.
     #[inline(never)]
     pub fn rows_heard(
         &self,
@@ -51,7 +51,7 @@ impl Engine {
     /// The same in single precision: [`rows::rows_of_singles`].
     ///
     /// # Errors
-    /// A processor without the registers asked for.
+    /// If the processor lacks the registers that the job asks for.
     #[inline(never)]
     pub fn rows_of_singles(
         &self,
@@ -61,10 +61,10 @@ impl Engine {
         rows::rows_of_singles(self, job, rows)
     }
 
-    /// The same, telling of rows that take long: [`rows::rows_of_singles_heard`].
+    /// The same, with reports of rows that take long: [`rows::rows_of_singles_heard`].
     ///
     /// # Errors
-    /// A processor without the registers asked for.
+    /// If the processor lacks the registers that the job asks for.
     #[inline(never)]
     pub fn rows_of_singles_heard(
         &self,
@@ -78,7 +78,7 @@ impl Engine {
     /// Samples of outputs of one row \[SI\]: [`rows::series`].
     ///
     /// # Errors
-    /// A processor without the registers asked for.
+    /// If the processor lacks the registers that the job asks for.
     #[inline(never)]
     pub fn series(&self, job: &rows::Job, row: &[f64], outputs: &[usize]) -> Sampled {
         rows::series(self, job, row, outputs)
@@ -87,16 +87,16 @@ impl Engine {
     /// The same in single precision: [`rows::series_of_singles`].
     ///
     /// # Errors
-    /// A processor without the registers asked for.
+    /// If the processor lacks the registers that the job asks for.
     #[inline(never)]
     pub fn series_of_singles(&self, job: &rows::Job, row: &[f64], outputs: &[usize]) -> Sampled {
         rows::series_of_singles(self, job, row, outputs)
     }
 
-    /// Responses of a row \[SI\] and their derivatives in some directions: [`rows::gradients`].
+    /// Responses of a row \[SI\] and their derivatives in several directions: [`rows::gradients`].
     ///
     /// # Errors
-    /// A processor without the registers asked for.
+    /// If the processor lacks the registers that the job asks for.
     #[inline(never)]
     pub fn gradients(
         &self,

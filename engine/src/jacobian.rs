@@ -1,4 +1,5 @@
-//! The derivative of ẏ by y and t: the equations over dual numbers, as many columns at once as a register holds.
+//! The derivatives of ẏ with respect to y and t: the equations over dual numbers, with as many columns at once as a
+//! register holds.
 
 use crate::evaluate::Evaluator;
 use crate::execute::{Execute, Given};
@@ -13,13 +14,13 @@ use std::sync::Arc;
 
 /// The Jacobian of a model over a scalar.
 pub(crate) trait Jacobian<T>: Debug {
-    /// From now on the parameters are others.
+    /// To be called when the parameters change.
     fn forget_parameters(&mut self);
-    /// ∂ẏ/∂y, row by row, and ∂ẏ/∂t, at these parameters.
+    /// Writes ∂ẏ/∂y, by rows, and ∂ẏ/∂t, at these parameters.
     fn evaluate(&mut self, parameters: &[T], at: (T, &[T]), by_state: &mut [T], by_time: &mut [T]);
 }
 
-/// The way that takes the least time; all have the same bits.
+/// The fastest implementation for this processor. All give the same bits.
 pub(crate) fn jacobian<T: Real>(shared: &Arc<Shared>) -> Box<dyn Jacobian<T>> {
     let of_doubles: Option<Box<dyn Jacobian<f64>>> = if TypeId::of::<T>() != TypeId::of::<f64>() {
         None
@@ -37,10 +38,10 @@ pub(crate) fn jacobian<T: Real>(shared: &Arc<Shared>) -> Box<dyn Jacobian<T>> {
     }
 }
 
-/// A scalar that holds several of `T` side by side, each of which has the bits that it has alone.
+/// A scalar that holds several of `T` side by side, each with the bits that it has alone.
 trait Holds<T>: Real {
     const LANES: usize;
-    /// The same in every lane.
+    /// The same value in every lane.
     fn all(value: T) -> Self;
     /// 1 in one lane, 0 in the others.
     fn unit(lane: usize) -> Self;
@@ -86,14 +87,14 @@ macro_rules! holds_doubles {
 holds_doubles!(Array4, 4);
 holds_doubles!(Array8, 8);
 
-/// The derivative over dual numbers, with a column in each lane of `S`.
+/// The derivatives over dual numbers, with a column in each lane of `S`.
 #[derive(Debug)]
 struct Differentiated<T, S: Real> {
     evaluator: Evaluator<Dual<S>>,
     state: Vec<Dual<S>>,
     rate: Vec<Dual<S>>,
     derived: usize,
-    /// Whether it has the parameters of the model.
+    /// Whether the parameters are those of the model.
     current: bool,
     of: std::marker::PhantomData<T>,
 }
@@ -127,7 +128,7 @@ impl<T: Real, S: Holds<T>> Jacobian<T> for Differentiated<T, S> {
         self.current = false;
     }
 
-    /// The columns of the entries that vary, then that of the time, so many at each evaluation.
+    /// Computes the columns of the entries that vary, then that of the time, several at each evaluation.
     fn evaluate(
         &mut self,
         parameters: &[T],

@@ -1,4 +1,4 @@
-//! Models that are known only at run time, as [`bryant_runtime::Dynamics`]: no compiler is called.
+//! Models that are known only at run time, as [`bryant_runtime::Dynamics`]. No compiler is called.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -18,17 +18,17 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | `model` | [`Engine`], made once of a model's lists and shared; [`Machine`], the model over one scalar |
+//! | `model` | [`Engine`], made once from the lists of a model and shared; [`Machine`], the model over one scalar |
 //! | `front` | runs, rows and gradients of a model, compiled here for all scalars |
-//! | `execute` | [`Execute`], how lists are evaluated |
+//! | `execute` | [`Execute`], the interface of everything that evaluates lists |
 //! | `interpret` | the interpreter, for any scalar |
 //! | `evaluate` | machine code where that is possible, the interpreter elsewhere |
 //! | `jacobian` | derivatives of the rates, several columns at once |
-//! | `native` | machine code of the processor at hand, for scalars that are numbers side by side |
-//! | `code` | machine code in memory, and calls from and to it |
-//! | `call` | what lists call: curves, force laws, functions of the user's |
-//! | `user` | functions of the user's, which take and return plain numbers |
-//! | `info` | what is known of a model, as the runtime wants it |
+//! | `native` | machine code for this processor, for scalars that are numbers side by side |
+//! | `code` | machine code in memory, with calls into it and out of it |
+//! | `call` | the functions that lists call: curves, force laws, functions of the user |
+//! | `user` | functions of the user, which take and return plain numbers |
+//! | `info` | the facts of a model, in the form of the runtime |
 
 mod call;
 #[cfg(all(target_arch = "x86_64", unix))]

@@ -14,13 +14,13 @@ use bryant_runtime::{Adjustable, Arrival, Dynamics, Family, Info, Real, Schedule
 use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
 
-/// A model without a scalar yet: made once of its lists, shared by all threads.
+/// A model that is not yet bound to a scalar. It is made once from the lists of the model and shared by all threads.
 #[derive(Clone, Debug)]
 pub struct Engine {
     shared: Arc<Shared>,
 }
 
-/// What all scalars of a model have in common.
+/// The parts of a model that all scalars share.
 #[derive(Debug)]
 pub(crate) struct Shared {
     pub info: &'static Info,
@@ -28,12 +28,12 @@ pub(crate) struct Shared {
     pub library: Library,
     /// Made when a method is interpreted for the first time.
     programs: OnceLock<Programs>,
-    /// Several methods as one, made when they are asked for the first time.
+    /// Several methods as one list, made when the combination is used for the first time.
     combined: [OnceLock<List>; Combination::ALL.len()],
 }
 
 impl Shared {
-    /// The methods in the form that is interpreted.
+    /// The methods in the form that the interpreter runs.
     pub fn programs(&self) -> &Programs {
         self.programs.get_or_init(|| Programs::new(&self.lists))
     }
@@ -45,11 +45,11 @@ impl Shared {
     }
 }
 
-/// Why there is no engine.
+/// Why an engine cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The model calls a function of the user's, which needs a compiler.
+    /// The model calls a function of the user, which needs a compiler.
     UserFunction {
         /// Its name in the description.
         name: String,
@@ -69,18 +69,18 @@ impl std::fmt::Display for Error {
 impl std::error::Error for Error {}
 
 impl Engine {
-    /// The engine of a model that calls no function of the user's.
+    /// The engine of a model that calls no function of the user.
     ///
     /// # Errors
-    /// A function of the user's that the model calls.
+    /// If the model calls a function of the user.
     pub fn new(lists: Lists) -> Result<Self, Error> {
         Self::with_functions(lists, None)
     }
 
-    /// The engine of a model that may call these functions.
+    /// The engine of a model that may call these functions of the user.
     ///
     /// # Errors
-    /// A function of the user's that the model calls and that is not known.
+    /// If the model calls a function of the user that is not among these.
     pub fn with_functions(
         lists: Lists,
         users: Option<Arc<dyn UserFunctions>>,
@@ -117,7 +117,7 @@ impl Engine {
         self.shared.info
     }
 
-    /// How methods are evaluated over doubles, for people: "machine code" or "interpreter".
+    /// How methods are evaluated over doubles, as text for people: "machine code" or "interpreter".
     pub fn arithmetic(&self) -> &'static str {
         match self.code_bytes(Method::Derivative) {
             Some(_) => "machine code",
@@ -125,23 +125,23 @@ impl Engine {
         }
     }
 
-    /// Bytes of the machine code of a method over doubles; `None` where it is interpreted.
+    /// Length in bytes of the machine code of a method over doubles; `None` where it is interpreted.
     pub fn code_bytes(&self, method: Method) -> Option<usize> {
         Evaluator::<f64>::new(self.shared.clone()).bytes(method)
     }
 
-    /// The lists that it was made of.
+    /// The lists that the engine was made from.
     pub fn lists(&self) -> &Lists {
         &self.shared.lists
     }
 
-    /// The model over a scalar at the default values of all parameters: as machine code where that is possible, by the interpreter
-    /// elsewhere.
+    /// The model over a scalar, with the default values of all parameters: by machine code where that is possible, by the
+    /// interpreter elsewhere.
     pub fn over<T: Real>(&self) -> Evaluated<T> {
         Machine::new(self.shared.clone(), Evaluator::new(self.shared.clone()))
     }
 
-    /// The same by the interpreter.
+    /// The model over a scalar, with the default values of all parameters, by the interpreter.
     pub fn interpreted<T: Real>(&self) -> Interpreted<T> {
         Machine::new(self.shared.clone(), Interpreter::new(self.shared.clone()))
     }
@@ -178,23 +178,23 @@ pub struct Machine<T, E> {
     shared: Arc<Shared>,
     execute: E,
     parameters: Vec<T>,
-    /// What depends on them alone.
+    /// The values that depend on the parameters alone.
     derived: Vec<T>,
-    /// Rates, where a method starts from accelerations.
+    /// The rates, for methods that start from accelerations.
     rates: RefCell<Vec<T>>,
-    /// Guards, where a method starts from them.
+    /// The event functions, for methods that start from them.
     guards: RefCell<Vec<T>>,
-    /// Results that are not handed on as they are.
+    /// Results that are processed before they are returned.
     results: RefCell<Vec<T>>,
-    /// Those of several methods at once.
+    /// The results of several methods at once.
     combined: RefCell<Vec<T>>,
-    /// The outputs that are wanted, where not all are.
+    /// The wanted outputs, if not all are wanted.
     wanted: Option<Box<[usize]>>,
-    /// Made when a Jacobian is asked for the first time.
+    /// Made when a Jacobian is used for the first time.
     jacobian: RefCell<Option<Box<dyn Jacobian<T>>>>,
 }
 
-/// A model over one scalar for a batch, which never asks for its Jacobian: the equations are not compiled over dual numbers for it.
+/// A model over one scalar for a batch. A batch never uses the Jacobian, so the equations are not compiled over dual numbers.
 struct WithoutJacobian<M>(M);
 
 impl<T: Real, E: Execute<T>> Machine<T, E> {
@@ -231,7 +231,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         machine
     }
 
-    /// Computes what depends on parameters alone.
+    /// Computes the values that depend on the parameters alone.
     fn derive(&mut self) {
         derive(&mut self.execute, &self.parameters, &mut self.derived);
         if let Some(jacobian) = self.jacobian.get_mut() {
@@ -239,7 +239,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         }
     }
 
-    /// Runs a method at a state, and before it whatever it starts from.
+    /// Runs a method at a state, after the method whose results it starts from, if any.
     fn at(&self, method: Method, t: T, y: &[T], results: &mut [T]) {
         let routine = self.shared.lists.routine(method);
         if routine.list.results.is_empty() {
@@ -277,7 +277,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         }
     }
 
-    /// Runs several methods at once, and hands their results on; false where that cannot be.
+    /// Runs several methods at once and passes their results to `hand_on`; returns false if that is not possible.
     fn at_once(
         &self,
         combination: Combination,
@@ -302,7 +302,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         done
     }
 
-    /// [`Dynamics::exchange`], where it can be done at once.
+    /// [`Dynamics::exchange`] at once; returns false if that is not possible.
     fn exchange_at_once(
         &self,
         at: (T, &[T]),
@@ -315,7 +315,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         })
     }
 
-    /// [`Dynamics::arrive`], where it can be done at once.
+    /// [`Dynamics::arrive`] at once; returns false if that is not possible.
     fn arrive_at_once(&self, at: (T, &[T]), arrival: &mut Arrival<'_, T>) -> bool {
         let combination = match (&arrival.account, arrival.curves.is_empty()) {
             (Some(_), _) => Combination::WatchedArrival,
@@ -359,7 +359,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         })
     }
 
-    /// Puts the outputs that are wanted in their places, where only some are and code can be made for these; else it says false.
+    /// Writes the wanted outputs to their places, if only some are wanted and there is code for these; otherwise returns false.
     fn wanted_outputs(&self, t: T, y: &[T], outputs: &mut [T]) -> bool {
         let Some(wanted) = &self.wanted else {
             return false;
@@ -387,7 +387,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         }
     }
 
-    /// Six results, or zeros where nothing is free.
+    /// Six results, or zeros where no system is free.
     fn six(&self, method: Method, t: T, y: &[T]) -> [T; 6] {
         let mut results = [T::from_f64(0.0); 6];
         self.at(method, t, y, &mut results);
@@ -395,14 +395,14 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
     }
 }
 
-/// Computes what depends on parameters alone, and hands both over.
+/// Computes the values that depend on the parameters alone, and passes both on.
 pub(crate) fn derive<T: Real>(execute: &mut impl Execute<T>, parameters: &[T], derived: &mut [T]) {
     execute.set_constants(parameters, &[]);
     execute.run(Method::Derived, Given::nothing(), derived);
     execute.set_constants(parameters, derived);
 }
 
-/// [`Dynamics`] for a holder of a model over one scalar; its Jacobian is said apart.
+/// [`Dynamics`] for a type that holds a model over one scalar, without its Jacobian.
 macro_rules! dynamics {
     ($holder:ty, $jacobian:item) => {
 impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
@@ -598,7 +598,7 @@ impl<T: Real, E: Execute<T>> Adjustable<T> for Machine<T, E> {
     }
 
     fn want_outputs(&mut self, wanted: &[usize]) {
-        // each once, and none that is not there
+        // each index once, and only those that exist
         let all = 0..self.shared.info.outputs.len();
         let wanted: Box<[usize]> = all.filter(|index| wanted.contains(index)).collect();
         self.wanted = (wanted.len() < self.shared.info.outputs.len()).then_some(wanted);
@@ -606,7 +606,7 @@ impl<T: Real, E: Execute<T>> Adjustable<T> for Machine<T, E> {
     }
 }
 
-/// Scales quaternions to length 1.
+/// Scales quaternions to length 1, as a task.
 struct Normalize<'a, T>(&'a mut [T]);
 
 impl<T: Real> Task for Normalize<'_, T> {
@@ -622,7 +622,7 @@ impl<T: Real> Task for Normalize<'_, T> {
     }
 }
 
-/// The first kink after a time of the curves that parameters stretch.
+/// The first kink after a time, over the curves whose abscissae depend on parameters, as a task.
 struct KinkAfter<'a, T> {
     library: &'a Library,
     stretched: &'a [u32],

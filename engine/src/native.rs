@@ -1,4 +1,4 @@
-//! Machine code of the processor at hand.
+//! Machine code for this processor.
 
 pub use crate::code::{Call, Compiled};
 
@@ -7,8 +7,7 @@ use bryant_generator::program::{Curve, List};
 use bryant_generator::target::x86_64::{Length, Precision, Target};
 use bryant_runtime::{Layout, Real};
 
-/// What code over this scalar is made for: `None` where the scalar is not made of numbers side by side, or the processor at hand lacks
-/// the instructions.
+/// The target of code over this scalar. `None` if the scalar is not made of numbers side by side, or if the processor lacks the instructions.
 pub fn target<T: Real>() -> Option<Target> {
     let layout = Layout::of::<T>()?;
     let number = match layout.single {
@@ -41,8 +40,8 @@ pub fn target<T: Real>() -> Option<Target> {
     })
 }
 
-/// The code of a list over a scalar; `None` where there can be none, so that the list is to be interpreted. `curves` are those of the model, and
-/// `function` gives the functions that are called besides sine, cosine and the angle of a point, which are those of the scalar.
+/// The code of a list over a scalar. `None` if there can be none; the list must then be interpreted. `curves` are those of the model. `function`
+/// gives the functions that are called, besides sine, cosine and `atan2`, which are those of the scalar.
 pub fn compile<T: Real, C: Call<T>>(
     list: &List,
     curves: &[Curve],

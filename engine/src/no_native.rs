@@ -1,4 +1,4 @@
-//! What stands for machine code where there is none.
+//! Replaces machine code on systems that have none.
 
 use crate::execute::Given;
 use bryant_generator::expression::Function;
@@ -8,11 +8,11 @@ use std::marker::PhantomData;
 
 /// A function that a list calls.
 pub trait Call<T> {
-    /// Puts the results there.
+    /// Writes the results.
     fn call(&self, arguments: &[T], results: &mut [T]);
 }
 
-/// Code that cannot be.
+/// Code that cannot exist.
 #[derive(Debug)]
 pub struct Compiled<T, C>(std::convert::Infallible, PhantomData<(T, C)>);
 
@@ -28,7 +28,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
     }
 }
 
-/// Nothing.
+/// No code.
 pub fn compile<T: Real, C: Call<T>>(
     _: &List,
     _: &[Curve],

@@ -1,26 +1,26 @@
-//! Functions of the user's, as an engine calls them: by plain numbers, whoever compiled them.
+//! Functions of the user as an engine calls them: by plain numbers, whichever compiler made them.
 
 use bryant_runtime::Real;
 use bryant_runtime::real::Form;
 use std::cell::Cell;
 use std::fmt::Debug;
 
-/// Functions of a model's user forces. They take and return words ([`Form`]), so that one table of them serves all scalars.
+/// The functions of a model's user forces. They take and return words ([`Form`]), so one table of them serves all scalars.
 pub trait UserFunctions: Debug + Send + Sync {
-    /// Whether there is a function for the force of this index in the model.
+    /// Whether there is a function for the force with this index in the model.
     fn knows(&self, force: usize) -> bool;
-    /// Calls the function of a force, lane by lane: words of all arguments in, words of all results out, those of the first lane first. A
-    /// function that fails leaves not-a-number in all results, and says elsewhere why.
+    /// Calls the function of a force, lane by lane: `arguments` has the words of all arguments, `results` takes the words of all results,
+    /// those of the first lane first. A function that fails writes NaN to all results, and reports the reason elsewhere.
     fn call(&self, force: usize, form: Form, arguments: &[f64], results: &mut [f64]);
 }
 
 thread_local! {
-    /// Where words are put, so that nothing allocates at a second call.
+    /// A buffer for words, so that a second call does not allocate.
     static PLACE: Cell<Vec<f64>> = const { Cell::new(Vec::new()) };
 }
 
 impl dyn UserFunctions {
-    /// Calls the function of a force over a scalar that has a [form](Real::FORM); over others all results are not-a-number.
+    /// Calls the function of a force over a scalar that has a [form](Real::FORM). Over any other scalar all results are NaN.
     #[inline(always)]
     pub fn call_over<T: Real>(&self, force: usize, arguments: &[T], results: &mut [T]) {
         let Some(form) = T::FORM else {
@@ -54,7 +54,7 @@ mod tests {
     use bryant_runtime::real::lanes::{OfAnyWidth, Several, with_width};
     use bryant_runtime::{Dual, Width};
 
-    /// (a, b) → (b, 2 a), of values and slopes alike.
+    /// (a, b) → (b, 2 a), for values and slopes alike.
     #[derive(Debug)]
     struct Swap;
 

@@ -1,4 +1,4 @@
-//! C99 text of every model against the engine, to the last bit, at many states: with and without fused multiply-adds.
+//! The C99 text of every model, compared with the engine to the last bit, at many states, with and without fused multiply-adds.
 //!
 //! Each model becomes a program that reads states and writes the results of all methods as raw doubles.
 
@@ -14,7 +14,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Numbers that look random, between −1 and 1.
+/// A generator of pseudo-random numbers between −1 and 1.
 struct Random(u64);
 
 impl Random {
@@ -26,7 +26,7 @@ impl Random {
     }
 }
 
-/// What a model is evaluated at.
+/// The inputs of one evaluation of a model.
 struct Case {
     parameters: Vec<f64>,
     t: f64,
@@ -35,7 +35,7 @@ struct Case {
 
 const CASES: usize = 24;
 
-/// States about the start of a run, near it and far from it, with parameters about their defaults; and one that holds no number.
+/// States at the start of a run, near it and far from it, with parameters near their defaults; and one state of NaN.
 fn cases(engine: &Engine) -> Vec<Case> {
     let info = engine.info();
     let mut random = Random(info.name.bytes().map(u64::from).sum::<u64>() * 2 + 1);
@@ -73,7 +73,7 @@ fn cases(engine: &Engine) -> Vec<Case> {
     (0..CASES).map(case).collect()
 }
 
-/// The methods whose results a program prints, in order, with how many these are.
+/// The methods whose results a program prints, in order, and the number of results of each.
 fn printed(lists: &Lists) -> Vec<(&'static str, Method, usize)> {
     let facts = &lists.facts;
     let state = facts.kinds.len();
@@ -92,7 +92,7 @@ fn printed(lists: &Lists) -> Vec<(&'static str, Method, usize)> {
     all.into_iter().filter(there).collect()
 }
 
-/// A program around a model.
+/// The text of a program that evaluates a model.
 fn program(source: &Source, lists: &Lists) -> String {
     let (name, upper) = (&source.name, source.name.to_ascii_uppercase());
     let facts = &lists.facts;
@@ -159,7 +159,7 @@ int main(void)
     text
 }
 
-/// The same by the engine, over a scalar of one lane.
+/// The same results by the engine, over a scalar of one lane.
 struct ByEngine<'a> {
     engine: &'a Engine,
     cases: &'a [Case],
@@ -231,11 +231,11 @@ impl ByEngine<'_> {
     }
 }
 
-/// A double whose products and sums are rounded once, whatever this test is compiled for.
+/// A double whose products and sums are rounded once, whatever target this test is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 struct Fused(f64);
 
-/// Sine and cosine as lanes with fused multiply-adds have them.
+/// Sine and cosine as in lanes with fused multiply-adds, as a task.
 struct SinCos(f64);
 
 impl OfAnyWidth<f64> for SinCos {
@@ -334,7 +334,7 @@ fn compile(directory: &Path, name: &str, options: &[&str]) -> PathBuf {
     binary
 }
 
-/// What a program makes of the cases.
+/// The results of a program for these cases.
 fn by_c(directory: &Path, name: &str, options: &[&str], cases: &[Case]) -> Vec<f64> {
     let binary = compile(directory, name, options);
     let mut child = Command::new(&binary)
@@ -390,14 +390,14 @@ fn models() -> Vec<PathBuf> {
     found
 }
 
-/// Compares every second model, beginning with this one; how many that are.
+/// Compares every second model, beginning with this one. Returns their number.
 fn compare_models(first: usize) -> usize {
     let fuses = is_fused();
     let mut compared = 0;
     for path in models().into_iter().skip(first).step_by(2) {
         let (model, _) = model::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
         let mut config = Config::new();
-        // S of a chain of a hundred takes ten million operations
+        // S of a chain of a hundred elements takes ten million operations
         config.matrices(!path.to_string_lossy().contains("large"));
         let source = match config.c_source(&model) {
             Ok(source) => source,
@@ -418,7 +418,7 @@ fn compare_models(first: usize) -> usize {
             engine: &engine,
             cases: &cases,
         };
-        // those that are bundled as optimised as users compile them; of the others, compiling takes the time
+        // bundled models are optimised as users compile them; for the others, most of the time goes into compiling
         let bundled = path
             .parent()
             .is_some_and(|folder| folder.ends_with("../models"));
@@ -426,7 +426,7 @@ fn compare_models(first: usize) -> usize {
         let plain = by_c(directory.path(), name, options, &cases);
         compare(name, "unfused", &plain, &by_engine.over::<f64>());
         if fuses {
-            // GCC that optimises gives −(a·b + c) the sign of −a·b − c where it is 0
+            // with optimisation, GCC gives −(a·b + c) the sign of −a·b − c where the result is 0
             let fused = by_c(directory.path(), name, &["-mfma", "-O0"], &cases);
             compare(name, "fused", &fused, &by_engine.over::<Fused>());
         }
@@ -445,7 +445,7 @@ fn c_of_the_other_models_has_the_bits_of_the_engine() {
     assert!(compare_models(1) > 20);
 }
 
-/// S by rows, r_s and r_k of a bundled model, as the Rust text has them.
+/// S by rows, r_s and r_k of a bundled model, as in the Rust text.
 macro_rules! matrices {
     ($module:ident) => {
         |case: &Case| {
@@ -500,7 +500,7 @@ fn matrices_in_c_are_those_of_the_rust_text() {
     }
 }
 
-/// The program of `docs/c.md` compiles, and ends where ten times as many steps end.
+/// The program of `docs/c.md` compiles, and its result agrees with that of ten times as many steps.
 #[test]
 fn the_program_of_the_page_runs() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -533,7 +533,7 @@ fn the_program_of_the_page_runs() {
     let finer = run(&program.replace("steps = 10000", "steps = 100000"));
     assert_eq!(ours.len(), model.outputs.len());
     for (ours, finer) in ours.iter().zip(&finer) {
-        // a step of 1e-4 of the run that crosses a point of the pulse errs by some squares of its length
+        // the step of 1e-4 of the run that crosses a point of the pulse has an error of some squares of its length
         let scale = finer.abs().max(1e-3);
         assert!((ours - finer).abs() <= 1e-5 * scale, "{ours} {finer}");
     }
@@ -547,7 +547,7 @@ fn a_force_in_rust_has_no_c() {
     assert_eq!(none.functions, ["drag"]);
 }
 
-/// Whether the processor has fused multiply-adds that the compiler can be asked for by `-mfma`.
+/// Whether the processor has fused multiply-adds and the compiler accepts `-mfma`.
 fn is_fused() -> bool {
     #[cfg(target_arch = "x86_64")]
     return is_x86_feature_detected!("fma");

@@ -1,8 +1,9 @@
-//! No step passes a corner of a force curve and comes back unseen: a soft layer over a hard ground, that a motion meets near its turn.
+//! No step passes a corner of a force curve and comes back unnoticed. The scene is a soft layer over hard ground, with a motion that turns near the
+//! corner.
 //!
-//! x is a penetration, an angle or an elongation, ẍ = −g − F(x) with F of slope 10⁻³ up to x = 1 and of 10⁵ behind. Without the hard ground
-//! the motion would turn a little behind the corner, and a step of a tenth of a second goes over all that. In pieces x is a harmonic
-//! oscillation about a point, and so known in closed form.
+//! x is a penetration, an angle or an elongation. ẍ = −g − F(x), where F has the slope 10⁻³ up to x = 1 and 10⁵ behind it. Without the hard ground
+//! the motion would turn a little behind the corner, and a step of a tenth of a second would pass over all of that. On each side of the corner x is a
+//! harmonic oscillation about a point, so its closed form is known.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -27,35 +28,35 @@ const DURATION: f64 = 0.75;
 
 const GRAVITY: f64 = 9.81;
 const START: f64 = 0.2;
-/// Slopes of the force before and behind the corner, which is at 1.
+/// Slopes of the force before and behind the corner at x = 1.
 const SLOPES: [f64; 2] = [1e-3, (1000.0 - 1e-3) / (1.01 - 1.0)];
 
-/// Speeds at the start.
+/// Speeds at the start \[m/s\]: most reach the corner, the last two do not.
 fn speeds(count: usize) -> Vec<f64> {
-    // at the corner, were there no force: from ones that are turned in a trifle
+    // the speed at the corner if there were no force; the smallest are turned back within a trifle
     let at_corner = (0..count).map(|i| 0.1 * 5f64.powf(i as f64 / (count - 1) as f64));
     let reach = 2.0 * GRAVITY * (1.0 - START);
     let mut speeds: Vec<f64> = at_corner.map(|v| (reach + v * v).sqrt()).collect();
-    // and some that do not come there
+    // and some that do not reach the corner
     speeds.extend([0.99, 0.9].map(|share| share * reach.sqrt()));
     speeds
 }
 
-/// x after a time from the start, with as many of the two slopes as are there.
+/// x after a time from the start, with the slopes before and behind the corner.
 fn closed_form(speed: f64, slopes: [f64; 2]) -> f64 {
     let (mut x, mut v, mut left) = (START, speed, DURATION);
     let mut behind = false;
     loop {
         let (slope, force_at_corner) = (slopes[usize::from(behind)], slopes[0]);
         let omega = slope.sqrt();
-        // F = F(1) + slope (x − 1) is −g there
+        // the position of rest, where F = F(1) + slope (x − 1) is −g
         let rest = 1.0 - (GRAVITY + force_at_corner) / slope;
         // x = rest + size cos(ωt − phase)
         let (a, b) = (x - rest, v / omega);
         let (size, phase) = (a.hypot(b), b.atan2(a));
         let turn = (1.0 - rest) / size;
         let until = match turn < 1.0 {
-            // up through the corner before the turn, down after it
+            // upwards through the corner before the turn, downwards after it
             true if behind => (phase + turn.acos()) / omega,
             true if v > 0.0 => (phase - turn.acos()) / omega,
             _ => f64::INFINITY,
@@ -101,7 +102,7 @@ forces:
 outputs: [{ name: angle, of: wheel/wheel, what: angle }]
 run: { duration: 0.75 s, every: 0.75 s }
 ";
-/// Its place is x + 1, but for the wheel, whose angle is x.
+/// The place of the body is x + 1; for the wheel, x is the angle.
 const SHAPES: [(&str, &str, &str, f64); 4] = [
     (
         "contact",
@@ -136,10 +137,10 @@ fn engine(scene: &str, law: &str) -> Engine {
     Engine::new(Config::new().lists(&scene.model)).expect("no functions")
 }
 
-/// The least that a corner passed unseen does to an end.
+/// The smallest change of the end of a run by a corner that was missed.
 const MISSED: f64 = 0.03;
 
-/// What is wrong with an end, if anything is: errors of a run are far smaller than what a corner passed unseen does.
+/// What is wrong with the end of a run, if anything is. Errors of a run are far smaller than the effect of a missed corner.
 fn judged(speed: f64, end: f64, tolerance: f64) -> Option<String> {
     let exact = closed_form(speed, SLOPES);
     let away = (end - exact).abs();
@@ -204,12 +205,13 @@ fn no_run_passes_a_corner_unseen() {
     none(&wrong, count);
 }
 
-/// Fixed steps \[s\]: as long as the run, and ones that the hard ground turns within. With ω² = 10⁵ 1/s² the last resolves it: ω h = 0.03.
+/// Fixed steps \[s\]: one as long as the run, and some within which the hard ground turns the motion. With ω² = 10⁵ 1/s² the last one resolves it: ω
+/// h = 0.03.
 const STEPS: [f64; 5] = [0.75, 0.2, 0.05, 0.01, RESOLVED];
 const RESOLVED: f64 = 1e-4;
 
-/// Whether a run in fixed steps ended as if it had not seen the hard ground that it met, to 2 % of what that does: how well it resolves what it sees is a
-/// matter of its steps. Without the ground all methods are exact but for 10⁻³ N/m.
+/// The error, if a run in fixed steps ended as if the hard ground that it met did not exist, to within 2 % of its effect. How well a run resolves the
+/// ground that it notices depends on its steps. Without the ground all methods are exact, except for 10⁻³ N/m.
 fn unseen(speed: f64, end: f64) -> Option<String> {
     let [hard, soft] = [SLOPES, [SLOPES[0]; 2]].map(|slopes| closed_form(speed, slopes));
     let meets = (hard - soft).abs() > MISSED;

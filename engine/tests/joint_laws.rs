@@ -1,5 +1,5 @@
-//! Laws of joints that remember or drive, on one coordinate of inertia 1 of every kind, against closed forms: curves of unloading, friction that holds,
-//! motors, drives.
+//! Laws of joints that remember or drive, compared with closed forms, on one coordinate of inertia 1 of every kind: unloading curves, friction that
+//! holds, motors, drives.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 
 const TOLERANCE: f64 = 1e-10;
 
-/// What a coordinate may be of.
+/// The kinds of coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Of {
     PlaneHinge,
@@ -20,8 +20,10 @@ enum Of {
     Slider,
     BallAboutY,
     Torsion,
+    Flexion,
 }
 
+/// All with two sides.
 const KINDS: [Of; 5] = [
     Of::PlaneHinge,
     Of::Hinge,
@@ -30,7 +32,7 @@ const KINDS: [Of; 5] = [
     Of::Torsion,
 ];
 
-/// One body whose one coordinate q has q̈ = Q(t, q, q̇); parameters k = 100 and steep = 400.
+/// One body with one coordinate q and q̈ = Q(t, q, q̇); parameters k = 100 and steep = 400.
 fn scene(of: Of, law: &str, [q, rate]: [f64; 2], rest: &str) -> Engine {
     let (dimension, inertia, cg) = match of {
         Of::PlaneHinge => (2, "1", "[0, 0]"),
@@ -72,6 +74,13 @@ fn scene(of: Of, law: &str, [q, rate]: [f64; 2], rest: &str) -> Engine {
             ", about: torsion",
             "angle",
         ),
+        Of::Flexion => (
+            "",
+            format!("angles: {{ b: [0, {q}, 0] }}, rates: {{ b: [0, {rate}, 0] }}"),
+            format!("flexion: {{ {law} }}"),
+            ", about: flexion",
+            "angle",
+        ),
     };
     let text = format!(
         "
@@ -98,8 +107,8 @@ outputs:
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 
-/// Time, q and q̇ at so many samples, and the number of steps.
-fn run(engine: &Engine, duration: f64, samples: usize) -> (Vec<[f64; 3]>, f64) {
+/// Time and the first outputs at so many samples, q and q̇ before others, and the number of steps.
+fn run<const N: usize>(engine: &Engine, duration: f64, samples: usize) -> (Vec<[f64; N]>, f64) {
     let machine = engine.over::<f64>();
     let settings = Settings {
         method: Method::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE)),
@@ -111,25 +120,28 @@ fn run(engine: &Engine, duration: f64, samples: usize) -> (Vec<[f64; 3]>, f64) {
     machine.initial_state(&mut state);
     let mut rows = Vec::new();
     let report = simulate::run(&machine, &state, &settings, None, &mut |sample| {
-        rows.push([sample.t, sample.outputs[0], sample.outputs[1]]);
+        rows.push(std::array::from_fn(|i| match i {
+            0 => sample.t,
+            i => sample.outputs[i - 1],
+        }));
         ControlFlow::Continue(())
     })
     .unwrap_or_else(|failure| panic!("{failure}"));
     (rows, report.steps as f64)
 }
 
-/// Each step errs by at most the tolerance in q and in q̇, which is felt by q after some time of the motion.
+/// The allowed error: each step errs by at most the tolerance in q and in q̇, and an error of q̇ grows with time in q.
 fn bound(steps: f64, time: f64) -> f64 {
     steps * TOLERANCE * time.max(1.0)
 }
 
-/// A mass that is thrown with `v` at a spring of stiffness k, which unloads along slope s and keeps its set on both sides.
+/// x(t) of a mass that is thrown with `v` at a spring of stiffness k, which unloads along slope s and keeps its permanent set on both sides.
 fn thrown(v: f64, k: f64, s: f64, t: f64) -> f64 {
     let (loading, line) = (k.sqrt(), s.sqrt());
     let quarter = FRAC_PI_2 / loading + FRAC_PI_2 / line;
     let mut left = t;
     let (mut sets, mut v) = ([0.0, 0.0], v);
-    // each side is loaded along the curve once, and left with less
+    // each side is loaded along the curve once, and the mass leaves it more slowly
     for side in 0..2 {
         let sign = [1.0, -1.0][side];
         let most = v / loading;
@@ -144,17 +156,17 @@ fn thrown(v: f64, k: f64, s: f64, t: f64) -> f64 {
         left -= quarter;
         sets[side] = set;
         v *= (k / s).sqrt();
-        // the way back to where the other side begins
+        // the distance to where the other side begins
         let way = set / v;
         if left < way {
             return sign * (set - v * left);
         }
         left -= way;
     }
-    // from then on between the two sets, on lines that it never leaves
+    // from then on it moves between the two sets, always on the unloading lines
     let (bounce, across) = (PI / line, (sets[0] + sets[1]) / v);
     let depth = v / line;
-    // it just passed 0 on its way up
+    // it has just passed 0 on its way up
     if left < sets[0] / v {
         return v * left;
     }
@@ -179,7 +191,7 @@ const SETS: &str = "elastic: { curve: line, times: k }, unloading_slope: steep";
 fn each_side_keeps_its_set() {
     for of in KINDS {
         let engine = scene(of, SETS, [0.0, 2.0], "");
-        let (rows, steps) = run(&engine, 3.0, 300);
+        let (rows, steps) = run::<3>(&engine, 3.0, 300);
         for [t, q, _] in rows {
             let expected = thrown(2.0, 100.0, 400.0, t);
             let bound = bound(steps, 20.0);
@@ -189,6 +201,86 @@ fn each_side_keeps_its_set() {
             );
         }
     }
+}
+
+/// The outputs of both sets of the joint.
+fn sets(about: &str) -> String {
+    ["above", "below"]
+        .map(|side| {
+            format!("  - {{ name: {side}, of: joint s/b, what: permanent_set_{side}{about} }}\n")
+        })
+        .concat()
+}
+
+fn about(of: Of) -> &'static str {
+    match of {
+        Of::BallAboutY => ", about: y",
+        Of::Torsion => ", about: torsion",
+        Of::Flexion => ", about: flexion",
+        _ => "",
+    }
+}
+
+#[test]
+fn the_sets_are_outputs() {
+    // 1 − k/s of how far each side was ever loaded, from the neutral angle
+    let (k, s, v) = (100.0f64, 400.0f64, 2.0);
+    let kept = 1.0 - k / s;
+    let most = v / k.sqrt();
+    let quarter = FRAC_PI_2 / k.sqrt();
+    let lowest = quarter + FRAC_PI_2 / s.sqrt() + most * kept / (v * (k / s).sqrt()) + quarter;
+    for of in KINDS {
+        for neutral in [0.0, 0.3] {
+            let law = format!("{SETS}, neutral: {neutral}");
+            let engine = scene(of, &law, [neutral, v], &sets(about(of)));
+            let (rows, steps) = run::<5>(&engine, 3.0, 300);
+            for [t, q, _, above, below] in rows {
+                let at = |t: f64| thrown(v, k, s, t);
+                let expected = [at(t.min(quarter)), at(t.min(lowest)).min(0.0)];
+                for (ours, furthest) in [above, below].into_iter().zip(expected) {
+                    let bound = bound(steps, 20.0);
+                    assert!(
+                        (ours - kept * furthest).abs() <= bound,
+                        "{of:?} at {t}: {ours} for {}, allowed {bound:e}, at {q}",
+                        kept * furthest
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_set_is_of_the_time_in_which_the_force_acts() {
+    // thrown to 0.125 before the force is there; at 0.08, on the way back, it is loaded at once, and unloads from there along its line
+    let law = format!("name: back, motor: -4 }}\n  - {{ joint: s/b, {SETS}, since: now");
+    let outputs = sets(about(Of::Slider));
+    let rest = format!("{outputs}switches: [{{ switch: now, when: {{ time: 0.4 }} }}]\n");
+    let engine = scene(Of::Slider, &law, [0.0, 1.0], &rest);
+    let (rows, steps) = run::<5>(&engine, 0.425, 85);
+    for &[t, q, _, above, _] in rows.iter().filter(|row| row[0] >= 0.4) {
+        let (foot, slope) = (0.75 * 0.08, 400.0f64);
+        let (rest, turned) = (foot - 4.0 / slope, slope.sqrt() * (t - 0.4));
+        let expected = rest + (0.08 - rest) * turned.cos() - 0.6 / slope.sqrt() * turned.sin();
+        let bound = bound(steps, 20.0);
+        assert!((q - expected).abs() <= bound, "at {t}: {q} for {expected}");
+        assert!((above - foot).abs() <= bound, "at {t}: {above}");
+    }
+}
+
+#[test]
+fn flexion_keeps_one_set() {
+    // bent by a, on with v: energy says how far
+    let (k, s, a, v) = (100.0f64, 400.0f64, 0.1, 2.0f64);
+    let furthest = (a * a + v * v / k).sqrt();
+    let law = "stiffness: 100, unloading_slope: steep";
+    let engine = scene(Of::Flexion, law, [a, v], &sets(about(Of::Flexion)));
+    let (rows, steps) = run::<5>(&engine, 0.2, 2);
+    let [_, q, rate, above, below] = rows[2];
+    assert!(q < furthest && rate < 0.0, "has turned: {q} {rate}");
+    let apart = (above - (1.0 - k / s) * furthest).abs();
+    assert!(apart <= bound(steps, 20.0), "{above} {apart:e}");
+    assert_eq!(below, 0.0);
 }
 
 #[test]
@@ -224,7 +316,7 @@ fn lanes_and_gradients_know_the_sets() {
                 assert_eq!(found.rows[i].status, Status::Done);
                 let expected = thrown(2.0, *k, *s, duration);
                 let apart = (found.responses[i] - expected).abs();
-                // some hundred steps, each as wrong as the tolerance, times the rate of 20
+                // some hundred steps, each with an error of the tolerance, times the rate of 20
                 assert!(apart <= 1e4 * TOLERANCE, "{k}, {s}: {apart:e}");
             }
         }
@@ -253,7 +345,7 @@ fn lanes_and_gradients_know_the_sets() {
 
 #[test]
 fn what_unloading_gives_back_is_the_area_below_its_curve() {
-    // half a cycle leaves √(E_u/E_l) of the speed: down the line to u, and along u
+    // half a cycle leaves √(E_u/E_l) of the speed: down the line to u, then along u
     let (k, s, u, v) = (100.0f64, 400.0, 25.0, 2.0f64);
     let most = v / k.sqrt();
     let foot = most * (1.0 - k / s);
@@ -262,15 +354,42 @@ fn what_unloading_gives_back_is_the_area_below_its_curve() {
     let ratio = (back / (0.5 * k * most * most)).sqrt();
     let law = "elastic: { curve: line, times: k }, unloading: { curve: line, times: 25 }, unloading_slope: steep";
     for of in KINDS {
-        let engine = scene(of, law, [0.0, v], "");
-        let (rows, steps) = run(&engine, 2.0, 20_000);
+        let engine = scene(of, law, [0.0, v], &sets(about(of)));
+        let (rows, steps) = run::<5>(&engine, 2.0, 20_000);
+        // the foot of the line: of f on the way out, of u once that is met, on the side where the joint is
+        let out = FRAC_PI_2 / k.sqrt();
+        let met = out + ((meets - foot) / (most - foot)).acos() / s.sqrt();
+        for &[t, q, rate, above, below] in rows.iter().filter(|row| row[0] < met + 0.3) {
+            let bound = bound(steps, 10.0);
+            let expected = match t {
+                t if t < out => q * (1.0 - k / s),
+                t if t < met => foot,
+                _ if q > 0.0 => q * (1.0 - u / s),
+                _ => 0.0,
+            };
+            assert!(
+                (above - expected).abs() <= bound,
+                "{of:?} at {t}: {above} for {expected}"
+            );
+            let below_expected = if q < 0.0 && rate < 0.0 {
+                q * (1.0 - k / s)
+            } else {
+                0.0
+            };
+            if q > 0.0 || rate < 0.0 {
+                assert!(
+                    (below - below_expected).abs() <= bound,
+                    "{of:?} at {t}: {below}"
+                );
+            }
+        }
         let peaks: Vec<f64> = rows
             .windows(3)
             .filter(|w| w[1][1].abs() > w[0][1].abs() && w[1][1].abs() >= w[2][1].abs())
             .map(|w| w[1][1])
             .collect();
         assert!(peaks.len() >= 4, "{of:?}: {peaks:?}");
-        // half a sample beside the top of a parabola
+        // half a sample away from the top of a parabola
         let sampled = 0.5 * k * most * 0.5e-4f64.powi(2);
         for (n, peak) in peaks.iter().enumerate() {
             let expected = most * ratio.powi(n as i32) * [1.0, -1.0][n % 2];
@@ -288,9 +407,9 @@ fn what_is_held_does_not_creep() {
     let rub = "friction: 2, friction_speed: 0.01";
     for of in KINDS {
         let held = format!("{rub}, friction_displacement: 1e-3, motor: 1.8");
-        let (rows, steps) = run(&scene(of, &held, [0.0; 2], ""), 100.0, 100);
+        let (rows, steps) = run::<3>(&scene(of, &held, [0.0; 2], ""), 100.0, 100);
         for [t, q, rate] in rows.into_iter().filter(|row| row[0] > 9.0) {
-            // 0.9 of the friction bends the bristle by 0.9 of its displacement; what is left of the start is e⁻⁹⁰
+            // 0.9 of the friction bends the bristle by 0.9 of its displacement; the transient of the start has decayed to e⁻⁹⁰
             let bound = bound(steps, 1.0);
             assert!(
                 (q - 0.9e-3).abs() <= bound,
@@ -298,9 +417,9 @@ fn what_is_held_does_not_creep() {
             );
             assert!(rate.abs() <= bound, "{of:?} at {t}: {rate}");
         }
-        // by speed it creeps with 0.9 of that, 1/200 s late
+        // with friction by speed it creeps with 0.9 of the tolerance speed, 1/200 s late
         let creeps = format!("{rub}, motor: 1.8");
-        let (rows, steps) = run(&scene(of, &creeps, [0.0; 2], ""), 100.0, 100);
+        let (rows, steps) = run::<3>(&scene(of, &creeps, [0.0; 2], ""), 100.0, 100);
         for [t, q, _] in rows.into_iter().filter(|row| row[0] > 0.5) {
             let expected = 0.009 * (t - 1.0 / 200.0);
             assert!(
@@ -308,9 +427,9 @@ fn what_is_held_does_not_creep() {
                 "{of:?} at {t}: {q}"
             );
         }
-        // beyond it slides under the whole friction
+        // above the friction limit it slides under the whole friction
         let slides = format!("{rub}, friction_displacement: 1e-3, motor: 2.2");
-        let (rows, steps) = run(&scene(of, &slides, [0.0; 2], ""), 2.0, 20);
+        let (rows, steps) = run::<3>(&scene(of, &slides, [0.0; 2], ""), 2.0, 20);
         let rate = |t: f64| {
             let row = rows.iter().find(|row| (row[0] - t).abs() < 1e-9);
             row.expect("a sample")[2]
@@ -343,14 +462,14 @@ fn a_bristle_straightens_while_its_force_does_not_act() {
         ControlFlow::Continue(())
     })
     .unwrap_or_else(|failure| panic!("{failure}"));
-    // braked by 2 m/s² for half a second, it springs back within z_b and rests; then straight by e⁻¹⁰
+    // braked by 2 m/s² for half a second, it springs back within z_b and rests; then the bristle straightens by e⁻¹⁰
     assert!(bristle[1].abs() < 1e-3 && bristle[1] != 0.0, "{bristle:?}");
     let left = bristle[1] * (-10.0f64).exp();
     assert!((bristle[2] - left).abs() <= 1e-9, "{bristle:?} {left}");
 }
 
-/// A stone that nothing holds on an arm, and one that is a system of its own, begin with the same motion. Both fly alike, and the arm swings as if
-/// alone, though the coordinates of the first are relative to it.
+/// A stone on an arm, held by no force, and a stone that is a system of its own start with the same motion. Both fly alike, and the arm swings as if
+/// it were alone, though the coordinates of the first stone are relative to it.
 #[test]
 fn a_free_joint_lets_go() {
     let bodies = "mass: 0.5, cg: [0.02, 0.01, 0], inertia: [0.01, 0.012, 0.008]";
@@ -411,7 +530,7 @@ run: {{ duration: 0.4 s, every: 0.05 s }}
             pairs.push([1, 2].map(|k| position(format!("{what}{k} {axis}"))));
         }
     }
-    // relative coordinates divide by the cosine of the second angle, which stays above a half
+    // relative coordinates are divided by the cosine of the second angle, which stays above a half
     let bound = bound(steps as f64, 10.0);
     for (k, row) in rows.iter().enumerate() {
         for &[a, b] in &pairs {
@@ -429,7 +548,7 @@ fn motors_and_drives_move_as_their_formulas_say() {
             t * t * t / 3.0
         }),
         ("motor: -0.6", [0.0; 2], &|t| -0.3 * t * t),
-        // at constant voltage: from 0.5 at rest to nothing at 0.4 rad/s
+        // at constant voltage: from 0.5 at rest down to 0 at 0.4 rad/s
         ("motor: 0.5, damping: 0.5 / 0.4", [0.0; 2], &|t| {
             0.4 * (t - 0.8 * (1.0 - (-t / 0.8).exp()))
         }),
@@ -451,7 +570,7 @@ fn motors_and_drives_move_as_their_formulas_say() {
     ];
     for of in KINDS {
         for (law, start, expected) in motions {
-            let (rows, steps) = run(&scene(of, law, start, ""), 1.0, 20);
+            let (rows, steps) = run::<3>(&scene(of, law, start, ""), 1.0, 20);
             for [t, q, _] in rows {
                 let bound = bound(steps, 1.0) + 1e-14;
                 assert!(

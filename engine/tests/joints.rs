@@ -1,5 +1,5 @@
-//! Joints with coordinates of their own, by what is known otherwise: the published motion of a stiff mechanism, the same mechanism in absolute
-//! coordinates, one body in the place of welded ones, and closed forms.
+//! Joints with coordinates of their own, compared with results from elsewhere: the published motion of a stiff mechanism, the same mechanism in
+//! absolute coordinates, one body in place of welded ones, and closed forms.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -35,8 +35,8 @@ fn same(found: f64, expected: f64, scale: f64) {
     );
 }
 
-/// A flyball governor: a shaft on a hinge, a slider on it, two rods on hinges, each tied to the slider by a stiff spring and damper. Rods and shaft
-/// are 0.01 m square of 3000 kg/m³, the masses at the tips are points, the slider a cube.
+/// A flyball governor: a shaft on a hinge, a slider on it, and two rods on hinges, each tied to the slider by a stiff spring and damper. Rods and
+/// shaft are 0.01 m square with 3000 kg/m³, the masses at the tips are points, the slider is a cube.
 fn governor() -> String {
     let (rod, tip) = (0.3, 5.0);
     let mass = rod + tip;
@@ -91,7 +91,7 @@ fn the_flyball_governor_moves_as_published() {
         ControlFlow::Continue(())
     });
     report.unwrap_or_else(|failure| panic!("{failure}"));
-    // slider height [m], rod angle [rad], shaft speed [rad/s], with the digits that are given
+    // slider height [m], rod angle [rad], shaft speed [rad/s], with the published digits
     let published = [
         (
             0.5,
@@ -108,7 +108,7 @@ fn the_flyball_governor_moves_as_published() {
             .find(|(t, _)| (t - time).abs() < 1e-9)
             .expect("a row");
         for (found, (value, digit)) in row.1.iter().zip(expected) {
-            // the last digit is rounded, and the motion amplifies what two programs round differently
+            // the last digit is rounded, and the motion amplifies rounding differences between the two programs
             assert!(
                 (found - value).abs() <= 2.0 * digit,
                 "{found} for {value} at {time} s"
@@ -117,7 +117,7 @@ fn the_flyball_governor_moves_as_published() {
     }
 }
 
-/// A planar chain of three with all laws of a joint, on hinges in absolute or in relative coordinates.
+/// A planar chain of three elements with all laws of a joint, on hinges in absolute or in relative coordinates.
 fn chain(relative: bool, state: [f64; 6]) -> String {
     let [a, b, c, u, v, w] = state;
     let (joint, start) = match relative {
@@ -188,8 +188,8 @@ fn relative_coordinates_say_the_same_as_absolute_ones() {
     }
 }
 
-/// Two bodies, the second welded to the first, or both as one: masses at (0.1, 0, 0) and (0.3, 0, 0.2) of the frame, without moments of their own but
-/// for the first. The pair is carried by a hinge, and carries a ball.
+/// Two bodies, the second welded to the first, or both as one body: masses at (0.1, 0, 0) and (0.3, 0, 0.2) of the frame; only the first has moments
+/// of inertia of its own. A hinge carries the pair, and the pair carries a ball.
 fn pair(welded: bool) -> String {
     let bodies = match welded {
         true => "
@@ -249,7 +249,7 @@ fn welded_bodies_are_one() {
 
 #[test]
 fn a_joint_holds_what_it_does_not_let_go() {
-    // An arm about z with the mass m at (r, 0, h) turns at Ω: a = −Ω² r along x. What it needs at its joint is m (a − g), and of that the moment.
+    // An arm about z with the mass m at (r, 0, h) turns at Ω: a = −Ω² r along x. Its joint carries the force m (a − g) and the moment of that force.
     let values = at_start(
         "
 model: turntable

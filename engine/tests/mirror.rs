@@ -1,14 +1,14 @@
-//! Mirror images by symmetry: a body whose sides are images of each other, and which starts so, accelerates so.
+//! Mirror images by symmetry: a body whose sides are images of each other, and which starts symmetrically, accelerates symmetrically.
 //!
-//! Nothing here knows how images are made. Polar quantities of the two sides differ in the sign of y, axial ones in those of
-//! x and z, and what lies in the middle has no acceleration along y and none about x and z.
+//! Nothing here knows how images are made. Polar vectors of the two sides differ in the sign of y, axial ones in the signs of x and z. The
+//! parts in the middle have no acceleration along y and none about x and z.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
 use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, simulate};
 use std::ops::ControlFlow;
 
-/// All laws act at the start: angles beyond stops, curves that are not odd, contacts that touch, belts that are taut.
+/// All laws act at the start: angles are beyond stops, curves are not odd, contacts touch, belts are taut.
 const SCENE: &str = "
 model: twins
 dimension: 3
@@ -65,8 +65,8 @@ outputs:
   - { name: nod, of: man/neck, what: angular_acceleration, component: [x, y, z] }
 ";
 
-/// Joints of every kind with coordinates of their own, which mirror images have too: of a sided one all freedoms of a kind, lists, short forms,
-/// followers, vectors, tensors.
+/// Joints of every kind with coordinates of their own, which mirror images have, too: a joint of one side with all degrees of freedom of a
+/// kind, lists, short forms, followers, vectors, tensors.
 const MECHANISM: &str = "
 model: mechanism
 dimension: 3
@@ -137,7 +137,7 @@ fn mechanisms_whose_sides_are_mirror_images_move_so() {
         ControlFlow::Continue(())
     });
     let steps = report.unwrap_or_else(|failure| panic!("{failure}")).steps as f64;
-    // at the start rounding through a factorisation; later the tolerance of every step, times accelerations per displacement of 1e6
+    // at the start, rounding in a factorisation; later the tolerance of every step, times accelerations per displacement of 1e6
     for (values, relative) in samples.iter().zip([1e-9, steps * 1e-11 * 1e3]) {
         let named = |name: String| {
             let found = machine.info().outputs.iter().position(|o| o.name == name);
@@ -197,7 +197,7 @@ fn what_starts_as_mirror_images_accelerates_so() {
             values[found.unwrap_or_else(|| panic!("{name}"))]
         })
     };
-    // accelerations are of the order of 1e3, rounding 1e-16 of that through a factorisation of condition 1e3
+    // accelerations are about 1e3; their rounding is 1e-16 of that, through a factorisation of condition 1e3
     let tolerance = |v: [f64; 3]| 1e-9 * (1.0 + v.iter().fold(0.0f64, |m, x| m.max(x.abs())));
     for (name, signs) in [
         ("foot", [1.0, -1.0, 1.0]),

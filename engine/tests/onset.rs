@@ -1,5 +1,5 @@
-//! No step goes over a touch, an edge, a taut belt or a stop: the random scenes of the hard cases ([`bryant_hard::meeting`]), whose motion is known in
-//! closed form until something acts.
+//! No step passes over a touch, an edge, a taut belt or a stop. The scenes are the random ones of the hard cases ([`bryant_hard::meeting`]), whose
+//! motion is known in closed form until something acts.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -11,7 +11,7 @@ use bryant_runtime::{
 };
 use std::ops::ControlFlow;
 
-/// Scenes of each shape.
+/// Number of scenes of each shape.
 const SCENES: usize = 170;
 
 /// A shape, its equations and its scenes.
@@ -74,7 +74,7 @@ fn no_run_steps_over_anything() {
     none(&wrong);
 }
 
-/// The ends of single runs under control of the error.
+/// The ends of single runs with error control.
 fn exact(engine: &Engine, cases: &[Case]) -> Vec<Vec<f64>> {
     let mut model = engine.over::<f64>();
     let mut end_of = |case: &Case| {
@@ -96,15 +96,16 @@ fn exact(engine: &Engine, cases: &[Case]) -> Vec<Vec<f64>> {
     cases.iter().map(&mut end_of).collect()
 }
 
-/// Fixed steps of single runs and of lanes \[s\]: one for the whole run, and some of which the fast go over everything.
+/// Fixed steps of single runs and of lanes \[s\]: one for the whole run, and two in which fast bodies may pass over everything.
 const STEPS: [f64; 3] = [1.0, 0.13, 0.01];
 
-/// What is wrong with the end of a run in fixed steps: an end as if nothing had been met, though what is met changes it by more than 3 %, of which a
-/// visit that is not told of makes 1 % at most; or a word where all is well. How well steps resolve what they see is a matter of their length.
-/// `exact` is the end under control of the error. Of a parabola, stages of a step may lie where the motion does not go, and what they meet there
-/// makes the step wrong: only in straight flight a word is one for nothing.
+/// What is wrong with the end of a run in fixed steps, if anything is. It is wrong if the run ends, without a warning, as if nothing had been met,
+/// though the obstacle changes the end by more than 3 % (a visit that needs no warning changes it by at most 1 %). It is also wrong if there is a
+/// warning and nothing was met. How well steps resolve what they notice depends on their length. `exact` is the end with error control. On a parabola
+/// the stages of a step may lie where the motion does not go, and a force there makes the step wrong; so a false warning counts only in straight
+/// flight.
 fn judged_if_told(case: &Case, exact: &[f64], end: &[f64], told: bool) -> Option<String> {
-    // balls and plates tell two components of a velocity, belts and stops where they are
+    // balls and plates give two components of a velocity, belts and stops a position
     let straight = case.free.len() > 1;
     let apart = |a: &[f64], b: &[f64]| {
         let pairs = a.iter().zip(b);
@@ -162,7 +163,7 @@ fn fixed_steps_tell_what_they_go_over() {
                 end = sample.outputs.to_vec();
                 ControlFlow::Continue(())
             });
-            // a step into what is stiff may end in no number, which is told, too
+            // a step into a stiff obstacle may end in NaN, which is a warning, too
             let told = done.is_err() || watch.doubts().next().is_some();
             told_of += usize::from(told);
             let mistake = judged_if_told(case, &exact[i], &end, told);
@@ -187,7 +188,7 @@ fn none(wrong: &[String]) {
 /// The scenes of a shape as rows of a batch.
 struct Rows<'a> {
     cases: &'a [Case],
-    /// Their ends under control of the error, where steps are fixed.
+    /// The ends with error control, if steps are fixed.
     exact: Option<&'a [Vec<f64>]>,
     outputs: Vec<usize>,
     wrong: Vec<String>,
@@ -246,7 +247,7 @@ impl OfAnyWidth for Batch<'_, '_> {
     }
 }
 
-/// What is wrong in the lanes of all shapes.
+/// The errors in the lanes of all shapes.
 fn wrong_in_lanes(pace: batch::Pace) -> Vec<String> {
     let mut wrong = Vec::new();
     for Shape {

@@ -1,7 +1,7 @@
-//! Outputs with a direction against balances that are not made of them: rates along the motion, momentum, angular momentum.
+//! Outputs with a direction, compared with balances that are independent of them: rates along the motion, momentum, angular momentum.
 //!
-//! A rate along the motion is (g(t + h, y + h ẏ) − g(t − h, y − h ẏ)) / 2h, which errs by h² of the third derivative and by the rounding of
-//! g over h.
+//! A rate along the motion is (g(t + h, y + h ẏ) − g(t − h, y − h ẏ)) / 2h. Its error is h² times the third derivative, plus the rounding
+//! of g over h.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -9,12 +9,12 @@ use bryant_runtime::Dynamics;
 
 /// Step of differences \[s\].
 const H: f64 = 1e-5;
-/// Motions here have frequencies up to 20/s: h² 20³ is 1e-6 of a quantity, rounding over h 1e-11.
+/// Motions here have frequencies up to 20/s, so h² 20³ is 1e-6 of a quantity; rounding over h is 1e-11.
 const TOLERANCE: f64 = 1e-5;
-/// Times at which everything is compared \[s\], with the same coordinates; none at a point of a curve, where accelerations jump.
+/// Times of the comparisons \[s\], with the same coordinates. None is at a point of a curve, where accelerations jump.
 const TIMES: [f64; 3] = [0.007, 0.031, 0.077];
 
-/// A dummy that rides on a car which turns about all axes, strapped to it, its head struck by a ball that flies.
+/// A dummy strapped to a car that turns about all axes; a flying ball strikes its head.
 const SCENE: &str = "
 model: rider
 dimension: 3
@@ -59,14 +59,14 @@ forces:
     friction_speed: 1
 ";
 
-/// A model with outputs of three components each, by name.
+/// A model with three components of each output, by name.
 struct Seen {
     engine: Engine,
     names: Vec<String>,
 }
 
 impl Seen {
-    /// Each of `outputs` is a name and what else an output has but `component`.
+    /// Each of `outputs` is a name and all other keys of an output except `component`.
     fn of(outputs: &[(&str, &str)]) -> Seen {
         let mut text = format!("{SCENE}outputs:\n");
         let mut names = Vec::new();
@@ -201,7 +201,7 @@ fn what_an_observer_sees_are_the_rates_of_what_he_sees() {
                 let turning = seen.at("angular acceleration", t, &y);
                 let found = seen.rate("angular velocity", t, &y);
                 equal(&what("angular velocity"), found, turning, size(turning));
-                // a vector has its length in all axes
+                // a vector has the same length in all axes
                 let other = size(seen.at("in other axes", t, &y));
                 assert!((other - size(acceleration)).abs() < 1e-12 * other);
             }
@@ -347,7 +347,7 @@ fn joints_transmit_the_moment_that_turns_what_they_carry() {
         );
         // no law acts in the joint of the arm
         assert_eq!(at("arm moment"), [0.0; 3]);
-        // all of the dummy, about the origin; the moment of the strike from what it does to the ball
+        // the whole dummy, about the origin; the moment of the strike follows from its effect on the ball
         let weight = [0.0, 0.0, -9.81];
         let ball = minus(
             seen.rate("ball spin", t, &y),
@@ -414,7 +414,7 @@ outputs:
 
 #[test]
 fn the_one_turn_between_two_bodies_has_its_angle() {
-    // two turns about the same axis, (1, 2, 2)/3: by 0.4 and by 0.4 + angle
+    // two rotations about the same axis, (1, 2, 2)/3: by 0.4 and by 0.4 + angle
     for angle in [1e-7, 0.3, 1.5, 3.0, std::f64::consts::PI - 1e-7] {
         let bryant = |angle: f64| {
             // A = cos I + sin [n]× + (1 − cos) n nᵀ
@@ -449,7 +449,7 @@ outputs:
             bryant(0.4),
             bryant(0.4 + angle)
         ));
-        // near 0 and π as exact as elsewhere: rounding of the matrices, some ε
+        // near 0 and π as exact as elsewhere: rounding of the matrices, a few ε
         assert!((found[0].1 - angle).abs() < 4e-15, "{angle}: {found:?}");
         assert!((found[1].1 - angle).abs() < 4e-15, "{angle}: {found:?}");
         let whole = if 0.4 + angle > std::f64::consts::PI {
@@ -463,7 +463,7 @@ outputs:
 
 #[test]
 fn a_pendulum_pulls_at_its_hinge() {
-    // m l θ'² + m g cos θ along the rod; across it, what the rod does not carry
+    // m l θ'² + m g cos θ along the rod; across it, the part that the rod does not carry
     let (m, l, g, angle, rate) = (2.0, 0.7, 9.81, 0.6f64, 3.0);
     let found = at_start(&format!(
         "model: pendulum\ndimension: 2\nsystems:
@@ -660,7 +660,7 @@ outputs:
             .map(|(_, value)| value)
             .collect::<Vec<f64>>()
     };
-    // pulled: the man is above, and the spring draws him down
+    // in tension: the man is above, and the spring pulls him down
     let close = |found: Vec<f64>, wanted: [f64; 8]| {
         for (found, wanted) in found.iter().zip(wanted) {
             assert!(

@@ -1,5 +1,5 @@
-//! Systems whose roots are on joints of their own, on vehicles that turn: against closed forms, and against the same systems on bodies that turn
-//! by themselves and that nothing brakes.
+//! Systems whose roots are on joints of their own, on vehicles that turn. They are compared with closed forms, and with the same systems on
+//! bodies that turn freely and that nothing brakes.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -39,13 +39,13 @@ fn table(angles: &str) -> String {
     )
 }
 
-/// What a tolerance in each step leaves of a motion that amplifies what is wrong by `growth`: some hundred steps.
+/// The error of a motion that amplifies errors by `growth`, after some hundred steps, each with an error of the tolerance.
 fn bound(growth: f64) -> f64 {
     300.0 * TOLERANCE * growth
 }
 
 #[test]
-fn a_bead_on_a_rod_that_turns_flies_out_as_the_hyperbolic_cosine() {
+fn a_bead_on_a_turning_rod_moves_as_a_hyperbolic_cosine() {
     // r̈ = ω² r
     let scene = format!(
         "model: bead\ndimension: 3\n{}systems:\n  - name: s\n    reference: {{ on: table, at: [0, 0, 0.3] }}\n    \
@@ -72,7 +72,7 @@ fn a_bead_on_a_rod_that_turns_flies_out_as_the_hyperbolic_cosine() {
     }
 }
 
-/// A pendulum of length l, of a mass point but for rounding, on a hinge at the axis of a turntable about z.
+/// A pendulum of length l on a hinge at the axis of a turntable about z. Its mass is nearly a point: the moments of inertia are negligible.
 fn pendulum(angle: f64) -> String {
     format!(
         "model: pendulum\ndimension: 3\n{}systems:\n  - name: s\n    reference: {{ on: table, at: [0, 0, 0] }}\n    \
@@ -84,12 +84,12 @@ fn pendulum(angle: f64) -> String {
 }
 
 #[test]
-fn a_pendulum_on_a_turntable_rests_and_swings_about_where_gravity_and_rotation_balance() {
-    // θ̈ = ω² sin θ cos θ − (g/l) sin θ: at rest where cos θ = g/(ω² l), small oscillations by ω sin θ
+fn a_pendulum_on_a_turntable_swings_about_its_balance() {
+    // θ̈ = ω² sin θ cos θ − (g/l) sin θ: at rest if cos θ = g/(ω² l); small oscillations with ω sin θ
     let (omega, ratio) = (5.0f64, 9.81 / 0.8);
     let rest = (ratio / (omega * omega)).acos();
     for (t, outputs) in run(&pendulum(rest)) {
-        // the moments of inertia, 1e-9 beside 2 · 0.8², move it by less than that
+        // the moments of inertia, 1e-9 compared with 2 · 0.8², move it by less than that
         assert!((outputs[0] - rest).abs() <= 2e-9 + bound(1.0), "{t}");
     }
     let (small, rate) = (1e-4, omega * rest.sin());
@@ -97,7 +97,7 @@ fn a_pendulum_on_a_turntable_rests_and_swings_about_where_gravity_and_rotation_b
     for (t, outputs) in run(&pendulum(rest + small)) {
         let expected = rest + small * (rate * t).cos();
         moved = moved.max((outputs[0] - rest - small).abs());
-        // a second harmonic of the order of the square, and a frequency that is off by as much, over ten radians
+        // a second harmonic of the order of the square, and a frequency error of the same order, over ten radians
         assert!(
             (outputs[0] - expected).abs() <= 10.0 * small * small + 2e-9,
             "{t}: {} {expected}",
@@ -107,7 +107,8 @@ fn a_pendulum_on_a_turntable_rests_and_swings_about_where_gravity_and_rotation_b
     assert!(moved > small, "it swings");
 }
 
-/// The same two elements on a table that turns: a vehicle, or a wheel on a hinge whose moment of inertia nothing here can change.
+/// The same two elements on a turning table: a vehicle, or a wheel on a hinge whose moment of inertia is so large that nothing here can change
+/// its speed.
 fn on_table(wheel: bool, dimension: u32, [first, second]: [&str; 2]) -> String {
     let vector = |x: f64, y: f64, z: f64| match dimension {
         2 => format!("[{x}, {z}]"),
@@ -163,7 +164,7 @@ fn on_table(wheel: bool, dimension: u32, [first, second]: [&str; 2]) -> String {
 }
 
 #[test]
-fn a_vehicle_that_turns_carries_as_a_body_does_that_nothing_brakes() {
+fn a_turning_vehicle_carries_as_a_body_without_resistance() {
     let in_space = [
         ["{ hinge: y }", "ball"],
         ["{ hinge: [1, -2, 0.5], zero: 30 deg }", "{ hinge: x }"],
@@ -185,7 +186,7 @@ fn a_vehicle_that_turns_carries_as_a_body_does_that_nothing_brakes() {
         let mut moved = 0.0f64;
         for ((t, a), (_, b)) in vehicle.iter().zip(&wheel) {
             for (i, (a, b)) in a.iter().zip(b).enumerate() {
-                // some hundred newton and metres per second squared; falls of a second amplify little
+                // some hundred newton and metres per second squared; falls of a second amplify errors little
                 let scale = if i < 2 { 1.0 } else { 1e3 };
                 assert!(
                     (a - b).abs() <= 2.0 * bound(10.0) * scale,

@@ -1,6 +1,6 @@
-//! Scenes of real size: machine code has the bits of the interpreter in every method, over doubles and over lanes of every width, at states
-//! with contacts, stops and belts at work, with slopes and without; rows of parameters have the same bits in lanes of every width; and what is asked for otherwise gives the same bits: outputs of which some are wanted, memory that
-//! is renewed by guards that are known.
+//! Scenes of real size. Machine code has the bits of the interpreter in every method, over doubles and over lanes of every width, at states where
+//! contacts, stops and belts act, with and without slopes. Rows of parameters have the same bits in lanes of every width. Other ways to ask give the
+//! same bits: outputs of which only some are wanted, and discrete updates with event functions that are already known.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -23,7 +23,7 @@ fn engine(name: &str) -> Engine {
     Engine::new(Config::new().matrices(false).lists(&model)).unwrap()
 }
 
-/// Weyl's sequence: evenly in −1 to 1.
+/// Weyl's sequence: uniform in −1 to 1.
 struct Weyl(f64);
 
 impl Weyl {
@@ -33,7 +33,7 @@ impl Weyl {
     }
 }
 
-/// A scalar by the numbers of its lanes, and back as bits.
+/// Makes a scalar from the numbers of its lanes, and gives its bits.
 struct Lanes<T> {
     of: fn(&[f64; MOST_LANES]) -> T,
     bits: fn(T) -> Vec<u64>,
@@ -46,7 +46,7 @@ fn bits(value: f64) -> u64 {
     }
 }
 
-/// States around the start, the farther the more bodies overlap; speeds up to metres and radians per second.
+/// States around the start; the further away, the more bodies overlap. Speeds go up to metres and radians per second.
 fn state<T: Real>(
     model: &dyn Dynamics<T>,
     lanes: &Lanes<T>,
@@ -118,7 +118,7 @@ fn check<T: Real>(name: &str, lanes: &Lanes<T>) {
     }
 }
 
-/// Memory that is renewed, with and without guards that are known.
+/// Discrete updates, with and without event functions that are already known.
 fn renewed<T: Real>(name: &str, lanes: &Lanes<T>, models: [&dyn Dynamics<T>; 2], t: T, y: &[T]) {
     let mut plain = y.to_vec();
     models[1].renew(t, &mut plain);
@@ -133,7 +133,7 @@ fn renewed<T: Real>(name: &str, lanes: &Lanes<T>, models: [&dyn Dynamics<T>; 2],
     }
 }
 
-/// Outputs of which some are wanted, in any order, one twice; then others.
+/// Wanted outputs in any order, with one twice; then other wanted outputs.
 fn some_outputs<T: Real>(name: &str, lanes: &Lanes<T>, engine: &Engine, t: T, y: &[T]) {
     let count = engine.info().outputs.len();
     let [mut some, mut all] = [(); 2].map(|()| vec![T::from_f64(0.0); count]);
@@ -191,14 +191,14 @@ impl OfAnyWidth for Check {
     }
 }
 
-/// Other numbers than these.
+/// Numbers that differ from these, as slopes.
 fn slopes(numbers: &[f64; MOST_LANES]) -> [f64; MOST_LANES] {
     let mut turned = *numbers;
     turned.rotate_left(5);
     turned
 }
 
-/// A value with eight slopes, each of which is that of a dual number alone.
+/// A value with eight slopes, each of which has the bits of a separate dual number.
 #[test]
 fn slopes_side_by_side() {
     let columns = Lanes {
@@ -229,7 +229,7 @@ fn slopes_side_by_side() {
     }
 }
 
-/// Columns of the Jacobian are slopes over dual numbers that are interpreted, one by one.
+/// Columns of the Jacobian are the slopes of interpreted dual numbers, one by one.
 fn jacobian(scene: &str) {
     let engine = engine(scene);
     let (model, dual) = (engine.over::<f64>(), engine.interpreted::<Dual<f64>>());
@@ -266,7 +266,7 @@ fn jacobian(scene: &str) {
     }
 }
 
-/// What searches look at together differs from width to width, and what comes of it does not.
+/// Which lanes search together depends on the width; the results do not.
 #[test]
 fn rows_have_the_same_bits_in_every_width() {
     for scene in SCENES {
@@ -331,7 +331,7 @@ fn lanes_of_every_width() {
     }
 }
 
-/// Singles tell times apart by 10⁻⁸ s at 0.1 s: shorter steps on the way to a kink move nothing, and a run of them would never end. By steps of
+/// Singles resolve times by 10⁻⁸ s at 0.1 s. Shorter steps on the way to a kink move nothing, and a run of such steps would never end. With steps by
 /// tolerance a run of this scene takes some thousands.
 #[test]
 fn singles_do_not_creep_along_kinks() {
@@ -351,7 +351,7 @@ fn singles_do_not_creep_along_kinks() {
             let done = simulate::run(&model, &start, &settings, None, &mut |_| {
                 ControlFlow::Continue(())
             });
-            // a tolerance that singles cannot keep ends a run, and says so
+            // a run ends with an error if singles cannot keep the tolerance
             let enough = match &done {
                 Ok(report) => report.steps + report.rejected < 50_000,
                 Err(failure) => matches!(failure.reason, Reason::StepTooSmall { .. }),

@@ -1,4 +1,4 @@
-//! Vehicles that stop and stay, against closed forms: by any scalar, in single runs, in lanes and in gradients.
+//! Vehicles that stop and stay at rest, compared with closed forms: over every scalar, in single runs, in lanes and in gradients.
 
 use bryant_engine::Engine;
 use bryant_generator::{Config, model};
@@ -11,7 +11,7 @@ use bryant_runtime::{
 };
 use std::ops::ControlFlow;
 
-/// A car that brakes, and what rides on it, swings and is tied to it.
+/// A car that brakes, with bodies that ride on it, swing on it and are tied to it.
 const CAR: &str = "
 model: car
 dimension: 2
@@ -51,7 +51,7 @@ fn engine_of(text: &str) -> Engine {
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 
-/// What a car does.
+/// How a car moves.
 #[derive(Clone, Copy)]
 enum Moves {
     Stops,
@@ -59,7 +59,7 @@ enum Moves {
     Uniformly,
 }
 
-/// A car with what rides on it and is tied to it.
+/// A car with the bodies that ride on it and are tied to it.
 fn car(moves: Moves, place: f64, hook: [f64; 2], block: [[f64; 2]; 2]) -> Engine {
     let [[x, z], [u, w]] = block;
     let braking = "acceleration: [-braking, 0],";
@@ -81,7 +81,7 @@ fn stopping() -> Engine {
     car(Moves::Stops, 0.0, [0.1, 0.0], BLOCK)
 }
 
-/// x, v, a of a constant braking that begins at a speed.
+/// x, v, a at a time, of a constant braking from a speed.
 fn braked(speed: f64, braking: f64, t: f64) -> [f64; 3] {
     let stop = speed / braking;
     let moved = |t: f64| speed * t - 0.5 * braking * t * t;
@@ -107,7 +107,7 @@ fn constant_braking_ends_at_the_speed_over_it() {
         (10.0, 5.0),
         (13.9, 8.3),
         (-10.0, -5.0),
-        // never
+        // it never stops
         (10.0, -5.0),
         (10.0, 0.0),
         (0.0, 3.0),
@@ -122,7 +122,7 @@ fn constant_braking_ends_at_the_speed_over_it() {
             let expected = braked(speed, braking, t);
             for (found, expected) in found.iter().zip(expected) {
                 let close = (found - expected).abs() <= 1e-13 * (1.0 + expected.abs());
-                // at the end itself either side is right
+                // at the end itself both sides are correct
                 let at_end = (t * braking - speed).abs() < 1e-12;
                 assert!(
                     close || at_end,
@@ -171,7 +171,7 @@ fn the_end_moves_with_the_parameters() {
             assert_eq!((found[1].slope, found[2].slope), (0.0, 0.0));
         }
     }
-    // where there is no end, nothing moves and nothing is no number
+    // where there is no end, nothing moves and nothing is NaN
     for (speed, braking) in [(10.0, -5.0), (10.0, 0.0), (0.0, 5.0), (0.0, 0.0)] {
         for parameters in [
             [Dual::variable(speed), Dual::constant(braking)],
@@ -230,7 +230,7 @@ outputs:
     ))
 }
 
-/// 0, up to 4 in 1, there for 2, down to 0 in 1. With 6 it comes to rest at 2, after 12 − (2/3 + 2 + 2) = 22/3; with 12, at its last point 4,
+/// 0, up to 4 in 1, there for 2, down to 0 in 1. From 6 it comes to rest at 2, after 12 − (2/3 + 2 + 2) = 22/3; from 12, at its last point 4,
 /// symmetric about 2, after 24.
 #[test]
 fn a_pulse_is_followed_up_to_the_end() {
@@ -257,7 +257,7 @@ fn a_pulse_is_followed_up_to_the_end() {
                 }
                 let before = outputs(&model, 0.999 * stop);
                 assert!(before[1] * given[0] > 0.0 && before[1].abs() < given[0].abs());
-                // by the speed: T; by the factor: −∬; by the stretch: T' = 0 in x/stretch at the touch, v₀ is kept
+                // by the speed: T; by the factor: −∬; by the stretch: T' = 0 in x/stretch at the touch, and v₀ is kept
                 let by = |k: usize, dual: &mut dyn Adjustable<Dual<f64>>| {
                     let mut all = given.map(Dual::constant);
                     all[k].slope = 1.0;
@@ -287,7 +287,7 @@ fn a_pulse_is_followed_up_to_the_end() {
                     assert!((moved / exact - 1.0).abs() <= 1e-12, "{moved}, {exact}");
                 }
             }
-            // 12.5 is more than all of it
+            // 12.5 is more than the whole area
             model.set_parameters(&[times * stretch * 12.5, times, stretch]);
             let found = outputs(&model, 5.0 * stretch);
             match beyond {
@@ -296,7 +296,7 @@ fn a_pulse_is_followed_up_to_the_end() {
                     let left = 0.5 * times * stretch;
                     assert!((found[1] / left - 1.0).abs() <= 1e-12, "{found:?}");
                 }
-                // it goes on upwards: 0.5 + 2 s²
+                // the curve goes on upwards: 0.5 + 2 s²
                 _ => {
                     let left = 2.5 * times * stretch;
                     assert!((found[1] / left - 1.0).abs() <= 1e-12, "{found:?}");
@@ -314,7 +314,7 @@ fn a_smooth_pulse_is_followed_up_to_the_end() {
         "{ curve: c, times: times, stretch: stretch }",
         "",
     );
-    // the slopes of cubics held at both ends are 0
+    // the slopes of cubics are 0 at held ends
     let mut model = engine.over::<f64>();
     for (times, stretch) in [(1.0, 1.0), (8.0, 0.3), (0.01, 40.0)] {
         for end in [0.2f64, 0.6, 0.95] {
@@ -332,7 +332,7 @@ fn a_smooth_pulse_is_followed_up_to_the_end() {
     }
 }
 
-/// The end of a run, from a time and state, with steps of a length.
+/// The end of a run from a time and state, with steps of a given length.
 fn end_of(
     engine: &Engine,
     parameters: &[f64],
@@ -359,7 +359,7 @@ fn end_of(
     (end, outputs, report.steps)
 }
 
-/// A run with long steps is the same as two runs, of which one ends and the other begins at the end of the braking: no step goes across.
+/// A run with long steps equals two runs, the second of which begins at the end of the braking: no step crosses it.
 #[test]
 fn no_step_goes_across_the_end() {
     for formula in [
@@ -421,7 +421,7 @@ fn job(engine: &Engine, pace: Pace, responses: &[usize]) -> Job {
     }
 }
 
-/// Each lane stops at a time of its own, or never.
+/// Each lane stops at its own time, or never.
 #[test]
 fn lanes_stop_one_by_one() {
     let engine = stopping();
@@ -468,7 +468,7 @@ fn lanes_stop_one_by_one() {
     }
 }
 
-/// Of the car, v₀/a and −v₀²/2a²; of what it carries and pulls, the differences of runs.
+/// For the car, v₀/a and −v₀²/2a²; for the bodies that it carries and pulls, differences of runs.
 #[test]
 fn gradients_know_that_the_end_moves() {
     let engine = stopping();
@@ -496,7 +496,7 @@ fn gradients_know_that_the_end_moves() {
                 .expect("registers");
             for i in [1, 2] {
                 let difference = (rows.responses[i] - rows.responses[3 + i]) / (2.0 * h);
-                // tolerances over h, and h² of third derivatives of some hundreds
+                // tolerances divided by h, and h² times third derivatives of some hundreds
                 let bound = 1e-5 * (1.0 + difference.abs());
                 assert!(
                     (ours[i] - difference).abs() <= bound,
@@ -507,7 +507,7 @@ fn gradients_know_that_the_end_moves() {
     }
 }
 
-/// Numbers that look random (splitmix64, Steele, Lea and Flood 2014).
+/// A generator of pseudo-random numbers (splitmix64, Steele, Lea and Flood 2014).
 struct Random(u64);
 
 impl Random {
@@ -528,7 +528,7 @@ impl Random {
     }
 }
 
-/// Points at 0 … 3 s, or some before: ordinates of all sizes, level parts, ramps of a nanosecond.
+/// Points from 0 to 3 s, some before 0: ordinates of all sizes, level parts, ramps of a nanosecond.
 fn points(random: &mut Random) -> String {
     let mut x = [0.0, 0.0, -0.7, 0.2][random.below(4)];
     let mut y = [0.0, random.between(-2.0, 2.0)][random.below(2)];
@@ -547,12 +547,13 @@ fn points(random: &mut Random) -> String {
     points.join(", ")
 }
 
-/// 0 of what began at rest and came back to it before anybody looked.
+/// The sign of a velocity; 0 for one that began at rest and came back to rest before the first look.
 fn sign_of(side: f64) -> f64 {
     if side == 0.0 { 0.0 } else { side.signum() }
 }
 
-/// What stops, beside the same that goes on: the same before; at rest from the first time at which what goes on has turned, and not before.
+/// A body that stops, compared with the same body that goes on. Before the stop both are equal. The body is at rest from the first time at
+/// which the other has turned back, and not before.
 #[test]
 fn random_pulses_end_where_the_free_motion_turns() {
     let mut random = Random(7);
@@ -593,7 +594,7 @@ outputs:
             free.set_parameters(&[0.0, given[1], stretch]);
             let gained = |t: f64| outputs(&free, t)[1];
             match case {
-                // exactly what the pulse takes up to some place, be it a point, an extremum or the end
+                // exactly the velocity that the pulse takes up to some place: a point, an extremum or the end
                 0..4 => given[0] = -gained(stretch * random.between(0.0, 3.0)),
                 4 => {
                     let all = (0..3000).map(|i| gained(stretch * 0.001 * f64::from(i)));
@@ -623,7 +624,7 @@ outputs:
                 }
                 let moved = side != 0.0 || theirs[1] != 0.0;
                 if ours[1] == 0.0 && ours[2] == 0.0 && moved && i > 0 {
-                    // either it turned since the last time, or it is about to touch 0
+                    // either it turned since the last time, or it is about to reach 0
                     let steep = 1e3 * given[1].abs() * 0.002 * stretch;
                     let back = sign_of(side) * theirs[1];
                     assert!(

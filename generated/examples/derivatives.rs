@@ -1,23 +1,23 @@
-//! Answers for the derivative of a bundled model, so that an integrator in another language can check a run.
+//! Evaluates the derivative of a bundled model on request, so that an integrator in another language can check a run.
 //!
 //! ```text
 //! cargo run -p bryant-generated --example derivatives -- child-seat
 //! ```
 //!
-//! Each line on standard input is a request, each line on standard output its answer. SI units; numbers are written with as
-//! many digits as read back as the same number.
+//! Each line on standard input is a request, and each line on standard output is its answer. Units are SI; numbers are written with the
+//! fewest digits that read back exactly.
 //!
 //! | request | answer |
 //! |---|---|
-//! | `names` | names of the entries of the state, between tabs |
-//! | `outputs` | names of the outputs, between tabs |
+//! | `names` | names of the entries of the state, separated by tabs |
+//! | `outputs` | names of the outputs, separated by tabs |
 //! | `digest` | the digest of the model |
-//! | `start` | the state that a run starts from |
+//! | `start` | the state at the start of a run |
 //! | `breakpoints` | times at which a curve of time has a kink, increasing |
 //! | `rate T Y…` | ẏ at time T and state Y |
 //! | `output T Y…` | the outputs there |
 //!
-//! A model with memory is refused: what it remembers changes between steps, of which nothing is known here.
+//! A model with memory is refused: memory changes between steps, which this program does not know.
 
 use bryant_runtime::program::{Entry, Named, RunError};
 use std::error::Error;
@@ -79,7 +79,7 @@ fn answer(entry: &Entry, line: &str) -> Result<String, Box<dyn Error>> {
     }
 }
 
-/// Those known beforehand, and those that parameters place within a run.
+/// The breakpoints known in advance, and those whose times depend on parameters, within a run.
 fn breakpoints(entry: &Entry) -> Result<Vec<f64>, Box<dyn Error>> {
     let mut times = entry.info.breakpoints.to_vec();
     let mut t = 0.0;

@@ -1,6 +1,6 @@
-//! The bundled models, compiled: one module per file in `models/`, written by the build script, and a table of all.
+//! The bundled models, compiled: one module for each file in `models/`, written by the build script, and a table of all models.
 //!
-//! Entry points for `f64` are compiled here, so that no crate that uses them compiles the equations again.
+//! The entry points for `f64` are compiled here, so that crates that use them need not compile the equations again.
 
 use bryant_runtime::batch::rows::Entry as RowsEntry;
 use bryant_runtime::program::Entry;
@@ -12,8 +12,8 @@ pub struct Bundled {
     pub entry: Entry,
     /// The same over lanes, for studies.
     pub rows: RowsEntry,
-    /// Names and texts of the YAML it was made from: the model first, then what it includes. Names are relative to the
-    /// directory of the model.
+    /// Names and texts of its YAML files: the model first, then the files that it includes. Names are relative to the directory of the
+    /// model.
     pub texts: &'static [(&'static str, &'static str)],
 }
 
@@ -23,7 +23,7 @@ impl Bundled {
         self.texts.first().map_or("", |(_, text)| text)
     }
 
-    /// The text of a file by its name, such as an include asks for.
+    /// The text of a file by the name that an include uses.
     pub fn file(&self, name: &str) -> Option<&'static str> {
         self.texts
             .iter()
@@ -32,7 +32,7 @@ impl Bundled {
     }
 }
 
-/// The model of this name.
+/// The model with this name.
 pub fn find(name: &str) -> Option<&'static Bundled> {
     MODELS.iter().find(|model| model.entry.info.name == name)
 }

@@ -6,9 +6,9 @@
 use crate::description::load::read_bytes;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{self, Coordinates, Dimension, ForceKind, Model};
-use crate::program::Lists;
-use crate::target::c;
-use crate::{Error, dynamics, emit};
+use crate::program::{self, Lists};
+use crate::target::{c, rust};
+use crate::{Error, dynamics};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,7 @@ pub struct Config {
     out_dir: Option<PathBuf>,
     c_dir: Option<PathBuf>,
     coordinates: Option<Coordinates>,
-    options: emit::Options,
+    options: program::Options,
 }
 
 /// A generated module.
@@ -61,7 +61,7 @@ impl Config {
             out_dir: None,
             c_dir: None,
             coordinates: None,
-            options: emit::Options::default(),
+            options: program::Options::default(),
         }
     }
 
@@ -118,7 +118,7 @@ impl Config {
             matrices: self.options.matrices,
             ..Default::default()
         };
-        emit::module(model, &dynamics::derive_with(model, options), &self.options)
+        rust::module(model, &dynamics::derive_with(model, options), &self.options)
     }
 
     /// A model as C99, with the operations of [`Self::source`].
@@ -131,8 +131,8 @@ impl Config {
             ..Default::default()
         };
         let equations = dynamics::derive_with(model, options);
-        let lists = emit::lists(model, &equations, &self.options);
-        c::source(&lists, &emit::about(model, &equations))
+        let lists = program::lists(model, &equations, &self.options);
+        c::source(&lists, &program::about(model, &equations))
     }
 
     /// The methods of a model as lists, with the operations of [`Self::source`] to the last bit.
@@ -142,7 +142,7 @@ impl Config {
             ..Default::default()
         };
         let equations = dynamics::derive_with(model, options);
-        emit::lists(model, &equations, &self.options)
+        program::lists(model, &equations, &self.options)
     }
 
     /// The module of the model in a YAML text. `name` stands for the file in messages; included files are asked for by
@@ -429,7 +429,7 @@ fn including(generated: &Generated) -> String {
                 ),
             };
             text = text.replace(
-                &emit::pasted(source),
+                &rust::pasted(source),
                 &format!("    ::core::include!({place});\n"),
             );
         }

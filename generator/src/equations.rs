@@ -110,6 +110,14 @@ pub struct LawState {
     pub next: NodeId,
 }
 
+impl Equations {
+    /// The curves of time that parameters stretch, each with its rate.
+    pub fn stretched_curves_of_time(&self) -> impl Iterator<Item = (usize, NodeId)> + '_ {
+        let curves = self.curves_of_time.iter().copied();
+        curves.filter(|(_, rate)| self.graph.expr(*rate).as_constant().is_none())
+    }
+}
+
 /// A value with a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Named {

@@ -34,7 +34,7 @@
 //! # Ok::<(), bryant_generator::Diagnostics>(())
 //! ```
 //!
-//! The steps in between are functions, too: [`model::read`] checks a description, [`dynamics::derive`] makes its equations, [`emit::module`]
+//! The steps in between are functions, too: [`model::read`] checks a description, [`dynamics::derive`] makes its equations, [`target::rust::module`]
 //! writes them.
 
 pub mod car_part;
@@ -43,12 +43,14 @@ pub mod description;
 pub mod diagnostic;
 pub mod dynamics;
 pub mod effect;
-pub mod emit;
 pub mod equations;
 pub mod expression;
 pub mod human;
 pub mod joint;
+pub mod law;
+mod method;
 pub mod model;
+mod names;
 pub mod program;
 mod rotation;
 pub mod target;

@@ -1,4 +1,4 @@
-//! The front door as a build script uses it, in directories of its own.
+//! The interface that a build script uses, in directories of its own.
 
 use bryant_generator::model::Coordinates;
 use bryant_generator::{Config, Error};
@@ -20,7 +20,7 @@ systems:
       - { name: rod, mass: 1 kg, cg: [0, 0, -0.5], inertia: [0.1, 0.1, 0.01] }
 ";
 
-/// An empty directory with models of these names, and what they include.
+/// A directory with models of these names and the files that they include.
 fn models(test: &str, names: &[&str]) -> PathBuf {
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
     let _ = fs::remove_dir_all(&directory);
@@ -29,7 +29,7 @@ fn models(test: &str, names: &[&str]) -> PathBuf {
         let text = PENDULUM.replace("NAME", name);
         fs::write(directory.join(format!("models/{name}.yaml")), text).expect("a model");
     }
-    // Not a model, and so not to be taken for one.
+    // This file is not a model and must not be taken for one.
     fs::write(directory.join("models/rod.yaml"), ROD).expect("a part");
     directory
 }
@@ -203,7 +203,7 @@ fn models_are_written_as_c_where_that_is_asked_for() -> Result<(), Error> {
     }
     assert_eq!(fs::read_dir(&c).expect("files").count(), 4);
 
-    // two files whose models have one name
+    // two files with models of the same name
     let directory = models("one-in-c", &["arm", "leg"]);
     let text = PENDULUM.replace("NAME", "arm");
     fs::write(directory.join("models/leg.yaml"), text).expect("a model");

@@ -1,20 +1,20 @@
-//! What is out leaves no trace: the text of a scene with an effect switched off, in every way that the language has, is
-//! byte for byte that of a scene that never mentions it.
+//! An effect that is off leaves no trace: the text of a scene with an effect switched off, in every way that the language has, equals byte
+//! for byte the text of a scene that never mentions it.
 //!
-//! The table below has a case for every effect of the vocabulary. The vocabulary is asked for its words: a term of a law,
-//! a kind of force or a kind of effect without a case fails.
+//! The table below has a case for every effect. The test lists all words of the vocabulary and fails if a term of a law, a kind of force or
+//! a kind of effect has no case.
 
 use bryant_generator::Config;
 use bryant_generator::dynamics;
 use bryant_generator::effect::{self, Effect, Reason, Variant};
 use bryant_generator::expression::Function;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::model::{Dimension, ForceKind, Model, Reference, Scene, scene};
+use bryant_generator::model::{Dimension, Model, Reference, Scene, scene};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
-/// An effect: how it is called for, how it may be switched off, and how it is never mentioned.
+/// An effect: the text that switches it on, the texts that switch it off, and the text that never mentions it.
 struct Case {
     /// Word of the vocabulary, as [`word`] and [`terms`] have it.
     word: &'static str,
@@ -26,7 +26,7 @@ struct Case {
     never: &'static str,
 }
 
-/// A planar man on a sled, and what else a case needs.
+/// A planar man on a sled, with the additional text of a case.
 fn plane(rest: &str) -> String {
     let rest = complete(rest);
     format!(
@@ -59,12 +59,12 @@ systems:
     )
 }
 
-/// A case that gives the whole text.
+/// A case that gives the whole text of the scene.
 fn whole(text: &str) -> String {
     text.to_owned()
 }
 
-/// What contacts and belts of all cases have in common.
+/// The common parts of contacts and belts in all cases.
 fn complete(rest: &str) -> String {
     rest.replace(
         "BALL",
@@ -589,6 +589,67 @@ const CASES: &[Case] = &[
         off: &["forces: [{ spring: strut, ENDS, elastic: RAMP, damping: 0 }]"],
         never: "forces: [{ spring: strut, ENDS, elastic: RAMP }]",
     },
+    // bushings
+    Case {
+        word: "plane bushing elastic along x",
+        effect: "bushing mount: elastic along x",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, along: { x: { stiffness: 3, damping: 5 } }, about: { y: { damping: 1 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { x: { elastic: never, damping: 5 } }, about: { y: { damping: 1 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, along: { x: { damping: 5 } }, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "plane bushing damping along x",
+        effect: "bushing mount: damping along x",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, along: { x: { damping: 2, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { x: { damping: 0, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, along: { x: { elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "plane bushing elastic along z",
+        effect: "bushing mount: elastic along z",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, along: { z: { stiffness: 3, damping: 5 } }, about: { y: { damping: 1 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { z: { elastic: never, damping: 5 } }, about: { y: { damping: 1 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, along: { z: { damping: 5 } }, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "plane bushing damping along z",
+        effect: "bushing mount: damping along z",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, along: { z: { damping: 2, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { z: { damping: 0, elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, along: { z: { elastic: THROUGH } }, about: { y: { damping: 1 } } }]",
+    },
+    Case {
+        word: "plane bushing elastic about y",
+        effect: "bushing mount: elastic about y",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, about: { y: { stiffness: 3, damping: 5 } }, along: { x: { stiffness: 7 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, about: { y: { elastic: never, damping: 5 } }, along: { x: { stiffness: 7 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, about: { y: { damping: 5 } }, along: { x: { stiffness: 7 } } }]",
+    },
+    Case {
+        word: "plane bushing damping about y",
+        effect: "bushing mount: damping about y",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, about: { y: { damping: 2, elastic: THROUGH } }, along: { x: { stiffness: 7 } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, about: { y: { damping: 0, elastic: THROUGH } }, along: { x: { stiffness: 7 } } }]",
+        ],
+        never: "forces: [{ bushing: mount, ENDS, about: { y: { elastic: THROUGH } }, along: { x: { stiffness: 7 } } }]",
+    },
     // loads
     Case {
         word: "plane load force x",
@@ -725,6 +786,17 @@ const CASES: &[Case] = &[
         never: "",
     },
     Case {
+        word: "force bushing",
+        effect: "bushing mount",
+        scene: plane,
+        on: "forces: [{ bushing: mount, ENDS, along: { x: { stiffness: mu, damping: 3 } }, about: { y: { elastic: THROUGH } } }]",
+        off: &[
+            "forces: [{ bushing: mount, ENDS, along: { x: { stiffness: mu, damping: 3 } }, about: { y: { elastic: THROUGH } }, enabled: false }]",
+            "forces: [{ bushing: mount, ENDS, along: { x: { elastic: never, damping: 0 } }, about: { y: { elastic: never } } }]",
+        ],
+        never: "",
+    },
+    Case {
         word: "force load",
         effect: "load rope",
         scene: plane,
@@ -855,7 +927,7 @@ outputs:
         ],
         never: "",
     },
-    // parameters and outputs; a curve that nothing uses is in every text above
+    // parameters and outputs; every text above has a curve that nothing uses
     Case {
         word: "parameter",
         effect: "",
@@ -1069,7 +1141,7 @@ outputs:
     },
 ];
 
-/// What a case is a case of, for effects that are not terms of forces.
+/// The word of a case, for effects that are not terms of forces.
 fn word(effect: Effect, model: &Model) -> Option<String> {
     Some(match effect {
         Effect::OutOfPlane => "out of plane".into(),
@@ -1081,17 +1153,7 @@ fn word(effect: Effect, model: &Model) -> Option<String> {
         Effect::Coupling(_) => "coupling".into(),
         Effect::Force { force } => {
             // A kind of force that is added here needs a case above.
-            let kind = match model.forces[force].kind {
-                ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
-                ForceKind::Field { .. } => "field",
-                ForceKind::Contact(_) => "contact",
-                ForceKind::Belt(_) => "belt",
-                ForceKind::Spring(_) => "spring",
-                ForceKind::Airbag(_) => "airbag",
-                ForceKind::Load(_) => "load",
-                ForceKind::User(_) => "user",
-            };
-            format!("force {kind}")
+            format!("force {}", model.forces[force].kind.key())
         }
         Effect::FieldByElement { .. } => "field by element".into(),
         Effect::Parameter(_) => "parameter".into(),
@@ -1100,7 +1162,7 @@ fn word(effect: Effect, model: &Model) -> Option<String> {
     })
 }
 
-/// The words for the terms of all forces of a model. What the law of contacts has does not depend on the dimension.
+/// The words for the terms of all forces of a model. The terms of contacts do not depend on the dimension.
 fn terms(model: &Model) -> impl Iterator<Item = String> {
     let dimension = match model.dimension {
         Dimension::Plane => "plane",
@@ -1134,7 +1196,7 @@ fn an_effect_that_is_off_leaves_no_trace() {
         let [on, never] = [case.on, case.never].map(|text| read(&(case.scene)(text)));
         let without = source(&never);
         assert_ne!(source(&on), without, "{word} is not called for");
-        // What has no coefficient that could be 0 is mentioned or not.
+        // Effects without a coefficient that could be 0 are either mentioned or not.
         let always = [
             "out of plane",
             "coupling",
@@ -1154,7 +1216,7 @@ fn an_effect_that_is_off_leaves_no_trace() {
         if case.effect.is_empty() {
             continue;
         }
-        // The program leaves it out as the user does.
+        // The program leaves the effect out as the user does.
         let entries = effect::of_scene(&on);
         let entry = entries.iter().find(|e| e.name == case.effect);
         let entry = entry.unwrap_or_else(|| panic!("{word}: {} is no effect", case.effect));
@@ -1177,7 +1239,7 @@ fn every_effect_has_a_case() {
         let effects = effects.filter_map(|entry| word(entry.effect?, &scene.model));
         words.extend(effects);
     }
-    // In the plane a belt has one of three lengths; the word for none is that of the first.
+    // In the plane a belt has one of three lengths; the word for no length is that of the first.
     let missing: Vec<&String> = words
         .iter()
         .filter(|w| !cases.contains(w.as_str()))
@@ -1279,7 +1341,7 @@ fn bundled(path: &str) -> Scene {
     scene::read(&path).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// v̇ of a model at a time and a state, and what it is called.
+/// v̇ of a model at a time and a state, with the names of its entries.
 fn accelerations(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Vec<(String, f64)> {
     let options = dynamics::Options {
         matrices: false,
@@ -1301,8 +1363,7 @@ fn accelerations(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Vec<(String, f6
     names.zip(values).collect()
 }
 
-/// Laws that are as they should be where it matters here: no force without a coefficient, friction against the motion in the
-/// plane as in space.
+/// Laws with the properties that matter here: no force without a coefficient, and friction against the motion, in the plane as in space.
 fn law(model: &Model, function: Function, a: &[f64]) -> f64 {
     let slope = |curve: u32, x: f64| {
         let points = &model.curves[curve as usize].points;
@@ -1318,10 +1379,10 @@ fn law(model: &Model, function: Function, a: &[f64]) -> f64 {
     }
 }
 
-/// With nothing left out, the motion is that of the scene: a planar state, put into space, has the same accelerations.
+/// With nothing left out, the motion is that of the scene: a planar state in space has the same accelerations.
 ///
-/// Both routes are backward stable and the numbers of the two models are the same, so what is left is rounding by the
-/// condition of S, some 1e4 for these trees: 1e4 × 1e2 operations in a row × ε ≈ 2e-10 of the largest acceleration.
+/// Both routes are backward stable and the numbers of the two models are the same. So the difference is rounding times the condition of S,
+/// which is about 1e4 for these trees: 1e4 × 1e2 operations in a row × ε ≈ 2e-10 of the largest acceleration.
 #[test]
 fn nothing_left_out_moves_as_the_scene_does() {
     for path in [
@@ -1389,9 +1450,9 @@ fn nothing_left_out_moves_as_the_scene_does() {
     }
 }
 
-/// What vanishes by structure costs nothing, and what is in costs something: the graph says so itself.
+/// An effect that vanishes by structure costs nothing, and an effect that is in costs something: the graph itself shows this.
 #[test]
-fn effects_of_inertia_cost_where_they_are_in_and_nothing_where_they_vanish() {
+fn effects_of_inertia_cost_nothing_where_they_vanish() {
     let mut compared = 0;
     for path in [
         "models/child-seat.yaml",
@@ -1408,7 +1469,7 @@ fn effects_of_inertia_cost_where_they_are_in_and_nothing_where_they_vanish() {
             else {
                 continue;
             };
-            // The first moment of what an element carries is in the places of joints.
+            // The first moment of the carried elements is in the positions of joints.
             let Some(without) = effect::without(&model, effect) else {
                 assert!(
                     matches!(effect, Effect::FirstMoment(_)),
@@ -1444,7 +1505,7 @@ fn a_parameter_left_out_is_its_default_folded() {
     assert!(all.accelerations.total() >= without.accelerations.total());
 }
 
-/// What only gives meaning to other things: bending, switches and vehicles that nothing is left of.
+/// Items that only give meaning to other items: bending, switches and vehicles of which nothing is left.
 #[test]
 fn what_nothing_is_left_of_leaves_no_trace() {
     const NEVER: &str = "forces: [{ joint: man/head, about: { y: { damping: 1 } } }]";

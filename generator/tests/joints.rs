@@ -25,7 +25,7 @@ fn derived(model: &Model, route: Route) -> Equations {
     derive_with(model, options)
 }
 
-/// Numbers without any relation to each other, from −1 to 1.
+/// Unrelated numbers from −1 to 1.
 struct Numbers(f64);
 
 impl Numbers {
@@ -55,7 +55,7 @@ fn values(equations: &Equations, roots: &[NodeId], q: &[f64], v: &[f64]) -> Vec<
     })
 }
 
-/// Nothing is called here but choices.
+/// Only choices are called here.
 fn choices(function: bryant_generator::expression::Function, arguments: &[f64]) -> f64 {
     match *arguments {
         [a, b, then, _] if a < b => then,
@@ -74,7 +74,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
         .fold(0.0f64, |m, (a, b)| m.max((a - b).abs()))
 }
 
-/// What is said of a model that is refused.
+/// The message about a model that is refused.
 fn refused(text: &str) -> String {
     let none = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
     match read_str("model.yaml", text, &none) {
@@ -83,7 +83,7 @@ fn refused(text: &str) -> String {
     }
 }
 
-/// What a joint may be in space, as written.
+/// The joints in space, as written.
 const IN_SPACE: [&str; 15] = [
     "weld",
     "ball",
@@ -114,7 +114,7 @@ const IN_PLANE: [&str; 9] = [
     "[{ hinge: y, name: a }, { slider: z, name: b }]",
 ];
 
-/// A tree of four: a root, two in a chain on it, one beside.
+/// A tree of four elements: a root, two in a chain on it, one beside.
 fn tree(dimension: u32, coordinates: &str, reference: &str, joints: [&str; 4]) -> String {
     let [root, a, b, c] = joints;
     let vector = |x: f64, y: f64, z: f64| match dimension {
@@ -154,7 +154,7 @@ fn tree(dimension: u32, coordinates: &str, reference: &str, joints: [&str; 4]) -
     )
 }
 
-/// S, r_s and v̇ of a model: v̇ by both routes against S⁻¹ (r_s + r_k), and S and r_s against Lagrange where v = q̇.
+/// Checks S, r_s and v̇ of a model: v̇ by both routes against S⁻¹ (r_s + r_k), and S and r_s against Lagrange if v = q̇.
 fn check(text: &str, states: usize) {
     let model = read(text);
     let [equations, by_matrix] =
@@ -216,7 +216,7 @@ fn check(text: &str, states: usize) {
             let eigenvalues = s.symmetric_eigenvalues();
             eigenvalues.max() / eigenvalues.min()
         };
-        // both are backward stable: as far apart as rounding of S and its condition make them
+        // both are backward stable: they differ by the rounding of S times its condition
         let bound = 1e3 * f64::EPSILON * condition * largest(solved.as_slice());
         for equations in [&equations, &by_matrix] {
             let ours = values(equations, &equations.accelerations, &q, &v);
@@ -253,7 +253,7 @@ fn every_joint_as_root_in_space() {
             for reference in ["fixed", "free"] {
                 let next = |k: usize| IN_SPACE[(i + k) % IN_SPACE.len()];
                 let slides = ["slider", "cylinder", "planar", "translation", "free"];
-                // a reference joint and a root that both slide do the same
+                // a reference joint and a root that both slide move in the same way
                 if reference == "free" && slides.iter().any(|word| first.contains(word)) {
                     let text = tree(3, coordinates, reference, [first, "ball", "ball", "ball"]);
                     assert!(refused(&text).contains("without any inertia"), "{text}");
@@ -278,10 +278,10 @@ fn every_joint_on_every_other_in_the_plane() {
     let count = IN_PLANE.len();
     for (i, root) in IN_PLANE.into_iter().enumerate() {
         for (j, first) in IN_PLANE.into_iter().enumerate() {
-            // every pair of the three is met
+            // every pair of the three occurs
             for second in [0, 3, 6].map(|k| IN_PLANE[(i + 2 * j + k) % count]) {
                 for reference in ["fixed", "free"] {
-                    // the reference joint and a root that slides move the same way twice
+                    // the reference joint and a root that slides would move twice in the same way
                     let twice = reference == "free"
                         && !matches!(root, "weld" | "hinge" | "{ hinge: -y, zero: 0.3 }");
                     if !twice {
@@ -316,7 +316,7 @@ fn freedoms_that_follow_others_and_rotors_in_space() {
             for (reference, root) in [("free", "ball"), ("fixed", "{ hinge: y }")] {
                 for coordinates in ["bryant", "quaternion"] {
                     let other = leaders[(i + j) % 3];
-                    // outboard of the leader; beside it; inboard of it; two that follow one, in a chain of followers
+                    // outboard of the leader; beside it; inboard of it; two followers of one leader, in a chain of followers
                     for joints in [
                         [root, leader, &follows(follower, "a"), other],
                         [root, leader, other, &follows(follower, "b")],
@@ -372,7 +372,7 @@ fn freedoms_that_follow_others_and_rotors_in_the_plane() {
 
 #[test]
 fn gears_move_as_their_ratio_says() {
-    // two wheels on fixed axes in gear, damped both: (J + n² K) q̈ = −(d + n² e) q̇
+    // two geared wheels on fixed axes, both damped: (J + n² K) q̈ = −(d + n² e) q̇
     let text = "model: gears\ndimension: 3\nsystems:\n  - name: s\n    reference: fixed\n    elements:\n      \
         - { name: frame-part, joint: weld, mass: 1, cg: [0, 0, 0], inertia: [1, 1, 1] }\n      \
         - { name: pinion, on: frame-part, at: [0, 0, 0], joint: { hinge: z, armature: 0.05 }, mass: 1, cg: [0, 0, 0], inertia: [0.1, 0.1, 0.2] }\n      \
@@ -403,7 +403,7 @@ fn gears_move_as_their_ratio_says() {
     );
 }
 
-/// One element of space on a joint, and what follows.
+/// One element in space on a joint, and the rest of the text.
 fn element(joint: &str, rest: &str) -> String {
     format!(
         "model: one\ndimension: 3\nsystems:\n  - name: s\n    reference: fixed\n    elements:\n      \
@@ -424,6 +424,7 @@ fn mistakes_are_told_with_their_remedy() {
             "a joint cannot be hinge and slider at once",
         ),
         ("{ zero: 3 }", "this does not say which joint it is"),
+        ("[weld, { hinge: x }]", "a joint of a list has keys"),
         ("{ screw: x }", "a screw needs its pitch"),
         ("{ hinge: x, pitch: 1 }", "a hinge has no pitch"),
         ("{ hinge: x, zero: 3 m }", "an angle is needed here"),
@@ -618,6 +619,11 @@ fn mistakes_are_told_with_their_remedy() {
          - { name: left-arm, on: body, at: [0, 1, 0], mirror: true, joint: { hinge: x, follows: { joint: neck } }, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n\
          run: { duration: 1 s, every: 0.1 s }\n";
     assert!(refused(mirrored).contains("has no mirror image"));
+    let on_a_ball = "model: one\ndimension: 3\nsystems:\n  - name: s\n    elements:\n      \
+         - { name: body, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n      \
+         - { name: arm, on: body, at: [0, 1, 0], joint: { hinge: x, follows: { joint: body } }, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }\n\
+         run: { duration: 1 s, every: 0.1 s }\n";
+    assert!(refused(on_a_ball).contains("there is no ratio to an orientation"));
     let element = |name: &str, joint: &str| {
         format!(
             "  - name: {name}\n    reference: fixed\n    elements: [{{ name: {name}-arm, joint: {joint}, mass: 1, cg: [0.1, 0, 0], inertia: [1, 1, 1] }}]\n"
@@ -631,6 +637,30 @@ fn mistakes_are_told_with_their_remedy() {
         );
         let said = refused(&text);
         assert!(said.contains("of its own system alone"), "{said}");
+    }
+}
+
+#[test]
+fn the_length_of_an_axis_does_not_matter() {
+    // also where squares of its components overflow, or have lost their digits
+    let of = |axis: &str| read(&element(&format!("{{ hinge: {axis} }}"), ""));
+    let model = of("[1, 2, 0]");
+    for axis in [
+        "[1e200, 2e200, 0]",
+        "[1e-170, 2e-170, 0]",
+        "[3e-310, 6e-310, 0]",
+    ] {
+        let [found, expected] = [&of(axis), &model].map(|model| {
+            let axis = &model.systems[0].elements[0].joint.freedoms()[0].axis;
+            axis.each_ref().map(|a| a.value(&[]))
+        });
+        for (found, expected) in found.into_iter().zip(expected) {
+            // of the last, components themselves have eleven digits
+            assert!(
+                (found - expected).abs() < 1e-10,
+                "{axis}: {found} {expected}"
+            );
+        }
     }
 }
 

@@ -1,14 +1,14 @@
-//! What models mean: names to indices, quantities to SI, absent effects to nothing.
+//! The meaning of models: names become indices, quantities become SI numbers, absent effects become nothing.
 
 use bryant_generator::model::{
-    BeltLength, Body, Component, Dimension, ElementId, Extrapolate, FieldComponent, ForceKind,
-    Given, Load, Model, Number, PointQuantity, Projection, Quantity, Reference, Translation, read,
-    read_str,
+    Asked, BeltLength, Body, Component, Dimension, ElementId, Extrapolate, Field, FieldComponent,
+    ForceKind, Given, JointOutput, Load, Model, Number, PointQuantity, Projection, Quantity,
+    Reference, Translation, read, read_str,
 };
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The sample of the design, as an engineer would write it.
+/// A complete example, as an engineer would write it.
 const SAMPLE: &str = r#"
 model: sled-pendulum
 dimension: 2                      # motion in the x–z plane
@@ -97,19 +97,21 @@ fn the_sample_means_what_it_says() {
     assert_eq!(head.inertia[1].constant(), Some(0.03));
 
     let id = |element| ElementId { system: 0, element };
-    let ForceKind::Joint { child, about, .. } = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = &model.forces[0].kind else {
         panic!("a joint")
     };
-    assert_eq!(*child, id(1));
+    assert_eq!(joint.child, id(1));
+    let about = &joint.about;
     assert_eq!(about[1].damping, Some(Number::Constant(0.6)));
     assert_eq!(
         (&about[0], &about[2]),
         (&Default::default(), &Default::default())
     );
     assert!(about[1].friction.is_none() && about[1].neutral.is_none());
-    let ForceKind::Field { on, acceleration } = &model.forces[1].kind else {
+    let ForceKind::Field(field) = &model.forces[1].kind else {
         panic!("a field")
     };
+    let Field { on, acceleration } = &**field;
     assert_eq!(on, &[id(0), id(1)]);
     assert!(matches!(&acceleration[0], FieldComponent::Curve(c) if c.curve == 0));
     assert_eq!(acceleration[2], FieldComponent::Constant(Number::ZERO));
@@ -149,14 +151,14 @@ fn the_bundled_sled_pendulum_is_the_sample_with_a_run() {
     assert_eq!(bundled, sample);
 }
 
-/// A planar man with a torso and a head, and what else a test needs.
+/// A planar man with a torso and a head, and the additional text of a test.
 fn man(rest: &str) -> String {
     format!(
         "model: m\ndimension: 2\nsystems:\n  - name: man\n    elements:\n      - {{ name: torso, mass: 30, cg: [0, 0.2], inertia: 1.1 }}\n      - {{ name: head, on: torso, at: [0, 0.45], mass: 4.5, cg: [0.02, 0.1], inertia: 0.03 }}\n{rest}"
     )
 }
 
-/// The model without what names the text it came from.
+/// The model without the names of its source text.
 fn anonymous(text: &str) -> Model {
     Model {
         digest: String::new(),
@@ -187,12 +189,12 @@ forces:
 fn a_switch_that_nothing_waits_for_is_as_if_never_mentioned() {
     let forces = "forces:\n  - { load: push, on: man/torso, force: [1, 0] }\n";
     let idle = "forces:\n  - { load: push, on: man/torso, force: [1, 0] }\n  - { joint: man/head, damping: 0, since: first }\n";
-    // the second is waited for by the third alone, and the force that waits for the first does nothing
+    // only the third waits for the second, and the force that waits for the first does nothing
     let switches = "switches:\n  - { switch: first, when: { of: joint man/head, what: torque, above: 1 } }\n  - { switch: second, when: { time: 1 }, after: 1 }\n  - { switch: third, when: { of: switch second, what: acts, above: 0.5 } }\n";
     let plain = anonymous(&man(forces));
     assert_eq!(anonymous(&man(&format!("{idle}{switches}"))), plain);
 
-    // an output is someone who waits, and what the trigger looks at stays
+    // an output that refers to a switch keeps it, with everything that its trigger observes
     let outputs = "outputs:\n  - { name: a, of: switch third, what: acts }\n  - { name: b, of: switch first, what: time }\n";
     let seen = model(&man(&format!("{idle}{switches}{outputs}")));
     let names: Vec<&str> = seen.switches.iter().map(|s| s.name.as_str()).collect();
@@ -256,16 +258,15 @@ outputs:
     assert_eq!(model.forces[0].name, "man/head");
     assert!(matches!(
         model.outputs[0].quantity,
-        Quantity::Joint {
+        Quantity::OfForce {
             force: 0,
-            about: 1,
-            ..
+            what: Asked::Joint(JointOutput { about: 1, .. }),
         }
     ));
 }
 
 #[test]
-fn a_reference_that_never_accelerates_is_fixed_or_moves_uniformly() {
+fn a_reference_without_acceleration_moves_uniformly() {
     let zero = "    reference: { acceleration: [0, { points: [[0, 0], [1, 0]] }] }\n";
     let fixed = anonymous(&man("    reference: fixed\n"));
     assert_eq!(anonymous(&man(zero)), fixed);
@@ -289,7 +290,7 @@ fn a_reference_that_never_accelerates_is_fixed_or_moves_uniformly() {
 }
 
 #[test]
-fn a_constant_acceleration_of_the_reference_is_a_curve_that_stays() {
+fn a_constant_acceleration_of_the_reference_is_a_held_curve() {
     let text = "parameters: { braking: 5 m/s^2 }\n".to_owned()
         + &man(
             "    reference: { acceleration: [-2 * braking, { points: [[0, 0], [1, 3]], extrapolate: error }] }
@@ -324,7 +325,7 @@ fn load_of(model: &Model, index: usize) -> &Load {
 }
 
 #[test]
-fn a_load_acts_on_the_joint_of_its_element_where_nothing_else_is_said() {
+fn a_load_acts_on_the_joint_of_its_element_by_default() {
     let text = "parameters: { scale: 2 }
 curves: { pull: { unit: [ms, kN], points: [[0, 0], [100, 4]] } }
 ".to_owned()
@@ -372,7 +373,7 @@ curves: { pull: { unit: [ms, kN], points: [[0, 0], [100, 4]] } }
     let motor = load_of(&model, 2);
     assert_eq!(
         (motor.on.on, constants(&motor.on.at)),
-        // a moment acts nowhere in particular
+        // a moment has no point of attack
         (head, [0.0, 0.0, 0.0])
     );
     assert_eq!(motor.force, [zero.clone(), zero.clone(), zero.clone()]);
@@ -416,9 +417,10 @@ fn expressions_of_parameters_stay_and_constants_fold() {
   - { joint: man/head, damping: 2 * 3 N*m*s * mu, friction: (stiffness + 1 kN) * 10 cm, friction_speed: 1 rpm }
 ");
     let model = model(&text);
-    let ForceKind::Joint { about, .. } = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = &model.forces[0].kind else {
         panic!("a joint")
     };
+    let about = &joint.about;
     let damping = about[1].damping.clone().unwrap();
     assert_eq!(
         damping,
@@ -443,9 +445,10 @@ fn friction_without_a_speed_has_the_documented_one() {
   - { joint: man/head, friction: 1 }
   - { contact: seat, friction: 0.3, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [3, 4] }, damping: 1 }
 "));
-    let ForceKind::Joint { about, .. } = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = &model.forces[0].kind else {
         panic!("a joint")
     };
+    let about = &joint.about;
     assert_eq!(
         about[1].friction.as_ref().unwrap().tolerance,
         Number::Constant(0.1)
@@ -509,9 +512,10 @@ outputs:
         [4.0, 5.0, 6.0]
     );
     assert_eq!(constants(&man.elements[0].inertia), [1.0, 2.0, 2.5]);
-    let ForceKind::Joint { about, .. } = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = &model.forces[0].kind else {
         panic!("a joint")
     };
+    let about = &joint.about;
     assert_eq!(about[2].damping, Some(Number::Constant(3.0)));
     assert!(about[1].damping.is_none());
     let wrench = load_of(&model, 1);
@@ -527,7 +531,10 @@ outputs:
     );
     assert!(matches!(
         model.outputs[0].quantity,
-        Quantity::Joint { about: 2, .. }
+        Quantity::OfForce {
+            what: Asked::Joint(JointOutput { about: 2, .. }),
+            ..
+        }
     ));
     assert!(matches!(
         model.outputs[1].quantity,
@@ -605,7 +612,7 @@ fn the_digest_is_of_what_the_text_means() {
 
 #[test]
 fn a_pendulum_of_a_point_mass_is_regular_on_a_fixed_joint() {
-    // a point mass turns about a fixed joint with m c², but a free one turns about itself with nothing
+    // a point mass turns about a fixed joint with the inertia m c², but a free one has none about itself
     let text = |reference| {
         format!(
             "model: m\ndimension: 2\nsystems:\n  - {{ name: pendulum, reference: {reference}, elements: [{{ name: bob, mass: 1, cg: [0, -1], inertia: 0 }}] }}\n"
@@ -626,7 +633,7 @@ fn a_chain_of_two_thousand_elements_is_read_soon() {
     }
     let begin = std::time::Instant::now();
     assert_eq!(model(&text).systems[0].elements.len(), 2000);
-    // a second in an optimised build; this one may be unoptimised and share its processor
+    // this takes a second in an optimised build; this one may be unoptimised and share its processor
     assert!(begin.elapsed().as_secs() < 20, "{:?}", begin.elapsed());
 }
 
@@ -637,7 +644,7 @@ mod hostile {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// Any damage to a model gives a model or a message, never a panic, and every message can be drawn.
+        /// Every damaged model gives a model or a message, never a panic, and every message can be drawn.
         #[test]
         fn damaged_text_never_panics(
             cuts in prop::collection::vec((0usize..1500, 0usize..12, "[-\\[\\]{}:,#'\"&*!|>%@` \\t\\n0-9a-e.é²^()/]{0,4}"), 1..5)
@@ -687,7 +694,7 @@ forces: [{{ field: sled, acceleration: [pulse, {{ curve: pulse, stretch: 2 }}] }
     let digest = model.digest.clone();
     assert_eq!(anonymous(model), anonymous(read(&in_place).0));
 
-    // the file is part of what the model is made of
+    // the included file is part of the model's digest
     let changed = |path: &Path| loader(path).map(|text| text.replace("198", "199"));
     let (other, _) = read_str("models/sled.yaml", &in_file, &changed).unwrap();
     assert_ne!(other.digest, digest);
@@ -721,7 +728,7 @@ fn a_vehicle_that_nothing_uses_is_as_if_not_written() {
         anonymous(&man(&format!("{vehicles}{rest}"))),
         anonymous(&man(rest))
     );
-    // the second alone is used, and is then the first
+    // only the second is used, and it becomes the first
     let output = "outputs: [{ name: x, of: sled, what: position }]\n";
     let model = model(&man(&format!("{vehicles}{rest}{output}")));
     assert_eq!(model.vehicles.len(), 1);
@@ -734,7 +741,7 @@ fn a_vehicle_that_nothing_uses_is_as_if_not_written() {
             ..
         }
     ));
-    // so it is where an output looks from it, and where a switch does
+    // so it is when an output refers to it, and when a switch does
     let output =
         "outputs: [{ name: x, of: man/head, what: velocity, relative_to: sled, axes: frame }]\n";
     let model = self::model(&man(&format!("{vehicles}{rest}{output}")));

@@ -1,6 +1,6 @@
-//! What bad input gets: every problem with its file, place, and remedy.
+//! Messages about invalid input: every problem with its file, place, and remedy.
 //!
-//! Each file of `malformed/` is read as a user would have it read; the snapshots hold what the user sees.
+//! Each file of `malformed/` is read as for a user; the snapshots have the text that the user sees.
 
 use bryant_generator::model::read_str;
 use bryant_generator::{Diagnostic, Diagnostics};
@@ -12,7 +12,7 @@ fn directory() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/malformed")
 }
 
-/// Reads with names relative to the directory, so that messages do not depend on where it is.
+/// Reads with paths relative to the directory, so that messages do not depend on its location.
 fn problems(name: &str, text: &str) -> Diagnostics {
     let loader = |path: &Path| std::fs::read_to_string(directory().join(path));
     match read_str(name, text, &loader) {
@@ -51,7 +51,7 @@ fn messages_are_those_reviewed() {
     });
 }
 
-/// A message has a file, a place, what is wrong, and how to mend it.
+/// Checks that a message has a file, a place, the problem, and a remedy.
 fn complete(problem: &Diagnostic) {
     let Diagnostic {
         file,
@@ -79,12 +79,12 @@ fn complete(problem: &Diagnostic) {
     );
 }
 
-/// Reads text that is hostile, not wrong: one short message, soon.
+/// Reads hostile text: one short message is expected soon.
 fn refused(text: &str) -> Diagnostic {
     let begin = Instant::now();
     let found =
         read_str("big.yaml", text, &nothing_included).expect_err("hostile text is accepted");
-    // a megabyte takes milliseconds; a minute is another order of growth
+    // a megabyte takes milliseconds; a minute would be another order of growth
     assert!(
         begin.elapsed() < Duration::from_secs(60),
         "{:?}",

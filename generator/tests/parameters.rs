@@ -1,9 +1,9 @@
-//! Run-time parameters cost what depends on them, and nothing twice: what they alone decide is computed once.
+//! Run-time parameters cost only the operations that depend on them: values that depend on parameters alone are computed once.
 
 use bryant_generator::dynamics::derive;
 use bryant_generator::effect::general;
-use bryant_generator::emit;
 use bryant_generator::model::{Model, scene};
+use bryant_generator::program;
 use std::path::Path;
 
 fn written(path: &str) -> Model {
@@ -12,7 +12,7 @@ fn written(path: &str) -> Model {
 }
 
 #[test]
-fn nothing_that_parameters_alone_decide_is_computed_at_every_state() {
+fn what_parameters_alone_decide_is_computed_once() {
     for path in [
         "models/child-seat.yaml",
         "models/sled-pendulum.yaml",
@@ -24,8 +24,10 @@ fn nothing_that_parameters_alone_decide_is_computed_at_every_state() {
         let written = written(path);
         for model in [written.clone(), general(&written)] {
             let equations = derive(&model);
-            for (method, count) in emit::repeated(&model, &equations, &emit::Options::default()) {
-                // where a run starts is computed once, and so is whether it may
+            for (method, count) in
+                program::repeated(&model, &equations, &program::Options::default())
+            {
+                // the start of a run is computed once, and so is whether it is allowed
                 let once = ["new", "initial_conditions", "initial_memory", "conditions"];
                 if !once.contains(&method) {
                     assert!(count.is_empty(), "{path}: {method}: {count}");

@@ -1,4 +1,4 @@
-//! The reference page says what the program reads: every key of every record, and examples that are valid.
+//! The reference page agrees with the program: every key of every record, and valid examples.
 
 use bryant_generator::description::vocabulary;
 use bryant_generator::model::read_str;
@@ -7,7 +7,7 @@ use std::path::Path;
 
 const PAGE: &str = include_str!("../../docs/reference.md");
 
-/// Keys and defaults in the tables that begin with `| key |`, by the heading above.
+/// Keys and defaults in the tables that begin with `| key |`, by the heading above each table.
 fn documented() -> Vec<(String, Vec<(String, String)>)> {
     let mut heading = String::new();
     let mut tables: Vec<(String, Vec<(String, String)>)> = Vec::new();
@@ -61,7 +61,7 @@ fn what_is_required_is_called_required() {
     let tables = documented();
     for ((title, keys), (_, rows)) in vocabulary().into_iter().zip(&tables) {
         for (key, (_, default)) in keys.iter().zip(rows) {
-            // of some keys one is required, which a check of its own says
+            // if one of several keys is required, a check of its own says so
             assert_eq!(
                 default == "required",
                 !key.optional,
@@ -72,7 +72,7 @@ fn what_is_required_is_called_required() {
     }
 }
 
-/// A model around an example: what the example does not give.
+/// A model around an example, with the parts that the example does not give.
 fn completed(example: &str) -> String {
     let has = |key: &str| {
         example

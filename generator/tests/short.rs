@@ -1,15 +1,16 @@
-//! Short forms: lists, mirror images, named surfaces and groups, instances. The generated text is that of the long form,
-//! byte for byte, whether the long form is the program's own (`check --long`) or written by hand.
+//! Short forms: lists, mirror images, named surfaces and groups, instances. Their generated text equals byte for byte that of the long
+//! form, whether the program writes the long form (`check --long`) or a person.
 
 use bryant_generator::dynamics::derive;
-use bryant_generator::emit::{self, Options};
 use bryant_generator::equations::Equations;
 use bryant_generator::model::{Model, Number, read_str, scene};
+use bryant_generator::program::Options;
+use bryant_generator::target::rust;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 
-/// Files that a model includes.
+/// The files that a model includes.
 type Files<'f> = BTreeMap<&'f str, &'f str>;
 
 fn read(text: &str, files: &Files<'_>) -> Result<(Model, String), String> {
@@ -27,10 +28,10 @@ fn generated(model: &Model) -> String {
     let mut model = model.clone();
     model.digest = String::new();
     let equations: Equations = derive(&model);
-    emit::module(&model, &equations, &Options::default())
+    rust::module(&model, &equations, &Options::default())
 }
 
-/// The generated text of a short form, which that of its long form must equal.
+/// The generated text of a short form; it must equal that of its long form.
 fn of_short(text: &str, files: &Files<'_>) -> String {
     let (model, long) = read(text, files).unwrap_or_else(|e| panic!("{e}"));
     let short = generated(&model);
@@ -40,7 +41,7 @@ fn of_short(text: &str, files: &Files<'_>) -> String {
     short
 }
 
-/// Both give the same text.
+/// Checks that both give the same text.
 fn same(short: &str, long: &str) {
     let written = generated(
         &read(long, &Files::new())
@@ -52,7 +53,7 @@ fn same(short: &str, long: &str) {
     assert!(made == written, "{line:?}");
 }
 
-/// What is wrong with a model.
+/// The problems of a model.
 fn problems(text: &str, files: &Files<'_>) -> String {
     read(text, files)
         .err()
@@ -87,7 +88,7 @@ curves:
   push: { points: [[0, 0], [1, 5]] }
 ";
 
-/// Everything that a mirror touches, written once.
+/// All items that a mirror affects, written once.
 const MIRRORED: &str = "
 systems:
   - name: man
@@ -117,6 +118,12 @@ forces:
   - { contact: left-toe, mirror: true, ellipsoid: { on: man/left-foot, center: [0.2, 0.01, 0], semi_axes: [0.03, 0.03, 0.03] }, plane: { on: man/hip, at: [0, 0.1, 0.5], normal: [0, 0.2, -1] }, stiffness: 5e4 }
   - { belt: strap-left, mirror: true, from: { on: man/left-leg, at: [0, 0.05, -0.1] }, to: { on: frame, at: [-0.3, 0.2, 0] }, stiffness: 5e4 }
   - { spring: left, mirror: true, from: { on: man/left-foot, at: [0, 0.05, 0] }, to: { on: man/hip, at: [0.2, 0.1, 0] }, stiffness: 100 }
+  - bushing: left
+    mirror: true
+    from: { on: man/hip, at: [0, 0.1, 0], axes: [0.1, 0.2, 0.3] }
+    to: { on: man/left-leg, at: [0.1, 0.02, 0.1] }
+    along: { x: { elastic: bent }, y: { elastic: bent, damping: 3 }, z: { stiffness: 10 } }
+    about: { x: { elastic: bent }, y: { elastic: bent, damping: 3 }, z: { stiffness: 10 } }
   - { load: left-push, mirror: true, on: man/left-foot, at: [0.1, 0.02, 0], force: [push, { curve: push, times: foam }, 3], moment: [push, 2, { points: [[0, 0], [1, 1]] }] }
 outputs:
   - { name: left knee, mirror: true, of: contact left-knee, what: force, component: y, axes: man/left-leg }
@@ -171,6 +178,16 @@ forces:
   - { belt: strap-right, from: { on: man/right-leg, at: [0, -0.05, -0.1] }, to: { on: frame, at: [-0.3, -0.2, 0] }, stiffness: 5e4 }
   - { spring: left, from: { on: man/left-foot, at: [0, 0.05, 0] }, to: { on: man/hip, at: [0.2, 0.1, 0] }, stiffness: 100 }
   - { spring: right, from: { on: man/right-foot, at: [0, -0.05, 0] }, to: { on: man/hip, at: [0.2, -0.1, 0] }, stiffness: 100 }
+  - bushing: left
+    from: { on: man/hip, at: [0, 0.1, 0], axes: [0.1, 0.2, 0.3] }
+    to: { on: man/left-leg, at: [0.1, 0.02, 0.1] }
+    along: { x: { elastic: bent }, y: { elastic: bent, damping: 3 }, z: { stiffness: 10 } }
+    about: { x: { elastic: bent }, y: { elastic: bent, damping: 3 }, z: { stiffness: 10 } }
+  - bushing: right
+    from: { on: man/hip, at: [0, -0.1, 0], axes: [-0.1, 0.2, -0.3] }
+    to: { on: man/right-leg, at: [0.1, -0.02, 0.1] }
+    along: { x: { elastic: bent }, y: { elastic: { points: [[-0.5, -10], [0, 0], [0.2, 30]], extrapolate: linear }, damping: 3 }, z: { stiffness: 10 } }
+    about: { x: { elastic: { points: [[-0.5, -10], [0, 0], [0.2, 30]], extrapolate: linear } }, y: { elastic: bent, damping: 3 }, z: { stiffness: 10 } }
   - { load: left-push, on: man/left-foot, at: [0.1, 0.02, 0], force: [push, { curve: push, times: foam }, 3], moment: [push, 2, { points: [[0, 0], [1, 1]] }] }
   - { load: right-push, on: man/right-foot, at: [0.1, -0.02, 0], force: [push, { curve: push, times: -foam }, 3], moment: [{ curve: push, times: -1 }, 2, { curve: { points: [[0, 0], [1, 1]] }, times: -1 }] }
 outputs:
@@ -184,7 +201,7 @@ outputs:
   - { name: strap of the right side, of: belt strap-right, what: force }
 ";
 
-/// Joints with axes: what slides is polar, what turns axial, a screw gets the other hand, a follower follows the image of its leader.
+/// Joints with axes: sliders are polar, hinges axial, a screw gets the other hand, and a follower follows the image of its leader.
 #[test]
 fn joints_with_axes_have_mirror_images() {
     let element = |name: &str, on: &str, y: &str, joint: &str, inertia: &str, mirror: &str| {
@@ -265,7 +282,7 @@ fn joints_with_axes_have_mirror_images() {
                 "forces:\n  - {{ joint: man/left-0, {law} }}\n  - {{ joint: man/right-0, {law} }}\n  - {{ joint: man/left-3, freedom: angle-x, {law} }}\n  - {{ joint: man/right-3, freedom: angle-x, {law} }}\n"
             )),
     );
-    // in the plane a mirror of x reverses what turns about y, and what slides along x
+    // in the plane a mirror of x reverses rotations about y and sliding along x
     let planar = |arms: &str| {
         format!(
             "model: arms\ndimension: 2\nmirror: {{ axis: x }}\nsystems:\n  - name: man\n    elements:\n      - {{ name: hip, mass: 12, cg: [0, 0], inertia: 1 }}\n{arms}"
@@ -395,7 +412,7 @@ outputs:
                     );
                 }
             }
-            // of each pair one, and none of a body with itself
+            // one contact for each pair, and none of a body with itself
             for (name, a, b, stiffness) in [
                 ("pair-low", "one", "low", "1e3"),
                 ("pair-high", "one", "high", "1e3"),
@@ -423,7 +440,7 @@ outputs:
 }
 
 #[test]
-fn one_law_serves_several_rotations_and_a_curve_is_scaled_where_it_stands() {
+fn one_law_serves_several_rotations_and_scales_a_curve() {
     let head = "model: head\ndimension: 3\nparameters: { scale: 2 }\nsystems:\n  - name: a\n    elements: [{ name: b, mass: 1, cg: [0, 0, 0.1], inertia: [1, 1, 1] }]\n";
     let law = "{ stiffness: 3, damping: 1 }";
     same(
@@ -479,7 +496,7 @@ outputs:
   - { name: sled, of: sled, what: position, component: x }
 ";
 
-/// What a doll under another name adds to what is common.
+/// The differences of a doll from the common text, with other names.
 fn doll(name: &str, prefix: &str, title: &str, x: &str) -> [String; 4] {
     let surface = |which: &str| match which {
         "head" => format!("{{ on: {name}/head, center: [0, 0.05], semi_axes: [0.1, 0.1] }}"),
@@ -633,7 +650,7 @@ fn paths_in_the_long_form_are_those_of_the_model() {
     );
 }
 
-/// Every mistake in a short form has its message, and a place.
+/// Every mistake in a short form has a message with a place.
 #[test]
 fn mistakes_are_told() {
     let none = Files::new();
@@ -722,7 +739,7 @@ fn mistakes_are_told() {
         assert!(found.contains(expected), "{text}\n{found}");
         assert!(found.contains("model.yaml:"), "{found}");
     }
-    // surfaces are judged also where nothing names them
+    // surfaces are checked even if nothing uses them
     let unused =
         format!("{BALLS}surfaces: {{ x: {{ on: a/lo, center: [0, 0], semi_axes: [1, -1] }} }}\n");
     assert!(problems(&unused, &none).contains("there is no element \"a/lo\""));

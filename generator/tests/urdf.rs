@@ -1,6 +1,6 @@
-//! What of URDF is read, what is refused and where, and what is made of it.
+//! URDF: what is read, what is refused with which place, and the resulting model.
 //!
-//! What is refused follows the tests of the parser of ROS (urdfdom, `test/assets/bad_*.urdf`), one case each, in texts of our own.
+//! The refused texts follow the tests of the ROS parser (urdfdom, `test/assets/bad_*.urdf`), one case each, in texts of our own.
 
 use bryant_generator::Diagnostics;
 use bryant_generator::dynamics::derive;
@@ -34,14 +34,14 @@ fn refused(text: &str) -> Diagnostics {
 
 const INERTIAL: &str = r#"<inertial><origin xyz="0.1 0 0"/><mass value="2"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.015"/></inertial>"#;
 
-/// A base, and an arm on a hinge. `%` stands for what a case adds.
+/// A base, and an arm on a hinge. `%` stands for the additions of a case.
 const ARM: [&str; 3] = [
     "<robot name=\"arm\">\n<link name=\"base\"/>\n<link name=\"arm\">",
     "</link>\n<joint name=\"hinge\" type=\"continuous\"><parent link=\"base\"/><child link=\"arm\"/>",
     "</joint>\n",
 ];
 
-/// The arm, with more in its link, its joint, and the robot.
+/// The arm, with additions to its link, its joint, and the robot.
 fn arm(link: &str, joint: &str, robot: &str) -> String {
     let [head, middle, tail] = ARM;
     format!("{head}{INERTIAL}{link}{middle}{joint}{tail}{robot}</robot>\n")
@@ -55,7 +55,7 @@ fn geometry(shape: &str) -> String {
     )
 }
 
-/// A joint of a type, with what is in it.
+/// A joint of a type, with its content.
 fn joint(kind: &str, inside: &str) -> String {
     arm(
         "",
@@ -156,7 +156,7 @@ fn every_problem_is_said_at_once() {
     assert_eq!(refused(&text).problems.len(), 3);
 }
 
-/// Accelerations and kinetic energy at a few states; the models that are compared have the same coordinates.
+/// Accelerations and kinetic energy at a few states; models to be compared have the same coordinates.
 fn motion(model: &Model) -> Vec<f64> {
     let equations = derive(model);
     let mut all = Vec::new();
@@ -192,7 +192,7 @@ fn motion(model: &Model) -> Vec<f64> {
     all
 }
 
-/// Both move in the same way, up to rounding: none of the models here is worse conditioned than 1e3.
+/// Checks that both move in the same way, up to rounding: no model here has a condition above 1e3.
 #[track_caller]
 fn same(a: &Model, b: &Model) {
     let (a, b) = (motion(a), motion(b));
@@ -264,7 +264,7 @@ fn frames_that_are_turned_are_one_frame() {
 }
 
 #[test]
-fn roll_pitch_and_yaw_are_about_fixed_axes_and_quaternions_say_the_same() {
+fn roll_pitch_and_yaw_about_fixed_axes_equal_quaternions() {
     // Rz(0.5) Ry(-0.4) Rx(0.3) as a product of half-angle quaternions
     let half = |angle: f64| ((angle / 2.0).cos(), (angle / 2.0).sin());
     let ((cr, sr), (cp, sp), (cy, sy)) = (half(0.3), half(-0.4), half(0.5));
@@ -294,7 +294,7 @@ fn roll_pitch_and_yaw_are_about_fixed_axes_and_quaternions_say_the_same() {
         axis,
     );
     same(&of_urdf(&angles), &of_urdf(&quaternion));
-    // three joints that stand at fixed angles say it a third time: yaw outermost
+    // three joints at fixed angles give the same, with yaw as the outermost one
     let chain = robot(&[
         link("base", ""),
         link("yaw", ""),
@@ -414,7 +414,7 @@ fn links_without_mass_between_joints_are_a_list() {
 }
 
 #[test]
-fn links_that_fixed_joints_hold_are_one_body_and_keep_their_names() {
+fn links_on_fixed_joints_are_one_body_and_keep_their_names() {
     let text = robot(&[
         link("base", ""),
         link("a", INERTIAL),
@@ -434,7 +434,7 @@ fn links_that_fixed_joints_hold_are_one_body_and_keep_their_names() {
 }
 
 #[test]
-fn a_part_that_is_no_body_by_itself_is_judged_with_what_it_is_fixed_to() {
+fn the_inertia_of_links_fixed_together_is_judged_as_one() {
     let flat = INERTIAL.replace("ixx=\"0.01\"", "ixx=\"0.04\"");
     let parts = |mass: &str| {
         robot(&[
@@ -451,7 +451,7 @@ fn a_part_that_is_no_body_by_itself_is_judged_with_what_it_is_fixed_to() {
         "{:?}",
         found.notes
     );
-    // 0.04 about x is above 0.02 + 0.015 for a alone; together (Steiner, 2 kg each, 0.25, 0 and 0.1 m from the middle) it is not
+    // 0.04 about x is above 0.02 + 0.015 for a alone, but not for both together (Steiner, 2 kg each, 0.25, 0 and 0.1 m from the middle)
     let elements = "      - { name: a, joint: { hinge: y }, mass: 4, cg: [0.35, 0, 0.1], inertia: [0.09, 0.33, 0.28, 0, -0.1, 0] }\n";
     same(&read(&found.yaml), &of_yaml(elements, "fixed"));
     let light = refused(&parts("mass value=\"1e-6\"").replace(
@@ -476,7 +476,7 @@ fn every_type_of_joint_has_its_freedoms() {
     ] {
         let text = joint(&format!("type=\"{kind}\""), inside);
         for (base, more) in [(Base::Fixed, 0), (Base::Free, 6)] {
-            // the base has no mass: it is free with one
+            // the base has no mass; with mass it is free
             let text = text.replace("<link name=\"base\"/>", &link("base", INERTIAL));
             let options = Options {
                 base,
@@ -486,7 +486,7 @@ fn every_type_of_joint_has_its_freedoms() {
             assert_eq!(derive(&model).velocities.len(), freedoms + more, "{kind}");
         }
     }
-    // what floats from a base that stands still is a system of its own
+    // a link that floats from a fixed base is a system of its own
     let text = robot(&[
         link("base", ""),
         link("a", INERTIAL),
@@ -506,7 +506,7 @@ fn every_type_of_joint_has_its_freedoms() {
 }
 
 #[test]
-fn angles_that_are_almost_right_are_said_and_made_exact_on_demand() {
+fn almost_right_angles_are_reported_and_exact_on_demand() {
     let text = |angle: &str| {
         robot(&[
             link("base", ""),
@@ -539,7 +539,7 @@ fn angles_that_are_almost_right_are_said_and_made_exact_on_demand() {
         imported(&text("1.5708"), &right).yaml,
         imported(&exact, &right).yaml
     );
-    // what is not meant as a right angle stays
+    // an angle that is not close to a right angle stays
     assert_eq!(
         imported(&text("1.58"), &right).yaml,
         imported(&text("1.58"), &Options::default()).yaml
@@ -626,7 +626,7 @@ fn a_joint_that_follows_and_moves_no_mass_is_left_out() {
         found.notes
     );
     assert_eq!(derive(&read(&found.yaml)).velocities.len(), 1);
-    // if it moved by itself, nothing would say how fast
+    // if it moved by itself, its velocity would be unknown
     let options = Options {
         uncouple: true,
         ..Options::default()

@@ -1,7 +1,8 @@
-//! User forces: their Rust files as part of the model, and what is made of them.
+//! User forces: their Rust files are part of the model, and the generated text contains them.
 
 use bryant_generator::model::{Model, read_str, read_without_sources};
-use bryant_generator::{Config, Diagnostics, emit};
+use bryant_generator::target::rust;
+use bryant_generator::{Config, Diagnostics};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -42,7 +43,7 @@ fn source(forces: &str) -> String {
     Config::new().source(&model(forces).0)
 }
 
-/// What does not depend on how the model is written.
+/// The generated text without the digest, which depends on how the model is written.
 fn without_digest(source: &str) -> String {
     let lines = source.lines();
     let lines = lines.filter(|line| !line.contains("digest:") && !line.contains("SHA-256"));
@@ -63,7 +64,7 @@ fn the_file_is_part_of_what_a_model_is_made_of() {
     assert_eq!(model.digest, again.digest);
     let (changed, _) = read(ONE, &PUSH.replace("Along", "Against")).unwrap();
     assert_ne!(model.digest, changed.digest);
-    // however its lines end
+    // with either kind of line ends
     let (windows, _) = read(ONE, &PUSH.replace('\n', "\r\n")).unwrap();
     assert_eq!(model.digest, windows.digest);
 }
@@ -120,7 +121,7 @@ fn what_is_switched_off_leaves_no_trace() {
     );
 }
 
-/// A force with everything that there is.
+/// A force with all possible ports.
 const EVERYTHING: &str = "\
 forces:
   - user: all-of-it
@@ -151,8 +152,8 @@ fn a_skeleton_is_accepted_for_what_it_was_made_for() {
         let missing = |_: &Path| Err(io::ErrorKind::NotFound.into());
         let model = read_without_sources("m.yaml", &text, &missing)
             .unwrap_or_else(|problems| panic!("{problems}"));
-        assert_eq!(emit::skeleton(&model, "nothing"), None);
-        let skeleton = emit::skeleton(&model, "all-of-it").expect("the force");
+        assert_eq!(rust::skeleton(&model, "nothing"), None);
+        let skeleton = rust::skeleton(&model, "all-of-it").expect("the force");
         assert!(skeleton.contains("pub fn all_of_it<T: Real>(input: &Input<T>)"));
         let loader = |_: &Path| Ok(skeleton.clone());
         let (model, _) = read_str("m.yaml", &text, &loader)
@@ -161,7 +162,7 @@ fn a_skeleton_is_accepted_for_what_it_was_made_for() {
     }
 }
 
-/// A parser that calls itself for every bracket must not be led to the end of the stack.
+/// A parser that recurses for every bracket must not overflow the stack.
 #[test]
 fn hostile_rust_is_refused() {
     let many = |text: &str| text.repeat(250_000 / text.len());

@@ -1,4 +1,4 @@
-//! A frame with axes: round ticks, at least three of them where they fit, a grid, names, and a legend above the frame.
+//! A frame with axes: round ticks, at least three if they fit, a grid, names, and a legend above the frame.
 
 use crate::drawing::{Anchor, Drawing};
 use crate::text::wrap;
@@ -26,9 +26,9 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
     style
 }
 
-/// Labelled ticks that an axis has at least, where they fit.
+/// An axis has at least this many labelled ticks, if they fit.
 const TICKED: usize = 3;
-/// Pixels of a character of a tick, and of a name.
+/// Width in pixels of a character of a tick, and of a name.
 const DIGIT: f64 = 7.0;
 const LETTER: f64 = 7.4;
 /// Pixels from one line of text to the next.
@@ -39,9 +39,9 @@ const LINE: f64 = 15.0;
 pub struct Axes {
     /// Left, top, width, height \[px\].
     pub frame: [f64; 4],
-    /// What the frame shows, across and upwards.
+    /// The ranges of the frame, across and upwards.
     pub ranges: [Range<f64>; 2],
-    /// Where there are ticks.
+    /// The positions of the ticks.
     pub ticks: [Vec<f64>; 2],
 }
 
@@ -76,7 +76,8 @@ impl Axes {
         ]
     }
 
-    /// The grid, the ticks with their labels, the frame; the name across below it, that upwards above it on the left.
+    /// The grid, the ticks with their labels, and the frame. The name of the horizontal axis is below it, that of the vertical axis above
+    /// it on the left.
     pub fn draw(&self, drawing: &mut Drawing, [across, upwards]: [&str; 2]) {
         let [left, top, width, height] = self.frame;
         let mut grid = Vec::new();
@@ -110,7 +111,7 @@ pub fn range(values: impl Iterator<Item = f64>, share: f64) -> Range<f64> {
     if low > high {
         return 0.0..1.0;
     }
-    // values that differ by rounding alone are one: there are no ticks between them
+    // values that differ only by rounding count as one: there are no ticks between them
     let span = high - low;
     let size = low.abs().max(high.abs());
     let margin = match span > 1e-10 * size {
@@ -121,12 +122,12 @@ pub fn range(values: impl Iterator<Item = f64>, share: f64) -> Range<f64> {
     low - margin..high + margin
 }
 
-/// Names of lines above a frame, `across` pixels wide, as (class, name): how many pixels it takes.
+/// The height of a legend with these names in a frame that is `across` pixels wide \[px\].
 pub fn legend_height(names: &[&str], across: f64) -> f64 {
     LINE * rows(names, across).len() as f64
 }
 
-/// Draws the legend, its upper left corner at a place.
+/// Draws the legend with its upper left corner at a point.
 pub fn legend(drawing: &mut Drawing, [left, top]: [f64; 2], across: f64, names: &[&str]) {
     for (row, entries) in rows(names, across).iter().enumerate() {
         let y = top + LINE * (row as f64 + 0.5);
@@ -139,7 +140,7 @@ pub fn legend(drawing: &mut Drawing, [left, top]: [f64; 2], across: f64, names: 
     }
 }
 
-/// Lines of a legend: of each entry its place and its index.
+/// The lines of a legend: the position and the index of each entry.
 fn rows(names: &[&str], across: f64) -> Vec<Vec<(f64, usize)>> {
     let mut rows: Vec<Vec<(f64, usize)>> = Vec::new();
     let mut x = f64::INFINITY;
@@ -157,7 +158,7 @@ fn rows(names: &[&str], across: f64) -> Vec<Vec<(f64, usize)>> {
     rows
 }
 
-/// A title in as many lines as it needs, its upper left corner at a place; how many pixels it takes.
+/// A title in as many lines as it needs, with its upper left corner at a point; returns its height in pixels.
 pub fn title(drawing: &mut Drawing, [left, top]: [f64; 2], across: f64, text: &str) -> f64 {
     let lines = title_lines(text, across);
     for (index, line) in lines.iter().enumerate() {
@@ -172,7 +173,7 @@ pub fn title_lines(text: &str, across: f64) -> Vec<String> {
     wrap(text, (across / 11.2) as usize)
 }
 
-/// Round numbers in a range: as many as fit easily, or three where these fit at all. `room` is what a label takes at a step \[px\].
+/// Round numbers in a range: as many as fit easily, or three if three fit at all. `room` is the size of a label at a step \[px\].
 fn ticks(range: &Range<f64>, pixels: f64, room: impl Fn(f64) -> f64) -> Vec<f64> {
     let span = range.end - range.start;
     let fits = |step: &f64, ease: f64| step / span * pixels >= ease * room(*step);
@@ -202,7 +203,7 @@ fn round_above(value: f64) -> f64 {
 /// The multiples of a step in a range.
 fn multiples(step: f64, range: &Range<f64>) -> Vec<f64> {
     let (first, last) = (range.start / step, range.end / step);
-    // beyond, multiples are not told apart
+    // larger multiples cannot be distinguished
     let farthest = first.abs().max(last.abs());
     if farthest.is_nan() || farthest >= 1e12 {
         return vec![range.start, range.end];
@@ -211,7 +212,7 @@ fn multiples(step: f64, range: &Range<f64>) -> Vec<f64> {
     (first..=last).map(|k| k as f64 * step).collect()
 }
 
-/// What ticks are apart.
+/// The distance between ticks.
 fn step(ticks: &[f64]) -> f64 {
     match ticks {
         [a, b, ..] => b - a,
@@ -220,7 +221,7 @@ fn step(ticks: &[f64]) -> f64 {
     }
 }
 
-/// A label, with as many digits as tell ticks apart that are so far from each other.
+/// A label with as many digits as distinguish ticks at this distance.
 pub fn label(value: f64, step: f64) -> String {
     let power = (step * (1.0 + 1e-9)).log10().floor();
     let size = value.abs();
@@ -258,13 +259,13 @@ mod tests {
                 for pair in labels.windows(2) {
                     assert_ne!(pair[0], pair[1], "{range:?}: {labels:?}");
                 }
-                // what a label says is where its tick is
+                // each label stands for the value of its tick
                 for (text, tick) in labels.iter().zip(ticks) {
                     let read: f64 = text.replace('−', "-").parse().unwrap();
                     assert!((read - tick).abs() < 1e-6 * step(ticks), "{text}, {tick}");
                 }
             }
-            // labels across do not meet
+            // the labels of the horizontal axis do not overlap
             let ticks = &axes.ticks[0];
             let apart = axes.place([ticks[1], 0.0])[0] - axes.place([ticks[0], 0.0])[0];
             let widest = ticks

@@ -1,5 +1,5 @@
-//! A picture as the few shapes that it is made of, before it is written as lines (`svg`) or as points
-//! ([`crate::raster`]). Numbers are rounded to a hundredth of a pixel, so that both show the same.
+//! A picture as a list of shapes, before it is written as vector graphics (`svg`) or as pixels ([`crate::raster`]). Numbers are rounded to
+//! a hundredth of a pixel, so that both formats show the same.
 
 use crate::raster::{self, RasterError};
 use crate::{Format, svg};
@@ -14,20 +14,20 @@ pub struct Drawing {
     pub(crate) items: Vec<Item>,
 }
 
-/// A piece of a drawing, in the order in which it is painted.
+/// An item of a drawing, in the order of painting.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Item {
-    /// What follows, up to its `Close`, is cut off outside a rectangle.
+    /// All items up to the matching `Close` are clipped by a rectangle.
     Clip { id: String, rectangle: [f64; 4] },
-    /// What follows, up to its `Close`, is drawn with an opacity.
+    /// All items up to the matching `Close` are drawn with an opacity.
     Group { class: String, opacity: f64 },
     /// Ends the last group.
     Close,
-    /// Is drawn as its classes say.
+    /// A shape, drawn as its classes say.
     Shape { class: String, shape: Shape },
 }
 
-/// What is drawn.
+/// A shape.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
     Line([[f64; 2]; 2]),
@@ -40,7 +40,7 @@ pub(crate) enum Shape {
     Ellipse {
         centre: [f64; 2],
         semi: [f64; 2],
-        /// Clockwise as seen.
+        /// Angle, clockwise on the screen.
         degrees: f64,
     },
     /// Left, top, width, height.
@@ -52,14 +52,14 @@ pub(crate) enum Shape {
     },
 }
 
-/// Where a text stands relative to its point.
+/// The position of a text relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// Begins there.
+    /// The text begins there.
     Start,
-    /// Is centred there.
+    /// The text is centred there.
     Middle,
-    /// Ends there.
+    /// The text ends there.
     End,
 }
 
@@ -74,20 +74,20 @@ impl Drawing {
         }
     }
 
-    /// The picture as lines.
+    /// The picture as vector graphics.
     pub fn svg(&self) -> String {
         svg::text(self)
     }
 
-    /// The picture as points.
+    /// The picture as pixels.
     ///
     /// # Errors
-    /// A style that is not known, or a picture that is too large.
+    /// The style is not known, or the picture is too large.
     pub fn png(&self) -> Result<Vec<u8>, RasterError> {
         raster::png(self)
     }
 
-    /// The picture as a file holds it.
+    /// The bytes of the picture's file.
     ///
     /// # Errors
     /// Those of [`Drawing::png`].
@@ -98,7 +98,7 @@ impl Drawing {
         }
     }
 
-    /// Opens a group whose content is cut off outside a rectangle.
+    /// Opens a group whose content is clipped by a rectangle.
     pub fn open_clipped(&mut self, id: &str, rectangle: [f64; 4]) {
         self.items.push(Item::Clip {
             id: id.to_owned(),
@@ -106,7 +106,7 @@ impl Drawing {
         });
     }
 
-    /// Opens a group of a class, drawn with an opacity.
+    /// Opens a group of a class that is drawn with an opacity.
     pub fn open(&mut self, class: &str, opacity: f64) {
         self.items.push(Item::Group {
             class: class.to_owned(),
@@ -145,7 +145,7 @@ impl Drawing {
         self.add(class, Shape::Circle { centre, radius });
     }
 
-    /// An ellipse, turned by an angle (clockwise as seen, degrees).
+    /// An ellipse, rotated by an angle (clockwise on the screen, degrees).
     pub fn ellipse(&mut self, class: &str, centre: [f64; 2], semi: [f64; 2], degrees: f64) {
         let shape = Shape::Ellipse {
             centre: point(centre),
@@ -176,7 +176,7 @@ fn point(point: [f64; 2]) -> [f64; 2] {
     point.map(round)
 }
 
-/// Hundredths, without a sign on zero.
+/// Rounded to hundredths; zero has no sign.
 fn round(value: f64) -> f64 {
     (value * 100.0).round() / 100.0 + 0.0
 }

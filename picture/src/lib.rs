@@ -1,11 +1,12 @@
-//! Pictures: a few kinds of shapes, placed to a hundredth of a pixel, written as lines (SVG) or as points (PNG); axes of charts.
+//! Pictures: a few kinds of shapes with coordinates to a hundredth of a pixel, written as vector graphics (SVG) or as pixels (PNG); axes of
+//! charts.
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`drawing`] | a picture as the shapes that it is made of |
+//! | [`drawing`] | a picture as a list of shapes |
 //! | [`chart`] | a frame with axes, round ticks and a legend |
 //! | [`raster`] | PNG, with a font that is part of the program |
-//! | [`text`] | lines of a length |
+//! | [`text`] | splits text into lines |
 
 pub mod chart;
 pub mod drawing;
@@ -18,13 +19,13 @@ pub use raster::RasterError;
 
 use std::path::Path;
 
-/// How a picture is written.
+/// The format of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Format {
-    /// Lines.
+    /// Vector graphics.
     #[default]
     Svg,
-    /// Points.
+    /// Pixels.
     Png,
 }
 
@@ -32,7 +33,7 @@ impl Format {
     /// All of them.
     pub const ALL: [Format; 2] = [Format::Svg, Format::Png];
 
-    /// How the names of its files end.
+    /// The ending of the names of its files.
     pub const fn ending(self) -> &'static str {
         match self {
             Format::Svg => "svg",
@@ -40,13 +41,13 @@ impl Format {
         }
     }
 
-    /// The format whose files end so, in small letters or capitals.
+    /// The format whose files have this ending, in lower or upper case.
     pub fn named(ending: &str) -> Option<Format> {
         let ends = |format: &Format| format.ending().eq_ignore_ascii_case(ending);
         Format::ALL.into_iter().find(ends)
     }
 
-    /// That of a file, by how its name ends; `None` where it ends otherwise.
+    /// The format of a file by the ending of its name; `None` for other endings.
     pub fn of(path: &Path) -> Option<Format> {
         Format::named(path.extension()?.to_str()?)
     }

@@ -12,7 +12,7 @@ pub fn text(drawing: &Drawing) -> String {
          <rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>\n"
     );
     for item in &drawing.items {
-        // Writing to a string cannot fail.
+        // writing to a string cannot fail
         let _ = write_item(&mut text, item);
         text.push('\n');
     }
@@ -42,7 +42,7 @@ fn write_item(out: &mut String, item: &Item) -> std::fmt::Result {
     }
 }
 
-/// What follows the class.
+/// Writes the attributes after the class.
 fn write_shape(out: &mut String, shape: &Shape) -> std::fmt::Result {
     match shape {
         Shape::Line([[x1, y1], [x2, y2]]) => {
@@ -95,7 +95,7 @@ fn write_shape(out: &mut String, shape: &Shape) -> std::fmt::Result {
 }
 
 impl Shape {
-    /// Its name in SVG, which a style may select.
+    /// The name of its element in SVG, which a style may select.
     pub fn element(&self) -> &'static str {
         match self {
             Shape::Line(_) => "line",

@@ -1,6 +1,6 @@
-//! Text in lines.
+//! Splits text into lines.
 
-/// Words in lines of at most `width` characters; a longer word has a line of its own.
+/// Splits words into lines of at most `width` characters; a longer word has a line of its own.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

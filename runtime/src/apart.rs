@@ -1,13 +1,13 @@
-//! What is compiled apart and loaded: both sides of a call that takes and returns plain numbers.
+//! Calls into a library that is compiled separately and loaded at run time. Both sides of a call exchange plain numbers.
 //!
 //! | of | given | comes back |
 //! |---|---|---|
-//! | functions of the user's ([`Adapter`], [`function`]) | arguments as [words](crate::real::Form) | results as words |
+//! | functions of the user ([`Adapter`], [`function`]) | arguments as [words](crate::real::Form) | results as words |
 //! | a generated model ([`evaluate`]) | what to do ([`What`]), t, y | as many numbers as it takes |
 //!
-//! The library that is loaded has a standard library of its own, and perhaps one of another compiler. So nothing but numbers and addresses
-//! goes across, and a panic stays inside: it comes back as [`PANICKED`], and [`said`] tells where it was and what it said. This file is the
-//! only one of the library that handles addresses.
+//! The loaded library has its own standard library, perhaps of another compiler. So only numbers and addresses cross the boundary. A panic
+//! stays inside: the call returns [`PANICKED`], and [`said`] tells where it was and what it said. Only this file of the library handles
+//! addresses.
 #![expect(
     unsafe_code,
     reason = "addresses of numbers come from the program that loaded the library"
@@ -22,28 +22,27 @@ use core::marker::PhantomData;
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Version of what is exported. It changes whenever a library of before would not do.
+/// Version of the exported functions. It changes whenever a library that was built for an earlier version would not work.
 pub const VERSION: u32 = 3;
 
-/// What a call returns where all went well.
+/// The value that a call returns on success.
 pub const DONE: i32 = 0;
-/// The same of a function that has nothing to tell, as of a model without a Jacobian.
+/// The value that a call returns where there is no answer, for example for the Jacobian of a model that has none.
 pub const NOTHING: i32 = 1;
-/// It panicked: [`said`] tells more, on the same thread.
+/// The value that a call returns after a panic: [`said`] tells more, on the same thread.
 pub const PANICKED: i32 = 2;
 
-/// A function of the user's over one scalar. `arguments` and `results` are words, as many as the function has arguments and results, times
-/// [`Form::words`].
+/// A function of the user over one scalar. `arguments` and `results` are words: the number of arguments or results times [`Form::words`].
 pub type Call = unsafe extern "C" fn(arguments: *const f64, results: *mut f64) -> i32;
 
-/// A function of the user's, over any scalar.
+/// A function of the user over any scalar.
 pub trait Adapter<const ARGUMENTS: usize, const RESULTS: usize> {
-    /// Calls it.
+    /// Calls the function.
     fn call<T: Real>(arguments: [T; ARGUMENTS]) -> [T; RESULTS];
 }
 
-/// A function of the user's over the scalar of a base, with slopes where `order` is 1; `None` where it is not there, or the processor cannot
-/// do it.
+/// A function of the user over the scalar with the number `base`, with slopes where `order` is 1. `None` where there is no such scalar or
+/// order, or where the processor lacks its instructions.
 pub fn function<F: Adapter<A, R>, const A: usize, const R: usize>(
     base: u32,
     order: u32,
@@ -60,7 +59,7 @@ pub fn function<F: Adapter<A, R>, const A: usize, const R: usize>(
         Base::Single => over::<F, f32, A, R>(order),
         Base::Fast => over::<F, Fast, A, R>(order),
         Base::DoubleDouble => over::<F, DoubleDouble, A, R>(order),
-        // of registers that fuse one may only be made where the processor has the instructions
+        // a scalar of fused registers may only be made where the processor has the instructions
         Base::Lane | Base::SingleLane if !Width::One.there() => None,
         Base::Lane => over::<F, Lanes<Alone<f64, true>>, A, R>(order),
         Base::SingleLane => over::<F, Lanes<Alone<f32, true>>, A, R>(order),
@@ -93,7 +92,7 @@ impl<F: Adapter<A, R>, T: Real, const A: usize, const R: usize> Task
     }
 }
 
-/// Words of a scalar of one lane.
+/// Number of words of a scalar of one lane.
 const fn words<T: Real>() -> usize {
     match T::FORM {
         Some(form) => form.words(),
@@ -106,7 +105,7 @@ unsafe extern "C" fn call<F: Adapter<A, R>, T: Real, const A: usize, const R: us
     results: *mut f64,
 ) -> i32 {
     let words = words::<T>();
-    // SAFETY: whoever calls gives as many words as the function has arguments and results, which are its own meanwhile.
+    // SAFETY: the caller passes as many words as the function has arguments and results, and nobody else uses them during the call.
     let (arguments, results) = unsafe {
         (
             core::slice::from_raw_parts(arguments, A * words),
@@ -123,13 +122,13 @@ unsafe extern "C" fn call<F: Adapter<A, R>, T: Real, const A: usize, const R: us
     })
 }
 
-/// What is to be done with a model, by its number.
+/// The methods of a model, by number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub enum What {
-    /// [`Adjustable::set_parameters`], from y.
+    /// [`Adjustable::set_parameters`]: y has the values.
     SetParameters = 0,
-    /// [`Dynamics::parameter`], of the index that t is.
+    /// [`Dynamics::parameter`]: t is the index.
     Parameter = 1,
     /// [`Dynamics::initial_state`].
     InitialState = 2,
@@ -141,17 +140,17 @@ pub enum What {
     Jacobian = 5,
     /// [`Dynamics::outputs`].
     Outputs = 6,
-    /// [`Dynamics::normalize`], of what is in the results.
+    /// [`Dynamics::normalize`] of the state that stands in the results.
     Normalize = 7,
-    /// [`Dynamics::renew`], of what is in the results.
+    /// [`Dynamics::renew`] of the state that stands in the results.
     Renew = 8,
-    /// [`Dynamics::guards`].
+    /// [`Dynamics::guards`]: the event functions.
     Guards = 9,
-    /// [`Dynamics::kinks`].
+    /// [`Dynamics::kinks`]: the non-smooth switching functions.
     Kinks = 10,
     /// [`Dynamics::curves`].
     Curves = 11,
-    /// [`Dynamics::smallest_pivot`]: the index, the pivot.
+    /// [`Dynamics::smallest_pivot`]: first the index, then the pivot.
     SmallestPivot = 12,
     /// [`Dynamics::violated`]: the index.
     Violated = 13,
@@ -194,7 +193,7 @@ impl What {
     ];
 }
 
-/// How a model gets its Jacobian. Dual numbers take a second compilation of the equations, which is longer than the first.
+/// How a model gets its Jacobian. Dual numbers need a second compilation of the equations, which takes longer than the first.
 pub trait Differentiate {
     /// [`Dynamics::jacobian`].
     fn jacobian<M: Model<f64>>(
@@ -206,11 +205,11 @@ pub trait Differentiate {
     ) -> bool;
 }
 
-/// By dual numbers.
+/// The Jacobian by dual numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct ByDuals;
 
-/// Not at all.
+/// No Jacobian.
 #[derive(Clone, Copy, Debug)]
 pub struct NoJacobian;
 
@@ -232,11 +231,11 @@ impl Differentiate for NoJacobian {
     }
 }
 
-/// A function that makes a model and hands it over, at the default values of its parameters.
+/// A function that makes a model with the default values of its parameters and hands it over.
 pub type Make = extern "C" fn() -> *mut c_void;
-/// A function that takes a model back.
+/// A function that takes a model back and frees it.
 pub type Discard = unsafe extern "C" fn(model: *mut c_void);
-/// A function that does something with a model.
+/// A function that calls one method of a model.
 pub type Evaluate = unsafe extern "C" fn(
     model: *mut c_void,
     what: u32,
@@ -256,7 +255,7 @@ pub fn make<M: Model<f64>>() -> *mut c_void {
 /// [`Discard`] of a generated model.
 ///
 /// # Safety
-/// The model comes from [`make`] of the same `M`, and is used by nobody any more.
+/// The model comes from [`make`] of the same `M`. Nobody uses it afterwards.
 pub unsafe fn discard<M: Model<f64>>(model: *mut c_void) {
     // SAFETY: as above.
     drop(unsafe { Box::from_raw(model.cast::<Owned<M>>()) });
@@ -265,8 +264,8 @@ pub unsafe fn discard<M: Model<f64>>(model: *mut c_void) {
 /// [`Evaluate`] of a generated model.
 ///
 /// # Safety
-/// The model comes from [`make`] of the same `M`; nobody else changes it meanwhile, nor uses it while parameters are set. `y` and `results` are
-/// as many numbers as they say.
+/// The model comes from [`make`] of the same `M`. During the call nobody else changes it; while parameters are set, nobody else uses it. `y`
+/// and `results` have as many numbers as their lengths say.
 pub unsafe fn evaluate<M: Model<f64>, J: Differentiate>(
     model: *mut c_void,
     what: u32,
@@ -345,11 +344,11 @@ fn of_model<M: Model<f64>, J: Differentiate>(
 }
 
 thread_local! {
-    /// Of the last panic on this thread: file, line and column, each in a line, then the message.
+    /// The last panic on this thread: file, line and column, each on a line of its own, then the message.
     static SAID: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Keeps what panics say, instead of printing it. For the whole of this library: once, when it is loaded.
+/// Keeps the messages of panics instead of printing them. It holds for the whole of this library; call it once, when the library is loaded.
 pub fn keep_what_panics_say() {
     std::panic::set_hook(Box::new(|panic| {
         let at = panic.location();
@@ -366,8 +365,8 @@ pub fn keep_what_panics_say() {
     }));
 }
 
-/// Copies as much as there is place for of what the last panic on this thread said: file, line and column, each in a line, then the message.
-/// Returns its whole length.
+/// Copies what the last panic on this thread said, as far as there is room: file, line and column, each on a line of its own, then the message.
+/// Returns the whole length.
 ///
 /// # Safety
 /// `place` has as many bytes as `length` says.
@@ -386,12 +385,12 @@ pub unsafe fn said(place: *mut u8, length: usize) -> usize {
     copied.unwrap_or(0)
 }
 
-/// Does it, and returns [`PANICKED`] where it panics.
+/// Runs the task, and returns [`PANICKED`] where it panics.
 fn caught(task: impl FnOnce() -> i32) -> i32 {
     match catch_unwind(AssertUnwindSafe(task)) {
         Ok(status) => status,
         Err(payload) => {
-            // A value of the user's may panic once more when it is dropped.
+            // A value of the user may panic again when it is dropped.
             core::mem::forget(payload);
             PANICKED
         }

@@ -1,10 +1,10 @@
 //! Piecewise linear functions: y(x) = y_k + s_k (x − x_k) for x_k ≤ x < x_{k+1}. Smooth ones are [`Cubic`].
 //!
-//! "The elastic force is dependent on a tabular function representing any continuous curve" (MADYMO 1980). A choice
-//! of segment is a chain of selects, so lanes in different segments never diverge.
+//! "The elastic force is dependent on a tabular function representing any continuous curve" (MADYMO 1980). The segment is chosen by a chain
+//! of selects, so lanes in different segments never diverge.
 //!
-//! Slopes and coefficients are doubles whatever the scalar: one of more digits evaluates the very function that `f64` does, with
-//! less rounding on the way. That function may jump by some ε of its ordinates at a point.
+//! Slopes and coefficients are doubles, whatever the scalar. So a scalar of more digits evaluates the same function as `f64`, only with less
+//! rounding on the way. At a point that function may jump by a few ε of its ordinates.
 
 mod cubic;
 mod kink;
@@ -21,14 +21,14 @@ pub use table::Table;
 use crate::real::{Mask, Real};
 use lines::Lines;
 
-/// What a curve is beyond its first and last point.
+/// The continuation of a curve beyond its first and last point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extrapolate {
-    /// The outermost segment goes on.
+    /// The outermost segment continues as a straight line.
     Linear,
-    /// The outermost value stays.
+    /// The outermost value is held.
     Hold,
-    /// NaN, which stops the run: the curve was never meant to be left.
+    /// NaN, which stops the run: the argument must never leave the curve.
     Error,
 }
 
@@ -37,26 +37,26 @@ pub enum Extrapolate {
 pub struct Curve<const N: usize> {
     /// Abscissae and ordinates.
     points: [[f64; 2]; N],
-    /// Slope to the right of each point; the last one is that of the extrapolation.
+    /// Slope to the right of each point. The last one is the slope of the extrapolation.
     slopes: [f64; N],
     /// Slope to the left of the first point.
     slope_before: f64,
-    /// At each point, ∫ and ∬ of the curve from the first one.
+    /// ∫ and ∬ of the curve from the first point to each point.
     integrals: [[f64; 2]; N],
-    /// The abscissae at which the curve is not smooth: the first so many.
+    /// The abscissae at which the curve is not smooth, and how many of the entries are used.
     kinks: ([f64; N], usize),
     extrapolate: Extrapolate,
 }
 
-/// Curves of more points are narrowed by bisection before the chain of selects.
+/// Curves with more points are first narrowed by bisection, then by the chain of selects.
 const CHAIN: usize = 8;
 
 impl<const N: usize> Curve<N> {
-    /// The curve through points (x, y) of increasing x.
+    /// Makes the curve through the points (x, y), x increasing.
     ///
     /// # Panics
-    /// With fewer than two points, a number that is not finite, or abscissae that do not increase. In a `const`, where
-    /// generated code keeps its curves, that is an error of compilation.
+    /// With fewer than two points, with a number that is not finite, or with abscissae that do not increase. Generated code keeps its curves
+    /// in `const`s, where this is an error of compilation.
     pub const fn new(points: [[f64; 2]; N], extrapolate: Extrapolate) -> Self {
         let (mut slopes, mut kinks) = ([0.0; N], [0.0; N]);
         let mut integrals = [[0.0; 2]; N];
@@ -89,70 +89,70 @@ impl<const N: usize> Curve<N> {
         }
     }
 
-    /// Ordinate at `x`: exact at the points, NaN for NaN.
+    /// Ordinate at `x`: exact at the points; NaN where `x` is NaN.
     #[inline(always)]
     pub fn value<T: Real>(&self, x: T) -> T {
         self.lines().value(x)
     }
 
-    /// Slope at `x`: at a point that of the segment to the right, at the last point of a curve that must not be left
-    /// that of the last segment; NaN for NaN.
+    /// Slope at `x`. At a point it is the slope of the segment to the right; at the last point of a curve that must not be left, that of the
+    /// last segment. NaN where `x` is NaN.
     #[inline(always)]
     pub fn slope<T: Real>(&self, x: T) -> T {
         self.lines().slope(x)
     }
 
-    /// The second derivative, 0 wherever it exists; NaN for NaN and outside a curve that must not be left.
+    /// The second derivative: 0 wherever it exists. NaN where `x` is NaN, and outside a curve that must not be left.
     #[inline(always)]
     pub fn second_derivative<T: Real>(&self, x: T) -> T {
         self.lines().second_derivative(x)
     }
 
-    /// ∫ of the curve from 0 to `x`: the velocity gained under an acceleration that is this curve of time.
+    /// ∫₀ˣ of the curve: the velocity gained, where the curve is an acceleration over time.
     #[inline(always)]
     pub fn integral<T: Real>(&self, x: T) -> T {
         self.lines().integral(x)
     }
 
-    /// ∬ of the curve from 0 to `x`: the way gained under an acceleration that is this curve of time.
+    /// ∬₀ˣ of the curve: the distance gained, where the curve is an acceleration over time.
     #[inline(always)]
     pub fn double_integral<T: Real>(&self, x: T) -> T {
         self.lines().double_integral(x)
     }
 
-    /// The smallest x on a rising segment with value(x) = `y`, NaN where there is none.
+    /// The smallest x on a rising segment with value(x) = `y`; NaN where there is none.
     ///
-    /// Gives the relative elongation at which a belt has its pretension.
+    /// The generator uses it for the relative elongation at which a belt has its pretension.
     #[inline(always)]
     pub fn inverse<T: Real>(&self, y: T) -> T {
         self.lines().inverse(y)
     }
 
-    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never does. A velocity of 0
-    /// counts from where it is not 0.
+    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never does. Where the
+    /// velocity is 0 at first, the search begins where it no longer is.
     ///
-    /// Gives the time at which what a curve of time brakes comes to rest.
+    /// The generator uses it for the time at which a body that is braked by a curve of time comes to rest.
     #[inline(always)]
     pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
         self.lines().stop(velocity, factor)
     }
 
-    /// A function whose sign changes where the curve is not smooth: of slope ±1, its magnitude the distance to the nearest
-    /// such point, and 1 where there is none. NaN for NaN alone.
+    /// The breakpoint indicator: a function whose sign changes where the curve is not smooth. Its slope is ±1 and its magnitude is the
+    /// distance to the nearest such point; it is 1 where there is none. NaN only where `x` is NaN.
     #[inline(always)]
     pub fn zigzag<T: Real>(&self, x: T) -> T {
         zigzag::zigzag(self.lines().kinks, x)
     }
 
-    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane, for all of them, with its derivatives;
-    /// +∞ where none is left.
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this time, each with its own
+    /// derivatives. +∞ where no point is left.
     pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
         kink::after(&self.points, |point| point[0], rate, t)
     }
 }
 
-/// First and last piece between so many abscissae that a lane of `x` may lie in: all of them for a short curve; for a long one bisection goes
-/// on while the lanes agree, as they do for a curve of time.
+/// First and last of the pieces between `count` abscissae that a lane of `x` may lie in. For a short curve these are all pieces. For a long
+/// curve bisection goes on while all lanes agree, as they do for a curve of time.
 #[inline(always)]
 fn candidates<T: Real>(count: usize, abscissa: impl Fn(usize) -> f64, x: T) -> (usize, usize) {
     let (mut first, mut last) = (0, count);
@@ -170,7 +170,7 @@ fn candidates<T: Real>(count: usize, abscissa: impl Fn(usize) -> f64, x: T) -> (
     (first, last)
 }
 
-/// NaN outside a curve that must not be left.
+/// The value `y`, but NaN outside a curve that must not be left.
 #[inline(always)]
 fn guard<T: Real>(points: &[[f64; 2]], extrapolate: Extrapolate, x: T, y: T) -> T {
     if let Extrapolate::Error = extrapolate {
@@ -280,7 +280,7 @@ mod tests {
                 (0.0..0.0025 + 1e-15).contains(&(miss + 1e-15)),
                 "{miss} at {x}"
             );
-            // lanes that disagree take the long way to the same value
+            // lanes that disagree find the same value without bisection
             let there = Pair([x, 3.9 - x]);
             assert_eq!(
                 MANY.value(there),
@@ -343,7 +343,7 @@ mod tests {
 
     #[test]
     fn inverse_is_the_leftmost_rising_solution() {
-        // the falling segment does not count, the flat one neither
+        // only rising segments count: neither the falling nor the flat one
         assert_eq!(LINEAR.inverse(0.0), 0.5);
         assert_eq!(LINEAR.inverse(3.0), 1.5);
         assert_eq!(LINEAR.inverse(6.0), 2.5);

@@ -1,13 +1,13 @@
-//! The boundary between a model and everything that works with one.
+//! The boundary between a model and all code that works with one.
 //!
 //! [`Dynamics`] is a table of functions over slices. Time loops, batches, responses and programs take a `&dyn Dynamics<T>`, so they are
 //! compiled once for each scalar and not again for each model. A call through the table takes a few nanoseconds; an evaluation of a model
 //! takes a hundred or more.
 //!
-//! Every generated module implements [`Model`]. [`Direct`], [`Differentiable`] and [`Owned`] make a `Dynamics` of it. A model that is only
-//! known at run time implements `Dynamics` directly.
+//! Every generated module implements [`Model`]. [`Direct`], [`Differentiable`] and [`Owned`] turn it into a `Dynamics`. A model that is known only at
+//! run time implements `Dynamics` directly.
 //!
-//! Loops that fuse a step with the equations ([`march`](crate::integrate::march())) take a [`Model`] instead: they are compiled for the model.
+//! Loops that fuse a step with the equations ([`march`](crate::integrate::march())) take a [`Model`] instead and are compiled for each model.
 
 use crate::model::over;
 use crate::real::Task;
@@ -16,67 +16,68 @@ use core::marker::PhantomData;
 
 /// A model at one set of parameters, over one scalar.
 ///
-/// The state y is that of [`Model`]: q, v, z, m. Every slice has exactly the length that [`Info`] gives for it; an implementation may panic
-/// where it has another one. Nothing here allocates after the model is made.
+/// The state y is that of [`Model`]: q, v, z, m. Every slice has exactly the length that [`Info`] gives; with another length an implementation may
+/// panic. Nothing here allocates after the model is made.
 pub trait Dynamics<T: Real> {
     /// Names, units and sizes.
     fn info(&self) -> &'static Info;
-    /// The value of a parameter, by its index in [`Info::parameters`] \[SI\]; `None` beyond the last.
+    /// The value of a parameter \[SI\], by its index in [`Info::parameters`]; `None` for an index beyond the last.
     fn parameter(&self, index: usize) -> Option<T>;
-    /// Where a run starts.
+    /// The state at which a run starts.
     fn initial_state(&self, y: &mut [T]);
     /// ẏ at time `t` \[s\] and state `y`.
     fn derivative(&self, t: T, y: &[T], rate: &mut [T]);
-    /// q̇, into the coordinates of `rate`; the rest of it is left alone.
+    /// q̇, written into the coordinates of `rate`. The rest of `rate` is not changed.
     fn coordinate_rates(&self, y: &[T], rate: &mut [T]);
-    /// ∂ẏ/∂y by rows, as many rows and columns as `y` has entries, and ∂ẏ/∂t. Columns of memory ([`StateKind::Memory`]) are left alone:
-    /// nothing integrates it. False where the model cannot do it; nothing is written then.
+    /// ∂ẏ/∂y by rows, with as many rows and columns as `y` has entries, and ∂ẏ/∂t. Columns of discrete states ([`StateKind::Memory`]) are not
+    /// written, because nothing integrates them. Returns false, and writes nothing, where the model has no Jacobian.
     fn jacobian(&self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) -> bool;
     /// The outputs, in the order and units of [`Info::outputs`].
     fn outputs(&self, t: T, y: &[T], outputs: &mut [T]);
     /// Puts the state back on its manifold (unit quaternions).
     fn normalize(&self, y: &mut [T]);
-    /// Renews what is constant during a step: [`Model::renew`].
+    /// The discrete update of the state after a step: [`Model::renew`].
     fn renew(&self, t: T, y: &mut [T]);
-    /// The same where the guards are known at that time and state. Whoever starts from them gives the same bits.
+    /// The same, with event functions that are already known at this time and state. An implementation that uses them returns the same bits.
     fn renew_by(&self, t: T, y: &mut [T], guards: &[T]) {
         let _ = guards;
         self.renew(t, y);
     }
-    /// The guards, in the order of [`Info::guards`]: [`Model::guards`].
+    /// The event functions (guards), in the order of [`Info::guards`]: [`Model::guards`].
     fn guards(&self, t: T, y: &[T], guards: &mut [T]);
-    /// The kinks, in the order of [`Info::kinks`]: [`Model::kinks`].
+    /// The non-smooth switching functions (kinks), in the order of [`Info::kinks`]: [`Model::kinks`].
     fn kinks(&self, t: T, y: &[T], kinks: &mut [T]);
-    /// The onsets, twice as many values as [`Info::onsets`]: [`Model::onsets`].
+    /// The onsets: all gaps in the order of [`Info::onsets`], then all speeds: [`Model::onsets`].
     fn onsets(&self, t: T, y: &[T], onsets: &mut [T]);
-    /// The arguments of the curves of the state, in the order of [`Info::curves`]: [`Model::curves`].
+    /// The arguments of the curves that depend on the state, in the order of [`Info::curves`]: [`Model::curves`].
     fn curves(&self, t: T, y: &[T], arguments: &mut [T]);
-    /// The smallest pivot and whose it is: [`Model::smallest_pivot`].
+    /// The smallest pivot and the index of its element: [`Model::smallest_pivot`].
     fn smallest_pivot(&self, t: T, y: &[T]) -> Option<(usize, T)>;
-    /// The first condition on parameters that does not hold, an index in [`Info::conditions`].
+    /// The first condition on parameters that does not hold: an index in [`Info::conditions`].
     fn violated(&self) -> Option<usize>;
-    /// T \[J\].
+    /// Kinetic energy T \[J\].
     fn kinetic_energy(&self, t: T, y: &[T]) -> T;
-    /// Power of each effect \[W\], in the order of [`Info::powers`].
+    /// The power of each effect \[W\], in the order of [`Info::powers`].
     fn powers(&self, t: T, y: &[T], powers: &mut [T]);
-    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\] of what is free: [`Model::momentum`].
+    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\] of the free systems: [`Model::momentum`].
     fn momentum(&self, t: T, y: &[T]) -> [T; 6];
-    /// The rate of the momentum: [`Model::external_wrench`].
+    /// The net external wrench, the rate of the momentum: [`Model::external_wrench`].
     fn external_wrench(&self, t: T, y: &[T]) -> [T; 6];
-    /// [`Dynamics::powers`], and [`Dynamics::external_wrench`] where something is free, which is written nowhere else: what balances are made of within
-    /// a step. Whoever computes both at once gives the same bits.
+    /// [`Dynamics::powers`], and [`Dynamics::external_wrench`] if a system is free; if none is free, `external_wrench` is not written. Balances need
+    /// both inside a step. An implementation that computes both at once returns the same bits.
     fn exchange(&self, t: T, y: &[T], powers: &mut [T], external_wrench: &mut [T; 6]) {
         exchange(self, t, y, powers, external_wrench);
     }
-    /// What is wanted to know where a step ends. Whoever computes it at once gives the same bits.
+    /// Everything that is needed at the end of a step. An implementation that computes it at once returns the same bits.
     fn arrive(&self, t: T, y: &[T], arrival: &mut Arrival<'_, T>) {
         arrive(self, t, y, arrival);
     }
-    /// The first kink in time after `t` that parameters place: [`Model::kink_after`].
+    /// The first kink in time after `t` whose place depends on parameters: [`Model::kink_after`].
     fn kink_after(&self, t: f64) -> T;
 }
 
-/// What is wanted to know where a step ends, in places that are as long as [`Info`] says: contacts, which most of it needs, are then found once.
+/// Where [`Dynamics::arrive`] writes what is needed at the end of a step. The slices have the lengths that [`Info`] gives. Most entries need the contacts;
+/// an implementation that computes all entries at once finds the contacts once.
 #[derive(Debug)]
 pub struct Arrival<'a, T> {
     /// [`Dynamics::guards`]
@@ -98,13 +99,13 @@ pub struct AccountArrival<'a, T> {
     pub kinetic_energy: &'a mut T,
     /// [`Dynamics::powers`] \[W\]
     pub powers: &'a mut [T],
-    /// [`Dynamics::momentum`], where something is free; else it is left alone.
+    /// [`Dynamics::momentum`]; not written where no system is free.
     pub momentum: &'a mut [T; 6],
-    /// [`Dynamics::external_wrench`], where something is free; else it is left alone.
+    /// [`Dynamics::external_wrench`]; not written where no system is free.
     pub external_wrench: &'a mut [T; 6],
 }
 
-/// [`Dynamics::exchange`] by one function after the other.
+/// [`Dynamics::exchange`], one function after the other.
 pub fn exchange<T: Real, M: Dynamics<T> + ?Sized>(
     model: &M,
     t: T,
@@ -118,7 +119,7 @@ pub fn exchange<T: Real, M: Dynamics<T> + ?Sized>(
     }
 }
 
-/// [`Dynamics::arrive`] by one function after the other.
+/// [`Dynamics::arrive`], one function after the other.
 pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
     model: &M,
     t: T,
@@ -149,38 +150,38 @@ pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
     }
 }
 
-/// A model whose parameters may be changed between runs.
+/// A model whose parameters can be changed between runs.
 pub trait Adjustable<T: Real>: Dynamics<T> {
-    /// Takes these values for all parameters, in the order of [`Info::parameters`] \[SI\]. What depends on parameters alone is computed here.
+    /// Sets all parameters, in the order of [`Info::parameters`] \[SI\]. Everything that depends on parameters alone is computed here.
     fn set_parameters(&mut self, values: &[T]);
-    /// From now on only these outputs are wanted, by their index in [`Info::outputs`]: [`Dynamics::outputs`] may leave the others as they are.
-    /// Those that are wanted keep their bits. The default goes on computing all.
+    /// From now on only these outputs are needed, given by their index in [`Info::outputs`]. [`Dynamics::outputs`] need not write the others. The
+    /// needed ones keep their bits. The default computes all outputs.
     fn want_outputs(&mut self, wanted: &[usize]) {
         let _ = wanted;
     }
 }
 
-/// Models of one description over any scalar, at the default values of all parameters.
+/// The models of one description over any scalar, with the default values of all parameters.
 #[cfg(feature = "std")]
 pub trait Family {
     /// Names, units and sizes of all of them.
     fn info(&self) -> &'static Info;
-    /// The model over a scalar. It may be sent to another thread before it is used.
+    /// The model over a scalar. The caller may send it to another thread before it is used.
     fn over<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_>;
-    /// The model over a scalar for a batch. Nobody asks it for a Jacobian or a smallest pivot, so it may give anything for them. A family whose functions are compiled one by one saves time here; the default
-    /// is [`Family::over`].
+    /// The model over a scalar for a batch. A batch calls neither the Jacobian nor the smallest pivot, so these may return anything. A family that
+    /// compiles its functions one by one saves time here; the default is [`Family::over`].
     fn for_batch<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_> {
         self.over()
     }
-    /// What the parameters decide before a run, over a scalar. The default asks [`Family::over`].
+    /// The part of the model that parameters alone decide before a run, over a scalar. The default uses [`Family::over`].
     fn schedule<T: Real>(&self) -> std::boxed::Box<dyn Schedule<T> + '_> {
         std::boxed::Box::new(self.over())
     }
 }
 
-/// What the parameters of a model decide before a run: whether there is a model with them, and when curves of time have kinks.
+/// What the parameters decide before a run: whether the model is valid with them, and when curves of time have kinks.
 pub trait Schedule<T: Real> {
-    /// Takes these values for all parameters, in the order of [`Info::parameters`] \[SI\].
+    /// Sets all parameters, in the order of [`Info::parameters`] \[SI\].
     fn set_parameters(&mut self, values: &[T]);
     /// [`Dynamics::violated`]
     fn violated(&self) -> Option<usize>;
@@ -209,19 +210,19 @@ impl Info {
         self.kinds.len()
     }
 
-    /// Number of entries of the state that change during a step: all but memory, which stands last.
+    /// Number of entries of the state that change during a step: all but the discrete states, which come last.
     pub const fn varying_length(&self) -> usize {
         self.kinds.len() - self.memory.len()
     }
 
-    /// What an entry of the state is.
+    /// The kind of an entry of the state.
     pub fn kind(&self, index: usize) -> StateKind {
         self.kinds.get(index).copied().unwrap_or(StateKind::Law)
     }
 }
 
-/// A derivative of at most so many entries is handed over as a whole: stores between its statements keep the compiler from pairing these,
-/// which costs 5 % with 18 entries. With a hundred it is 2 % slower than entry by entry.
+/// A derivative of at most this many entries is returned as a whole. Stores between its statements would keep the compiler from pairing them, which
+/// costs 5 % with 18 entries. With a hundred entries, returning it as a whole is 2 % slower than entry by entry.
 const SHORT: usize = 32;
 
 /// A function of a model, compiled for the instructions that its scalar needs ([`Real::enable`]).
@@ -303,12 +304,12 @@ impl<T: Real, M: Model<T>> Task for Made<T, M> {
     }
 }
 
-/// A generated model as [`Dynamics`], by reference, without a Jacobian.
+/// A generated model by reference as [`Dynamics`], without a Jacobian.
 #[derive(Clone, Copy, Debug)]
 pub struct Direct<'a, M>(pub &'a M);
 
-/// The same with a Jacobian by dual numbers, which the Rosenbrock method needs. It is a type of its own because it takes a second compilation
-/// of the equations, over dual numbers, which no other method needs.
+/// A generated model by reference as [`Dynamics`], with a Jacobian by dual numbers, which the Rosenbrock method needs. It is a type of its own
+/// because it compiles the equations a second time, over dual numbers. No other method needs that.
 #[derive(Clone, Copy, Debug)]
 pub struct Differentiable<'a, M>(pub &'a M);
 
@@ -316,7 +317,7 @@ pub struct Differentiable<'a, M>(pub &'a M);
 #[derive(Clone, Copy, Debug)]
 pub struct Owned<M>(pub M);
 
-/// The same with a Jacobian by dual numbers, as [`Differentiable`].
+/// A generated model as [`Adjustable`], with a Jacobian by dual numbers as [`Differentiable`].
 #[derive(Clone, Copy, Debug)]
 pub struct OwnedDifferentiable<M>(pub M);
 
@@ -344,7 +345,7 @@ impl<M> OwnedDifferentiable<M> {
     }
 }
 
-/// What a run or a batch needs of [`Dynamics`] for a type that holds a model.
+/// The methods of [`Dynamics`] that a run or a batch calls, for a type that holds a model.
 macro_rules! stepping {
     () => {
         fn info(&self) -> &'static Info {
@@ -453,7 +454,7 @@ macro_rules! stepping {
     };
 }
 
-/// What a watched run needs of [`Dynamics`] for a type that holds a model: energies and momenta.
+/// The methods of [`Dynamics`] that a watched run calls, for a type that holds a model: energies and momenta.
 macro_rules! accounts {
     () => {
         fn kinetic_energy(&self, t: T, y: &[T]) -> T {
@@ -549,7 +550,7 @@ macro_rules! adjustable {
 adjustable!(Owned);
 adjustable!(OwnedDifferentiable);
 
-/// A generated model at the default values of all parameters, without a Jacobian.
+/// A generated model with the default values of all parameters, without a Jacobian.
 #[cfg(feature = "std")]
 pub fn made<T: Real, M: Model<T> + 'static>() -> std::boxed::Box<dyn Adjustable<T>> {
     std::boxed::Box::new(Owned(with_defaults::<T, M>()))
@@ -575,7 +576,7 @@ fn set_parameters<T: Real, M: Model<T>>(model: &mut M, values: &[T]) {
     *model = T::enable(Made::<T, M> { parameters });
 }
 
-/// [`Dynamics::jacobian`] column by column: an evaluation over dual numbers for each entry that varies, and one for the time.
+/// [`Dynamics::jacobian`] column by column: one evaluation over dual numbers for each entry that varies, and one for the time.
 fn jacobian_by_duals<T: Real, M: Model<T>>(
     model: &M,
     t: T,
@@ -612,7 +613,7 @@ pub struct Compiled<M>(PhantomData<M>);
 
 #[cfg(feature = "std")]
 impl<M: Model<f64>> Compiled<M> {
-    /// Of this model.
+    /// The family of the model `M`.
     pub const fn new() -> Self {
         Compiled(PhantomData)
     }
@@ -644,7 +645,7 @@ impl<M: Model<f64>> Family for Compiled<M> {
     }
 }
 
-/// A generated model for [`Family::for_batch`]: functions that no batch asks for are not compiled, and give what is no number.
+/// A generated model for [`Family::for_batch`]. What no batch calls is not compiled: it has neither a Jacobian nor a smallest pivot.
 #[cfg(feature = "std")]
 struct Batched<M>(M);
 

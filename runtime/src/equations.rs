@@ -1,7 +1,7 @@
-//! The part of `bryant_runtime` that equations need, as a crate of its own: scalars, curves, force laws, and what a model is.
+//! The part of `bryant_runtime` that equations need, as a crate of its own: scalars, curves, force laws, and the trait of models.
 //!
-//! No integrator and no time loop: what is compiled on demand contains none, and this compiles in a quarter of the time. It is the root of
-//! a crate that is called `bryant_runtime` too, and no module of the crate itself.
+//! It has no integrator and no time loop. Code that is compiled on demand needs none, and this part compiles in a quarter of the time.
+//! This file is the root of that crate, which is also called `bryant_runtime`; it is no module of the full crate.
 
 pub mod apart;
 pub mod curve;

@@ -1,17 +1,17 @@
-//! How a run can fail, in the words of the model.
+//! The ways in which a run can fail, in the words of the model.
 
 use crate::simulate::Beyond;
 use crate::{Cause, Dynamics, Extrapolate, Formula, Info, Real};
 use core::fmt;
 
-/// A run that could not go on. Every sample before [`Failure::t`] has been delivered.
+/// A run that could not go on. All samples before [`Failure::t`] were delivered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Failure {
-    /// Time at which it happened \[s\].
+    /// Time of the failure \[s\].
     pub t: f64,
-    /// What happened.
+    /// The reason.
     pub reason: Reason,
-    /// The model, for names.
+    /// The model, for its names.
     pub info: &'static Info,
 }
 
@@ -20,38 +20,38 @@ pub struct Failure {
 pub enum Reason {
     /// The state, or its derivative, is infinite or not a number.
     NonFinite {
-        /// Where in the state y, or in ẏ.
+        /// Index of the entry, in the state y or in its derivative ẏ.
         index: usize,
-        /// Which of the two.
+        /// Which quantity is not finite.
         of: Quantity,
-        /// The first output that is not finite there: it tells which force is to blame.
+        /// The first output that is not finite there. It tells which force is to blame.
         output: Option<usize>,
-        /// What is wrong there, as far as is known.
+        /// The known cause in the model.
         culprit: Culprit,
     },
     /// The tolerance asks for a step below the smallest allowed.
     StepTooSmall {
         /// The step asked for \[s\].
         step: f64,
-        /// The entry of the state whose error forced it.
+        /// The entry of the state whose error forced this step.
         index: usize,
-        /// What is wrong there, as far as is known.
+        /// The known cause in the model.
         culprit: Culprit,
     },
     /// The limit on the number of steps is reached.
     TooManySteps {
         /// The limit.
         limit: u64,
-        /// What decided the length of most of the last steps.
+        /// What limited the length of most of the last steps.
         cause: Cause,
-        /// Length of the last \[s\].
+        /// Length of the last step \[s\].
         step: f64,
     },
-    /// A setting makes no sense; nothing was computed.
+    /// A setting is invalid; nothing was computed.
     InvalidSettings(Setting),
-    /// The parameters of the model make no sense; nothing was computed.
+    /// The parameters of the model are invalid; nothing was computed.
     Refused(Refusal),
-    /// The method needs the Jacobian of the model, and the model was given without.
+    /// The method needs the Jacobian of the model, but the model was given without one.
     NoJacobian {
         /// The method.
         formula: Formula,
@@ -61,14 +61,14 @@ pub enum Reason {
 /// Why parameters are refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Refusal {
-    /// A parameter is infinite or not a number: an index in [`Info::parameters`], and its value.
+    /// A parameter is infinite or not a number: its index in [`Info::parameters`], and its value.
     NotFinite(usize, f64),
-    /// They do not keep a condition, an index in [`Info::conditions`].
+    /// The parameters violate a condition, an index in [`Info::conditions`].
     Condition(usize),
 }
 
 impl Refusal {
-    /// Why the parameters of a model are refused, if they are.
+    /// Why the parameters of a model are refused; `None` where they are valid.
     pub fn of<T: Real>(model: &dyn Dynamics<T>) -> Option<Refusal> {
         for index in 0..model.info().parameters.len() {
             if let Some(value) = model.parameter(index).map(T::to_f64)
@@ -81,41 +81,41 @@ impl Refusal {
     }
 }
 
-/// What is known to be wrong with the model at a state.
+/// The known cause of a failure, in the model, at a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Culprit {
-    /// Nothing.
+    /// No cause is known.
     Unknown,
-    /// A curve that may not be left is left.
+    /// The argument of a curve left the interval that it must not leave.
     Curve {
-        /// Which, an index in [`Info::curves`].
+        /// Index of the curve in [`Info::curves`].
         curve: usize,
         /// Its argument.
         argument: f64,
     },
-    /// The inertia of an element vanishes in this position: its acceleration is not determined.
+    /// The inertia of an element vanishes in this position, so its acceleration is not determined.
     Inertia {
-        /// Whose, an index in [`Info::pivots`].
+        /// Index of the element in [`Info::pivots`].
         pivot: usize,
-        /// What is left of it, as a share; by rounding it may be negative.
+        /// The remaining share of the inertia. Rounding may make it negative.
         share: f64,
     },
 }
 
-/// What is not finite.
+/// A quantity that is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// The state that the model starts with.
+    /// The initial state of the model.
     InitialState,
     /// The state y.
     State,
     /// Its derivative ẏ.
     Derivative,
-    /// An output, where all of these are: the index is that of the output.
+    /// An output, where all of state and derivative are finite: the index is that of the output.
     Output,
 }
 
-/// A setting that makes no sense.
+/// An invalid setting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// Its name.
@@ -127,7 +127,7 @@ pub struct Setting {
 }
 
 impl Failure {
-    /// Name of the coordinate or velocity at fault, where one is.
+    /// Name of the coordinate or velocity that failed, if there is one.
     pub fn coordinate(&self) -> Option<&'static str> {
         match self.reason {
             Reason::NonFinite {
@@ -148,7 +148,7 @@ impl Failure {
         }
     }
 
-    /// What is known to be wrong at the state where it failed.
+    /// The known cause at the state of the failure.
     fn culprit(&self) -> Culprit {
         match self.reason {
             Reason::NonFinite { culprit, .. } | Reason::StepTooSmall { culprit, .. } => culprit,
@@ -167,7 +167,7 @@ impl Failure {
                 return "no moment of inertia resists one of its rotations in this position; give it moments that are not 0";
             }
         }
-        // as much as may be left
+        // whether there is a curve that must not be left
         let curves = self.info.curves.iter();
         let error = |curve: &crate::CurveInfo| curve.extrapolate == Extrapolate::Error;
         let curves = self.info.time_ends || curves.into_iter().any(error);
@@ -183,8 +183,7 @@ impl Failure {
                 of: Quantity::Output,
                 ..
             } => {
-                "numbers so large that what is computed of them overflows, or a curve with `extrapolate: error` that left its \
-                 range"
+                "numbers so large that results overflow, or a curve with `extrapolate: error` that left its range"
             }
             Reason::NonFinite {
                 output: Some(_), ..
@@ -195,7 +194,7 @@ impl Failure {
                 "a curve with `extrapolate: error` left its range, or a fixed step is too large for the stiffest force"
             }
             Reason::NonFinite { .. } => {
-                "a fixed step is too large for the stiffest force, or a force of the user's is not defined there"
+                "a fixed step is too large for the stiffest force, or a user force is not defined there"
             }
             Reason::StepTooSmall { .. } => {
                 "a force too stiff for the mass it acts on, a friction tolerance near zero, or an error tolerance near \
@@ -236,7 +235,7 @@ impl fmt::Display for Failure {
             Reason::NoJacobian { formula } => {
                 write!(
                     f,
-                    "the method {formula} needs the Jacobian of the model, which cannot be had"
+                    "the method {formula} needs the Jacobian of the model, which this model does not have"
                 )?;
             }
             Reason::NonFinite {
@@ -323,37 +322,21 @@ impl core::error::Error for Failure {}
 #[cfg(test)]
 mod tests {
     use super::{Culprit, Failure, Quantity, Reason};
+    use crate::test_models::BARE;
     use crate::{Info, OutputInfo};
 
     const QUATERNION: Info = Info {
         name: "top",
-        digest: "",
         dimension: 3,
         coordinates: &["top.w", "top.x", "top.y", "top.z"],
         velocities: &["top.p", "top.q", "top.r"],
         kinds: &[],
         units: &[],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
         outputs: &[OutputInfo {
             name: "lap belt force",
             unit: "N",
         }],
-        parameters: &[],
-        breakpoints: &[],
-        duration: 1.0,
-        every: 0.1,
+        ..BARE
     };
     const LEAVABLE: Info = Info {
         time_ends: false,
@@ -418,7 +401,7 @@ mod tests {
         let text = failure(&QUATERNION, reason).to_string();
         assert!(text.contains("rate of the coordinate \"top.w\""), "{text}");
         assert!(text.contains("output \"lap belt force\""), "{text}");
-        // a curve that may be left is not offered as a cause, nor is one where there is none
+        // a curve that may be left is not named as a cause, and a model without curves names none
         assert!(!text.contains("curve"), "{text}");
         let info: &'static Info = &LEAVABLE;
         let text = failure(info, reason).to_string();

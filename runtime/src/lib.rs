@@ -1,8 +1,8 @@
-//! What the equations written by `bryant-generator` link against: scalars, curves, force laws, integrators, simulation.
+//! The library that equations written by `bryant-generator` link against: scalars, curves, force laws, integrators, simulation.
 //!
 //! ## Where to begin
 //!
-//! A build script calls `bryant_generator::Config`, which writes a module for each model. The crate takes it in by [`include_model!`]. You implement
+//! A build script calls `bryant_generator::Config`, which writes a module for each model. Your crate includes it by [`include_model!`]. You implement
 //! nothing: the module has a struct `Mechanism`, generic over the scalar ([`Real`]), which implements [`Model`]. The examples below use the double
 //! pendulum of `examples/stranger`, whose crate has
 //!
@@ -12,7 +12,7 @@
 //! }
 //! ```
 //!
-//! **Accelerations**, for a controller or an integrator of your own. Places have names; the units are in `INFO`.
+//! **Accelerations**, for a controller or an integrator of your own. Entries of arrays have names; the units are in `INFO`.
 //!
 //! ```
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
@@ -39,7 +39,7 @@
 //! assert!((0..2).all(|i| (acceleration[i] - expected[i]).abs() < 1e-9));
 //! ```
 //!
-//! **A run** with control of its error, sampled as the model says: [`simulate()`], or [`simulate::Run`] to go from time to time as you ask.
+//! **A run** with error control, sampled as the model says: [`simulate()`], or [`simulate::Run`] to advance from time to time as you ask.
 //!
 //! ```
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
@@ -56,8 +56,8 @@
 //! # }
 //! ```
 //!
-//! **A loop of your own**, by steps of one length: [`integrate::march`]. It works on the whole state y, which is q, v and, where force laws have such,
-//! their states z and memory m. So do the methods of [`Model`].
+//! **A loop of your own**, in steps of one length: [`integrate::march`]. It works on the whole state y: q, v and, where force laws have them, their
+//! continuous states z and discrete states m. So do the methods of [`Model`].
 //!
 //! ```
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
@@ -75,8 +75,8 @@
 //! assert!((t - 1.0).abs() < 1e-9);
 //! ```
 //!
-//! **Lanes**: several scenarios at once, one in each lane of a register. A task is written for any width ([`real::lanes::OfAnyWidth`]), and is done
-//! with the widest that the processor has.
+//! **Lanes**: several scenarios at once, one in each lane of a register. You write a task for any width ([`real::lanes::OfAnyWidth`]), and it runs
+//! with the widest registers that the processor has.
 //!
 //! ```
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
@@ -105,9 +105,9 @@
 //! assert!(angles.windows(2).all(|two| two[0] != two[1]));
 //! ```
 //!
-//! Many runs with control of their error, each lane with steps of its own, are in [`batch`].
+//! Many runs with error control, where each lane has its own steps, are in [`batch`].
 //!
-//! **Derivatives**: over [`Dual`] numbers every result has its slope beside it.
+//! **Derivatives**: over [`Dual`] numbers every result comes with its slope.
 //!
 //! ```
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
@@ -121,7 +121,7 @@
 //! assert!(slope < 0.0, "the brake slows the upper arm down");
 //! ```
 //!
-//! **Single precision**: `f32` in place of `f64`, or [`model::over`] to have the same model over another scalar.
+//! **Single precision**: use `f32` in place of `f64`, or [`model::over`] to get the same model over another scalar.
 //!
 //! ```
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
@@ -131,29 +131,29 @@
 //! assert!(upper.is_finite() && lower.is_finite());
 //! ```
 //!
-//! **Without the standard library**: `bryant-runtime = { …, default-features = false, features = ["libm", "nalgebra"] }`. The examples above work as they are but for
-//! those of `simulate()`, lanes and batches; [`simulate::run_in`] makes a run in memory that you give it. Without `nalgebra` too, the build script
-//! asks for `.matrices(false)`; if it does not, the compiler says so.
+//! **Without the standard library**: `bryant-runtime = { …, default-features = false, features = ["libm", "nalgebra"] }`. The examples above work
+//! without change, except those of `simulate()`, lanes and batches; [`simulate::run_in`] runs in memory that you give it. Without `nalgebra`, the
+//! build script must call `.matrices(false)`; if it does not, a compiler error says so.
 //!
 //! ## What is where
 //!
 //! | module | what |
 //! |---|---|
-//! | [`real`] | the scalar everything is generic over, and those that are not `f64` or `f32` |
+//! | [`real`] | the scalar that everything is generic over, and all scalars other than `f64` and `f32` |
 //! | [`curve`] | functions given by points: linear pieces, or cubic ones |
-//! | [`force`] | the constitutive laws of friction, contact, belts and switches; where ellipsoids are nearest |
-//! | [`model`] | what a generated module implements |
-//! | [`dynamics`] | the same as a table of functions over slices, which everything else in here works with |
-//! | [`integrate`] | one step of a method: where it leads, how far it errs, what lies inside it |
+//! | [`force`] | the constitutive laws of friction, contact, belts and switches; the penetration of ellipsoids |
+//! | [`model`] | the trait that a generated module implements |
+//! | [`dynamics`] | the same as a table of functions over slices, which all other modules here use |
+//! | [`integrate`] | one step of a method: its end, its error, the states inside it |
 //! | [`response`] | one number for a whole signal: peaks, injury criteria |
-//! | [`simulate`](mod@simulate) | a run, sampled; [`failure`]: how it can fail |
+//! | [`simulate`](mod@simulate) | a sampled run; [`failure`]: how it can fail |
 //! | `batch` (feature `std`) | many runs at once, one in each lane of a register |
-//! | `apart` (feature `std`) | what is compiled apart and loaded: calls with plain numbers |
-//! | `program` (feature `std`) | a run described by words and delivered as a stream: the stand-alone program |
+//! | `apart` (feature `std`) | models and functions that are compiled apart and loaded: calls with plain numbers |
+//! | `program` (feature `std`) | a run described by a few words and delivered as a stream: the stand-alone program |
 //! | `source` (feature `embedded-source`) | the text of this crate, for compiling a scene on demand |
 //!
-//! Nothing allocates and nothing needs the standard library, except `apart`, `batch`, `program` and `real::lanes`. Without `std` and `libm` the crate builds,
-//! but `f64` and `f32` lack elementary functions and so are no scalars; [`DoubleDouble`] has its own.
+//! Nothing allocates and nothing needs the standard library, except `apart`, `batch`, `program` and `real::lanes`. Without `std` and `libm` the crate
+//! still builds, but `f64` and `f32` then have no elementary functions and are no scalars; [`DoubleDouble`] has its own.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 #[cfg(feature = "std")]
@@ -225,7 +225,7 @@ pub use nalgebra;
 #[macro_export]
 macro_rules! include_model {
     ($name:tt) => {
-        // A macro that takes the model in, or lists those that there are.
+        // A macro that includes the model, or lists the models that exist.
         ::core::include!(::core::concat!(
             ::core::env!("OUT_DIR"),
             "/bryant-models.rs"
@@ -234,8 +234,8 @@ macro_rules! include_model {
     };
 }
 
-/// The types of S, r_s and r_k in generated modules, which contain `bryant_runtime::use_nalgebra!(SMatrix, SVector);`. Without the
-/// feature `nalgebra` it is an error that says what to do.
+/// The types of S, r_s and r_k in generated modules, which contain `bryant_runtime::use_nalgebra!(SMatrix, SVector);`. Without the feature `nalgebra`
+/// this is a compiler error that says what to do.
 #[cfg(feature = "nalgebra")]
 #[doc(hidden)]
 #[macro_export]
@@ -245,7 +245,7 @@ macro_rules! use_nalgebra {
     };
 }
 
-/// The error.
+/// The error without the feature.
 #[cfg(not(feature = "nalgebra"))]
 #[doc(hidden)]
 #[macro_export]

@@ -1,20 +1,20 @@
-//! What every generated module implements, and so what every integrator and runner takes.
+//! The trait that every generated module implements, and that integrators and runners take.
 
 use crate::{Extrapolate, Real};
 use core::ops::{Index, IndexMut};
 
-/// Takes results one by one, as they are found, whatever becomes of them: [`Model::each_rate`].
+/// An output writer: takes results one by one, in the order in which they are computed ([`Model::each_rate`]).
 ///
-/// An array keeps them. Whoever needs something else of each, such as the state that it leads to, makes it of the result while that is
-/// still in a register, and nothing is stored in between.
+/// An array stores them. Another sink may turn each result into something else, such as the state that it leads to, while it is still in a register;
+/// then nothing is stored in between.
 pub trait Sink<T> {
-    /// Takes the result of an index. To be `#[inline(always)]`: generated code calls it in straight lines, with indices that are known.
+    /// Takes the result with an index. Mark it `#[inline(always)]`: generated code calls it in straight lines, with indices known at compile time.
     fn put(&mut self, index: usize, value: T);
 }
 
-/// What becomes of the entries of a state, of each by itself.
+/// A change of the entries of a state, each by itself.
 pub trait Change<T> {
-    /// What becomes of the entry of an index that is `value` now. To be `#[inline(always)]`.
+    /// The new value of the entry `index`, whose value is now `value`. Mark it `#[inline(always)]`.
     fn of(&self, index: usize, value: T) -> T;
 }
 
@@ -25,7 +25,7 @@ impl<T, const N: usize> Sink<T> for [T; N] {
     }
 }
 
-/// The part of a sink that begins at an index.
+/// An offset view: the part of a sink that begins at the index `FROM`.
 pub struct Behind<'a, S, const FROM: usize>(pub &'a mut S);
 
 impl<T, S: Sink<T>, const FROM: usize> Sink<T> for Behind<'_, S, FROM> {
@@ -35,7 +35,7 @@ impl<T, S: Sink<T>, const FROM: usize> Sink<T> for Behind<'_, S, FROM> {
     }
 }
 
-/// A sink for what follows an index, from 0 on again; what comes before it is let go.
+/// An offset view the other way: passes the results from index `FROM` on to the sink, as 0, 1, …, and drops those before.
 pub struct Beyond<'a, S, const FROM: usize>(pub &'a mut S);
 
 impl<T, S: Sink<T>, const FROM: usize> Sink<T> for Beyond<'_, S, FROM> {
@@ -53,7 +53,7 @@ pub trait Vector<T>:
 {
     /// Number of entries.
     const LEN: usize;
-    /// A matrix of as many rows and columns, by rows.
+    /// A square matrix with as many rows and columns as the array has entries, by rows.
     type Square: AsRef<[Self]> + AsMut<[Self]>;
     /// An index for each entry.
     type Indices: AsRef<[usize]> + AsMut<[usize]>;
@@ -61,17 +61,17 @@ pub trait Vector<T>:
     fn splat(value: T) -> Self;
     /// The same scalar in every entry of a matrix.
     fn square(value: T) -> Self::Square;
-    /// Zeros.
+    /// Zeros, one for each entry.
     fn indices() -> Self::Indices;
-    /// A slice as such an array.
+    /// The slice as such an array.
     ///
     /// # Panics
-    /// Where it has another length.
+    /// Where the slice has another length.
     fn of(slice: &[T]) -> &Self;
-    /// A slice that may be written to as such an array.
+    /// The mutable slice as such an array.
     ///
     /// # Panics
-    /// Where it has another length.
+    /// Where the slice has another length.
     fn of_mut(slice: &mut [T]) -> &mut Self;
 }
 
@@ -105,7 +105,7 @@ impl<T: Copy, const N: usize> Vector<T> for [T; N] {
     }
 }
 
-/// Consecutive elements of an array, from one on whose place is known when this is compiled, so that nothing is left to be checked.
+/// `COUNT` consecutive elements of an array, from `FROM` on. Both are known at compile time, so no bounds are checked at run time.
 #[inline(always)]
 pub fn part<const FROM: usize, const COUNT: usize, const ALL: usize, T>(
     array: &[T; ALL],
@@ -119,42 +119,42 @@ pub fn part<const FROM: usize, const COUNT: usize, const ALL: usize, T>(
 
 /// A generated model at one set of parameters.
 ///
-/// The state y is the coordinates q followed by the velocities v; in space with quaternions an element has four
-/// coordinates (w, x, y, z) and three velocities (ω, absolute axes). Behind them stand, where the model has such, the
-/// states z of force laws, which are integrated with the rest, and their memory m, whose rate is 0: it changes only
-/// when a step was accepted ([`Model::renew`]), so that no stage of a step and no rejected step ever touches it.
+/// The state y is the coordinates q followed by the velocities v. In space with quaternions an element has four coordinates (w, x, y, z) and three
+/// velocities (ω, in absolute axes). Behind them stand, where the model has them, the continuous states z of force laws, which are integrated with
+/// the rest, and the discrete states m (the memory), whose rate is 0. m changes only by the discrete update after an accepted step
+/// ([`Model::renew`]), so no stage of a step and no rejected step changes it.
 ///
-/// In Bryant angles the first of m are the charts of the elements, which say what their angles mean: two states with different
-/// charts cannot be compared entry by entry, nor mixed.
+/// With Bryant angles the first entries of m are the charts of the elements, which say what their angles mean. Two states with different charts must
+/// not be compared or mixed entry by entry.
 pub trait Model<T: Real>: Sized {
-    /// The same model over another scalar: [`over`] makes it of the same parameters.
+    /// The same model over another scalar: [`over`] makes it with the same parameters.
     type With<U: Real>: Model<U>;
-    /// What the model leaves adjustable.
+    /// The adjustable parameters of the model.
     type Parameters: ParameterSet<T>;
-    /// y: `[T; STATE]`, as long as q, v, z and m together.
+    /// y: `[T; STATE]`, with q, v, z and m together.
     type State: Vector<T>;
     /// `[T; number of outputs]`.
     type Outputs: Vector<T>;
-    /// `[T; number of guards]`.
+    /// `[T; number of event functions (guards)]`.
     type Guards: Vector<T>;
-    /// `[T; number of kinks]`.
+    /// `[T; number of non-smooth switching functions (kinks)]`.
     type Kinks: Vector<T>;
     /// `[T; number of powers]`.
     type Powers: Vector<T>;
-    /// `[T; number of curves of the state]`.
+    /// `[T; number of curves that depend on the state]`.
     type Curves: Vector<T>;
     /// Names, units, sizes.
     const INFO: &'static Info;
 
-    /// The model with these parameters; what depends on parameters alone is computed here, once.
+    /// Makes the model with these parameters. Everything that depends on parameters alone is computed here, once.
     fn new(parameters: Self::Parameters) -> Self;
-    /// The parameters it was made with.
+    /// The parameters that it was made with.
     fn parameters(&self) -> &Self::Parameters;
-    /// Where a run starts.
+    /// The state at which a run starts.
     fn initial_state(&self) -> Self::State;
     /// ẏ at time `t` \[s\] and state `y`.
     fn derivative(&self, t: T, y: &Self::State) -> Self::State;
-    /// ẏ at time `t` \[s\] and state `y`, entry by entry: each index of the state once, in the order in which they are found.
+    /// ẏ at time `t` \[s\] and state `y`, entry by entry: each index of the state once, in the order in which they are computed.
     #[inline(always)]
     fn each_rate(&self, t: T, y: &Self::State, sink: &mut impl Sink<T>) {
         let rate = self.derivative(t, y);
@@ -162,15 +162,15 @@ pub trait Model<T: Real>: Sized {
             sink.put(i, rate[i]);
         }
     }
-    /// q̇ at the coordinates and velocities of `y`, into the part of `rate` that is of the coordinates; the rest is left
-    /// alone. The semi-implicit method needs it at old coordinates and new velocities.
+    /// q̇ at the coordinates and velocities of `y`, written into the coordinates of `rate`. The rest of `rate` is not changed. The semi-implicit
+    /// Euler method needs it at old coordinates and new velocities.
     fn coordinate_rates(&self, y: &Self::State, rate: &mut Self::State);
     /// The model's outputs, in the order and units of [`Info::outputs`].
     fn outputs(&self, t: T, y: &Self::State) -> Self::Outputs;
-    /// Puts the state back on its manifold (unit quaternions); called after every accepted step.
+    /// Puts the state back on its manifold (unit quaternions). It is called after every accepted step.
     fn normalize(&self, y: &mut Self::State);
-    /// Changes every entry, and normalizes what they are then ([`Self::normalize`]). A model that does both at once to each quaternion has its
-    /// roots and divisions done while entries of others are fetched.
+    /// Changes every entry, then normalizes the state ([`Self::normalize`]). A model that does both at once for each quaternion does its roots and
+    /// divisions while entries of others are fetched.
     #[inline(always)]
     fn normalize_changed(&self, y: &mut Self::State, change: &impl Change<T>) {
         for i in (0..Self::State::LEN).rev() {
@@ -178,39 +178,38 @@ pub trait Model<T: Real>: Sized {
         }
         self.normalize(y);
     }
-    /// Renews what is constant during a step from a state that a step was accepted with: the memory of force laws, and the charts
-    /// of Bryant angles. Where a chart changes, so do the coordinates and velocities of its element, which are of the same
-    /// orientation and angular velocity as before, within rounding. The rest of the state is left alone, z always; so is the
-    /// whole where nothing changes, to the last bit.
+    /// The discrete update after an accepted step: it renews what is constant during a step, the memory of force laws and the charts of Bryant
+    /// angles. Where a chart changes, the coordinates and velocities of its element change with it; they describe the same orientation and angular
+    /// velocity as before, within rounding. The rest of the state, z included, is not changed. If there is nothing to update, the whole state keeps
+    /// its bits.
     #[inline(always)]
     fn renew(&self, _t: T, _y: &mut Self::State) {}
-    /// Functions of the state whose change of sign is where a force law changes its branch: a step with control of its
-    /// error ends there, in the order of [`Info::guards`].
+    /// Event functions (guards), in the order of [`Info::guards`]. Where one changes its sign, a force law changes its branch. A step with error
+    /// control ends there.
     #[inline(always)]
     fn guards(&self, _t: T, _y: &Self::State) -> Self::Guards {
         Self::Guards::splat(T::from_f64(0.0))
     }
-    /// Functions of the state whose change of sign is where a force law is not smooth, though nothing that it remembers
-    /// depends on it: a contact that begins to touch, a point of a curve that is passed. In the order of
-    /// [`Info::kinks`]. A method keeps its order where its steps end at them; it is right, if less accurate, where they
-    /// are passed over.
+    /// Non-smooth switching functions (kinks), in the order of [`Info::kinks`]. Where one changes its sign, a force law is not smooth, though no
+    /// discrete state depends on it: a contact begins to touch, a point of a curve is passed. A method keeps its order where its steps end there. A
+    /// step that passes over it is still correct, but less accurate.
     #[inline(always)]
     fn kinks(&self, _t: T, _y: &Self::State) -> Self::Kinks {
         Self::Kinks::splat(T::from_f64(0.0))
     }
-    /// When laws that do not act begin to, in the order of [`Info::onsets`]: first the gap of each, positive while it certainly does not
-    /// act, of the corners of a curve the distance to the nearest, with another sign on its other side; then its speed, by which the gap changes at most, in its unit per second. With both a step is known not to have
-    /// missed anything.
+    /// When laws that do not act may begin to act, in the order of [`Info::onsets`]. First come the gaps. The gap of a law is positive while it
+    /// certainly does not act; the gap of a corner is the distance to the nearest corner of a curve, with another sign on its other side. Then come
+    /// the speeds: bounds of the rate of each gap, in its unit per second. With both, a step is known not to have missed anything.
     #[inline(always)]
     fn onsets(&self, _t: T, _y: &Self::State, _onsets: &mut [T]) {}
-    /// What the curves of the state are evaluated at, in the order of [`Info::curves`]: nobody needs it but who watches whether
-    /// they are left. Of a curve whose force is 0 it is its first abscissa.
+    /// The arguments of the curves that depend on the state, in the order of [`Info::curves`]. Only a watch needs them, to see whether a curve was
+    /// left. For a curve whose force is 0 it is its first abscissa.
     #[inline(always)]
     fn curves(&self, _t: T, _y: &Self::State) -> Self::Curves {
         Self::Curves::splat(T::from_f64(0.0))
     }
-    /// The smallest pivot of the elimination, as a share of what stands in its place before, and whose it is, an index in
-    /// [`Info::pivots`]; at 0 the accelerations are not determined. `None` where no pivot can vanish.
+    /// The smallest pivot of the elimination, as a share of the entry in its place before, and the index of its element in [`Info::pivots`]. At 0 the
+    /// accelerations are not determined. `None` where no pivot can vanish.
     #[inline(always)]
     fn smallest_pivot(&self, _t: T, _y: &Self::State) -> Option<(usize, T)> {
         None
@@ -220,41 +219,40 @@ pub trait Model<T: Real>: Sized {
     fn violated(&self) -> Option<usize> {
         None
     }
-    /// T \[J\], in absolute axes; 0 for a model that does not know it.
+    /// Kinetic energy T \[J\], in absolute axes; 0 for a model that does not compute it.
     #[inline(always)]
     fn kinetic_energy(&self, _t: T, _y: &Self::State) -> T {
         T::from_f64(0.0)
     }
-    /// Power of each effect \[W\], in the order of [`Info::powers`]: together the rate of the kinetic energy.
+    /// The power of each effect \[W\], in the order of [`Info::powers`]. Their sum is the rate of the kinetic energy.
     #[inline(always)]
     fn powers(&self, _t: T, _y: &Self::State) -> Self::Powers {
         Self::Powers::splat(T::from_f64(0.0))
     }
-    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\], in absolute axes x, y, z, of all systems whose
-    /// reference joint is free, together; 0 where there is none ([`Info::free`]).
+    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\], in absolute axes x, y, z: the sum over all systems whose reference
+    /// joint is free. 0 where there is none ([`Info::free`]).
     #[inline(always)]
     fn momentum(&self, _t: T, _y: &Self::State) -> [T; 6] {
         [T::from_f64(0.0); 6]
     }
-    /// Force \[N\] and moment about the origin \[N m\] of what force laws and fields exert on these systems: the rate of
-    /// their momentum.
+    /// The net external wrench on these systems, in absolute axes: the force \[N\] of force laws and fields, and their moment about the origin \[N
+    /// m\]. It is the rate of the momentum.
     #[inline(always)]
     fn external_wrench(&self, _t: T, _y: &Self::State) -> [T; 6] {
         [T::from_f64(0.0); 6]
     }
-    /// The first time after `t` at which a curve of time has a kink, as far as parameters say when: those that are known
-    /// beforehand are [`Info::breakpoints`]. +∞ where there is none; of lanes all have the first in any, with derivatives of their own.
+    /// The first time after `t` at which a curve of time has a kink whose time depends on parameters. Those that are known beforehand are
+    /// [`Info::breakpoints`]. +∞ where there is none. All lanes get the first time of any lane, each with its own derivatives.
     fn kink_after(&self, t: f64) -> T {
         let _ = t;
         T::from_f64(f64::INFINITY)
     }
 }
 
-/// The same model over another scalar, at the same parameters: each goes through `convert`. States of both are equally
-/// long, their entries are in the same order, and `M::INFO` is of both.
+/// The same model over another scalar, with the same parameters; `convert` converts each. The states of both have the same length and the same order
+/// of entries, and `M::INFO` holds for both.
 ///
-/// So a method that needs Jacobians makes of an `M: Model<f64>` one of dual numbers, and a reference solution one of
-/// double-doubles.
+/// So a method that needs Jacobians makes a model of dual numbers from an `M: Model<f64>`, and a reference solution makes one of double-doubles.
 pub fn over<T: Real, U: Real, M: Model<T>>(model: &M, convert: impl Fn(T) -> U) -> M::With<U> {
     let given = model.parameters();
     let mut parameters = <M::With<U> as Model<U>>::Parameters::defaults();
@@ -266,64 +264,64 @@ pub fn over<T: Real, U: Real, M: Model<T>>(model: &M, convert: impl Fn(T) -> U) 
     M::With::<U>::new(parameters)
 }
 
-/// A struct of parameters, addressable by index as listed in [`Info::parameters`].
+/// A struct of parameters, which can be addressed by index as listed in [`Info::parameters`].
 pub trait ParameterSet<T>: Clone {
-    /// The defaults of the model.
+    /// The default values of the model.
     fn defaults() -> Self;
-    /// Value at an index, `None` beyond the last.
+    /// The value at an index; `None` beyond the last.
     fn get(&self, index: usize) -> Option<T>;
-    /// Sets the value at an index; false beyond the last.
+    /// Sets the value at an index; returns false beyond the last.
     fn set(&mut self, index: usize, value: T) -> bool;
 }
 
-/// What is known of a model without evaluating anything.
+/// Everything known of a model without evaluating it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Info {
     /// Name of the model.
     pub name: &'static str,
-    /// SHA-256 of what the model says, however it is written, hexadecimal.
+    /// SHA-256 of the content of the model, hexadecimal. It does not depend on how the model is written.
     pub digest: &'static str,
-    /// 2 or 3.
+    /// 2 or 3: a planar or a spatial model.
     pub dimension: u8,
     /// Names of q, in order ("man.x", "man/head.angle", "man/head.w").
     pub coordinates: &'static [&'static str],
     /// Names of v, in order.
     pub velocities: &'static [&'static str],
-    /// What each entry of the state is, in its order: q, v, z, m.
+    /// The kind of each entry of the state, in its order: q, v, z, m.
     pub kinds: &'static [StateKind],
     /// SI unit of each entry of the state, in its order; "" for a pure number, such as a component of a quaternion.
     pub units: &'static [&'static str],
-    /// Names of z, the states of force laws, in order ("muscle biceps: activation").
+    /// Names of z, the continuous states of force laws, in order ("muscle biceps: activation").
     pub auxiliaries: &'static [&'static str],
-    /// Names of m, the charts of elements ("man/head: chart") and the memory of force laws, in order ("contact seat:
-    /// permanent set").
+    /// Names of m, the discrete states: first the charts of elements ("man/head: chart"), then the memory of force laws ("contact seat: permanent
+    /// set").
     pub memory: &'static [&'static str],
-    /// Names of the guards ("belt lap: locks").
+    /// Names of the event functions ("belt lap: locks").
     pub guards: &'static [&'static str],
-    /// Names of the kinks ("belt lap: goes taut").
+    /// Names of the non-smooth switching functions ("belt lap: goes taut").
     pub kinks: &'static [&'static str],
-    /// Names of the onsets: of laws ("contact hit: touches"), and behind them of corners ("contact hit: corner of the curve").
+    /// Names of the onsets: first those of laws ("contact hit: touches"), then those of corners ("contact hit: corner of the curve").
     pub onsets: &'static [&'static str],
-    /// How many of the onsets, the last ones, are corners of curves.
+    /// Number of the onsets that are corners of curves; they come last.
     pub corners: usize,
-    /// No step with control of its error may be longer \[s\]: a user force may begin to act at any time, and says nothing of it. Infinite
-    /// where there is none.
+    /// Longest allowed step of a method with error control \[s\]: a user force may begin to act at any time without telling. Infinite where there is
+    /// no such force.
     pub longest_step: f64,
     /// Names of the effects that do work ("contact seat: friction").
     pub powers: &'static [&'static str],
-    /// The curves of the state, the bearings of joints that bend, and the directions in which pairs of ellipsoids push.
+    /// The watched curves of the state, the bearings of joints that bend, and the directions in which pairs of ellipsoids push.
     pub curves: &'static [CurveInfo],
     /// Whether a curve of time must not be left (`extrapolate: error`).
     pub time_ends: bool,
     /// Elements whose inertia may vanish in some position ("man/head").
     pub pivots: &'static [&'static str],
-    /// What parameters must keep ("`mass` of man/head must be positive").
+    /// Conditions that parameters must satisfy ("`mass` of man/head must be positive").
     pub conditions: &'static [&'static str],
-    /// Whether a system's reference joint is free, so that there is a momentum to balance.
+    /// Whether the reference joint of some system is free, so that there is a momentum to balance.
     pub free: bool,
-    /// Column headings and units.
+    /// Headings and units of the output columns.
     pub outputs: &'static [OutputInfo],
-    /// Names and bounds.
+    /// Names, units and bounds of the parameters.
     pub parameters: &'static [ParameterInfo],
     /// Times at which a curve of time has a kink, increasing \[s\]: no step may cross one.
     pub breakpoints: &'static [f64],
@@ -334,7 +332,7 @@ pub struct Info {
 }
 
 impl Info {
-    /// What an entry of the state is called: a coordinate, a velocity or a state of a force law.
+    /// The noun for an entry of the state: a coordinate, a velocity or a state of a force law.
     pub fn state_noun(&self, index: usize) -> &'static str {
         let coordinates = self.coordinates.len();
         match index {
@@ -361,40 +359,40 @@ impl Info {
     }
 }
 
-/// What an entry of the state is: how large an error of it may be depends on that.
+/// The kind of an entry of the state. The allowed error of the entry depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StateKind {
     /// A coordinate of a reference joint \[m\].
     Position,
-    /// An angle \[rad\], or a component of a unit quaternion, which is of the size of half an angle.
+    /// An angle \[rad\], or a component of a unit quaternion, whose size is that of half an angle.
     Angle,
-    /// Of a reference joint \[m/s\].
+    /// A velocity of a reference joint \[m/s\].
     Velocity,
-    /// Of an element, or the rate of an angle \[rad/s\].
+    /// An angular velocity of an element, or the rate of an angle \[rad/s\].
     AngularVelocity,
-    /// A state of a force law, in a unit of its own.
+    /// A continuous state of a force law, in a unit of its own.
     Law,
-    /// What a force law remembers, or the chart of an element: nothing integrates it.
+    /// A discrete state: memory of a force law, or the chart of an element. Nothing integrates it.
     Memory,
 }
 
-/// What an entry of [`Info::curves`] is.
+/// The kind of an entry of [`Info::curves`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CurveKind {
     /// A curve of the state.
     Curve,
-    /// The bearing of a bent joint: the direction, seen along the long axis of what carries it, to which the other long axis is bent \[rad\],
-    /// from −π to π; [`CurveInfo::last`] where it is bent by less than 90°.
+    /// The bearing of a bent joint \[rad\], from −π to π: the direction, seen along the long axis of the carrying element, to which the other long
+    /// axis is bent. [`CurveInfo::last`] where the bend is less than 90°.
     Bearing,
-    /// A component of the direction in which two ellipsoids push each other, [`CurveInfo::last`] where they do not. Those of one contact, as
-    /// many as the model has dimensions, follow each other. Their vector has the length 1, or less where no direction is determined.
+    /// A component of the direction in which two ellipsoids push each other; [`CurveInfo::last`] where they do not. The components of one contact
+    /// follow each other, one for each dimension of the model. Their vector has the length 1, or less where no direction is determined.
     Direction(u8),
-    /// The share of the volume of an airbag that what it meets takes; 0 while it does not push. Its law ends at [`CurveInfo::last`].
+    /// The share of the volume of an airbag that a penetrating body takes; 0 while it does not push. The law ends at [`CurveInfo::last`].
     Volume,
 }
 
 impl CurveKind {
-    /// Whether it has an interval that it may leave; bearings and directions leap instead.
+    /// Whether it has an interval that its argument may leave. Bearings and directions have none; they may leap instead.
     pub(crate) fn may_be_left(self) -> bool {
         matches!(self, CurveKind::Curve | CurveKind::Volume)
     }
@@ -403,28 +401,30 @@ impl CurveKind {
 /// A curve at an argument that depends on the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveInfo {
-    /// Whose it is ("joint man/head: elastic").
+    /// Name of its effect ("joint man/head: elastic").
     pub name: &'static str,
     /// Its first abscissa.
     pub first: f64,
     /// Its last abscissa.
     pub last: f64,
-    /// Its values there.
+    /// Its values at the first and the last abscissa.
     pub ends: [f64; 2],
-    /// What it does beyond.
+    /// Its continuation beyond them.
     pub extrapolate: Extrapolate,
-    /// Whether the description says so, and it is not merely the default.
+    /// Whether the description gives this continuation, so that it is not merely the default.
     pub told: bool,
-    /// Whether it is a curve, or is only watched like one.
+    /// Whether it is a curve or another quantity that is watched like one.
     pub kind: CurveKind,
 }
 
 impl CurveInfo {
-    /// Pieces of a step between which a bearing or a direction may leap, and how often each is halved to find out: to a thousandth of the step.
+    /// Number of pieces of a step in which a bearing or a direction is checked for a leap. Each piece is then halved [`CurveInfo::HALVINGS`] times,
+    /// to a thousandth of the step.
     pub(crate) const PIECES: u32 = 4;
     pub(crate) const HALVINGS: u32 = 8;
 
-    /// Whether a bearing or a direction begins here, of how many entries; `None` for a curve and for what follows of a direction.
+    /// If a bearing or a direction begins at this entry, the number of its components. `None` for a curve and for the further components of a
+    /// direction.
     pub(crate) const fn turning(&self, dimension: u8) -> Option<usize> {
         match self.kind {
             CurveKind::Bearing => Some(1),
@@ -433,7 +433,7 @@ impl CurveInfo {
         }
     }
 
-    /// Whether a bearing or a direction leaps between two places of a step, given as (place, entries): turns by more than a quarter, or is
+    /// Whether a bearing or a direction leaps between two places of a step, given as (place, components): it turns by more than a quarter turn, or is
     /// not determined at one of them.
     pub(crate) fn leaps(&self, places: [(f64, Turning); 2]) -> bool {
         use core::f64::consts::{FRAC_PI_2, PI};
@@ -451,8 +451,8 @@ impl CurveInfo {
         }
     }
 
-    /// Whether a bearing or a direction may have leapt in a step with these entries at its ends: where it turned by more than a sixteenth
-    /// of a turn, or is there at one of them alone.
+    /// Whether a bearing or a direction may have leapt in a step with these components at its ends: it turned by more than a sixteenth of a turn, or
+    /// is determined at only one of them.
     pub(crate) fn may_leap(&self, [a, b]: [Turning; 2]) -> bool {
         use core::f64::consts::PI;
         let there = [a[0] < self.last, b[0] < self.last];
@@ -469,7 +469,7 @@ impl CurveInfo {
         }
     }
 
-    /// The half in which a bearing or a direction leaps that leaps between two places.
+    /// The half in which a bearing or a direction leaps, given that it leaps between `a` and `b`.
     pub(crate) fn half(
         &self,
         [a, b]: [(f64, Turning); 2],
@@ -481,8 +481,8 @@ impl CurveInfo {
         }
     }
 
-    /// The interval outside of which what the curve gives is made up: a line that goes on over more than the whole width of the points, or a value
-    /// other than 0 that is held though nobody asked for it.
+    /// The interval of trusted arguments. Beyond it the values of the curve are invented: a straight line over more than the whole width of the
+    /// points, or a held value other than 0 that the description did not ask for.
     pub fn trusted(&self) -> [f64; 2] {
         let endless = [f64::NEG_INFINITY, f64::INFINITY];
         match (self.kind, self.extrapolate) {
@@ -513,7 +513,7 @@ impl CurveInfo {
     }
 }
 
-/// The entries of a bearing or a direction; what it does not have is 0.
+/// The components of a bearing or a direction; unused ones are 0.
 pub(crate) type Turning = [f64; 3];
 
 fn dot(a: Turning, b: Turning) -> f64 {

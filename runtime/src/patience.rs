@@ -1,20 +1,20 @@
-//! How long the computation of a run may take.
+//! The time limit of the computation of a run.
 
 use std::time::{Duration, Instant};
 
-/// The rate of a run is that of so many seconds.
+/// The window over which the speed of a run is measured \[s\].
 const WINDOW: f64 = 10.0;
-/// A run is given up before its limit where it would take so many times as long.
+/// A run is given up before its limit if, at its speed, it would take this many times the limit.
 const HOPELESS: f64 = 10.0;
 
-/// Watches how long a run takes, and at which rate its time goes on.
+/// Watches how long a run takes, and how fast its time advances.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patience {
     start: Instant,
     limit: Option<Duration>,
-    /// When the run ends \[s\].
+    /// The time at which the run ends \[s\].
     end: f64,
-    /// When this window began, and the time of the run then \[s\].
+    /// When this window began on the clock, and the time of the run then \[s\].
     window: [f64; 2],
     late: Option<Late>,
 }
@@ -22,9 +22,9 @@ pub(crate) struct Patience {
 /// Why a run is given up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Late {
-    /// It has taken this long \[s\].
+    /// It took longer than this limit \[s\].
     Limit(f64),
-    /// At the rate of the last seconds it would take this long in all \[s\].
+    /// At the speed of the last window it would take this long in all \[s\].
     Rate(f64),
 }
 
@@ -39,7 +39,7 @@ impl Patience {
         }
     }
 
-    /// Whether a run that has come to the time `t` \[s\] is given up.
+    /// Whether a run that has reached the time `t` \[s\] is given up.
     pub fn ends_at(&mut self, t: f64) -> bool {
         if let Some(limit) = self.limit {
             let elapsed = self.start.elapsed();
@@ -51,7 +51,7 @@ impl Patience {
         self.late.is_some()
     }
 
-    /// How long it has taken \[s\].
+    /// How long the run has taken so far \[s\].
     pub fn elapsed(&self) -> f64 {
         self.start.elapsed().as_secs_f64()
     }
@@ -68,7 +68,7 @@ impl Patience {
         self.window = [elapsed, t];
         let rate = (t - from) / (elapsed - since);
         let all = elapsed + (self.end - t) / rate;
-        // a rate of 0 makes this infinite
+        // a speed of 0 makes this infinite
         (all > HOPELESS * limit).then_some(Late::Rate(all))
     }
 }
@@ -79,12 +79,12 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn a_run_that_cannot_come_to_its_end_is_given_up_before_its_limit() {
+    fn a_hopeless_run_is_given_up_before_its_time_limit() {
         let limit = 60.0;
         let fresh = || Patience::new(Some(Duration::from_secs(60)), [0.0, 1.0]);
         // 10 s for a hundredth of the run: 1000 s in all is more than ten times the limit
         assert_eq!(fresh().by_rate(10.0, limit, 0.01), Some(Late::Rate(1000.0)));
-        // twice as fast is given its chance
+        // a run twice as fast may go on
         assert_eq!(fresh().by_rate(10.0, limit, 0.02), None);
         // before the window is over, nothing is known
         assert_eq!(fresh().by_rate(9.9, limit, 0.0), None);

@@ -1,8 +1,8 @@
 //! The scalar that equations are evaluated over.
 //!
-//! Nothing in [`Real`] branches on a value: a comparison yields a [`Mask`], a choice is a [`select`](Real::select). So one
-//! text serves `f64`, `f32`, registers of several scenarios (a mask per lane), dual numbers (comparison of the real
-//! parts, selection of value and derivative together), double-double, and a scalar that counts its operations.
+//! No method of [`Real`] branches on a value: a comparison yields a [`Mask`], a choice is a [`select`](Real::select). So one text serves
+//! `f64`, `f32`, registers of several scenarios (a mask per lane), dual numbers (the value is compared, value and derivative are selected
+//! together), double-doubles, and a scalar that counts its operations.
 
 #[cfg(feature = "std")]
 mod array;
@@ -39,11 +39,11 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A real scalar, or several side by side.
 ///
-/// Generated code and force laws are generic over it. `f64` and `f32` implement it with the feature `std`, or, for
-/// targets without a standard library, with `libm`.
+/// Generated code and force laws are generic over it. `f64` and `f32` implement it with the feature `std`, or with `libm` for targets
+/// without a standard library.
 ///
-/// Not-a-number must survive, because it is how a curve reports that it was left: arithmetic carries it, and
-/// [`max`](Real::max) and [`min`](Real::min) keep it where it stands on their left.
+/// NaN must survive, because it tells that the argument of a curve left it. Arithmetic passes it on, and [`max`](Real::max) and
+/// [`min`](Real::min) keep it in their left argument.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no scalar of `bryant_runtime`",
     note = "`f64` and `f32` are scalars with the feature `std` of bryant-runtime or, without a standard library, with its feature `libm`"
@@ -63,32 +63,32 @@ pub trait Real:
     /// Result of a comparison, one truth value per lane.
     type Mask: Mask;
 
-    /// What it is made of, for functions that are compiled apart; `None` where they are not compiled for it.
+    /// Its parts, for functions that are compiled apart; `None` if they are not compiled for it.
     const FORM: Option<Form> = None;
-    /// Writes it as plain numbers, as many for each lane as [`Form::words`] says; those of lane i begin at i · `stride`. Without a form it
-    /// writes nothing.
+    /// Writes the scalar as plain numbers, [`Form::words`] for each lane. The numbers of lane i begin at i · `stride`. A scalar without a
+    /// form writes nothing.
     #[inline(always)]
     fn put(self, _stride: usize, _words: &mut [f64]) {}
-    /// What [`put`](Real::put) wrote; not-a-number where it has no form.
+    /// Reads the numbers that [`put`](Real::put) wrote; NaN for a scalar without a form.
     #[inline(always)]
     fn of_words(_stride: usize, _words: &[f64]) -> Self {
         Self::from_f64(f64::NAN)
     }
 
-    /// Runs a task compiled for the instructions that this scalar needs: of registers that not every processor has those are called
-    /// one by one, unless they are inlined into a function that is compiled for them. So whatever a run asks its model for
-    /// is a task, and all of it is inlined. Every other scalar just runs it.
+    /// Runs a task that is compiled for the instructions that this scalar needs. Instructions that not every processor has are function
+    /// calls unless they are inlined into a function that is compiled for them. So each evaluation of a model is a task, and all of it is
+    /// inlined. Every other scalar just runs the task.
     #[inline(always)]
     fn enable<W: Task>(task: W) -> W::Output {
         task.run()
     }
-    /// The same in a function of its own, for a piece of what is too long to be compiled as one.
+    /// [`Real::enable`] in a function of its own, for a part of a task that is too long to be compiled as one.
     #[inline(never)]
     fn enable_apart<W: Task>(task: W) -> W::Output {
         Self::enable(task)
     }
-    /// Takes a run over this scalar to its end, or until it is to stop. For `f64` the time loop is compiled with this crate; crates that use
-    /// it then only call it.
+    /// Runs the time loop over this scalar to its end, or until it is stopped. For `f64` the time loop is compiled with this crate, and
+    /// crates that use it only call it.
     #[cfg(not(bryant_equations))]
     #[doc(hidden)]
     fn march(
@@ -98,14 +98,14 @@ pub trait Real:
     ) -> Result<Report, Failure> {
         run.go(sink, observer)
     }
-    /// The value without its derivatives, where it has such.
+    /// The value without its derivatives, if it has any.
     #[inline(always)]
     fn frozen(self) -> Self {
         self
     }
 
-    /// The same value with the derivatives of `other`, where there are such: of an iteration that has found a value and takes one more
-    /// step for its derivatives. For other scalars that step is nothing that anybody asks for, and the compiler leaves it out.
+    /// The same value with the derivatives of `other`, if it has any. An iteration that has found a value uses it to take one more step for
+    /// the derivatives. For other scalars the result of that step is unused, and the compiler removes it.
     #[inline(always)]
     fn moving_as(self, other: Self) -> Self {
         let _ = other;
@@ -119,7 +119,7 @@ pub trait Real:
     fn from_product(a: f64, b: f64) -> Self {
         Self::from_f64(a * b)
     }
-    /// The value of the least favourable use for control of steps: of lanes the largest, of duals the real part.
+    /// The value that decides in step size control: the largest lane; the value of a dual number.
     fn to_f64(self) -> f64;
     /// `self · a + b`, fused into one rounding where the target does that fast, two roundings elsewhere.
     fn mul_add(self, a: Self, b: Self) -> Self;
@@ -127,18 +127,18 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// (sin, cos).
     fn sin_cos(self) -> (Self, Self);
-    /// Angle of the point (`x`, `self`), in (−π, π].
+    /// Angle of the point (`x`, `self`) \[rad\], in \[−π, π\].
     fn atan2(self, x: Self) -> Self;
-    /// `self` to a power, `self` not negative.
+    /// `self` to the power `power`; `self` is not negative.
     fn powf(self, power: Self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
     /// `self < other`, per lane; false for NaN.
     fn lt(self, other: Self) -> Self::Mask;
-    /// `then` where the mask is true, `otherwise` elsewhere. Both are evaluated; what is not chosen leaves no trace, not
-    /// even if it is NaN.
+    /// `then` where the mask is true, `otherwise` elsewhere. Both are evaluated. The one that is not chosen has no effect, even if it is
+    /// NaN.
     fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
-    /// True where every lane is finite (of duals: value and derivatives).
+    /// True where every lane is finite; for dual numbers, value and derivatives.
     fn is_finite(self) -> bool;
 
     /// The larger one; `self` where either is NaN, so that a NaN in `self` survives (one `maxsd` on x86-64).
@@ -153,9 +153,9 @@ pub trait Real:
         Self::select(other.lt(self), other, self)
     }
 
-    /// eˣ. Scalars that have none of their own get it of arithmetic alone: y = |x|/2¹⁰, e^y − 1 by its Taylor polynomial,
-    /// doubled ten times by e²ʸ − 1 = (e^y − 1)(e^y + 1), and the reciprocal where x < 0; relatively within (4 + 20|x|) ε,
-    /// constant where the result would leave the range of numbers.
+    /// eˣ. The default, for scalars without an exponential of their own, uses arithmetic alone: e^y − 1 for y = |x|/2¹⁰ by its Taylor
+    /// polynomial, doubled ten times by e²ʸ − 1 = (e^y − 1)(e^y + 1), and the reciprocal where x < 0. The relative error is at most
+    /// (4 + 20|x|) ε. Where the result would leave the range of numbers, it is constant.
     #[inline(always)]
     fn exp(self) -> Self {
         let num = Self::from_f64;
@@ -182,9 +182,9 @@ pub trait Real:
         Self::select(self.lt(num(0.0)), num(1.0) / result, result)
     }
 
-    /// Natural logarithm of `self`, which is not negative; −∞ of 0. Scalars that have none of their own get it of t = x^(1/2¹⁰):
-    /// 2¹⁰ ln t = 2¹¹ artanh((t − 1)/(t + 1)) by nine terms of the series, corrected once by Halley's step; absolutely within
-    /// (8 + 40|ln x|) ε for normal numbers.
+    /// Natural logarithm of `self`, which is not negative; −∞ for 0. The default, for scalars without a logarithm of their own, uses
+    /// t = x^(1/2¹⁰): ln x = 2¹⁰ ln t = 2¹¹ artanh((t − 1)/(t + 1)), by nine terms of the series and one correction by Halley's step. The
+    /// absolute error is at most (8 + 40|ln x|) ε for normal numbers.
     #[inline(always)]
     fn ln(self) -> Self {
         let num = Self::from_f64;
@@ -202,15 +202,15 @@ pub trait Real:
         let y = num(2048.0) * z * sum;
         let back = y.exp();
         let y = y + two * (self - back) / (self + back);
-        // 0 and ∞ are left to no arithmetic
+        // arithmetic does not handle 0 and ∞
         let y = Self::select(self.lt(num(f64::INFINITY)), y, self);
         let at_zero = num(f64::NEG_INFINITY) + self.taint();
         let below = Self::select(self.lt(zero), num(f64::NAN), at_zero);
         Self::select(zero.lt(self), y, below)
     }
 
-    /// Zero, or NaN where `self` is not finite: added to a result that does not depend on `self`, it still tells that
-    /// `self` was no number.
+    /// Zero, or NaN where `self` is not finite. Added to a result that does not depend on `self`, it still makes the result NaN if `self`
+    /// was not finite.
     #[inline(always)]
     fn taint(self) -> Self {
         let same = self;
@@ -218,11 +218,11 @@ pub trait Real:
     }
 }
 
-/// Something to do with a scalar's instructions: [`Real::enable`]. A closure will not do, for nobody can ask for it to be inlined.
+/// Work that uses the instructions of a scalar: [`Real::enable`]. It is no closure, because a closure cannot be marked to be inlined.
 pub trait Task {
-    /// What comes of it.
+    /// Its result.
     type Output;
-    /// Does it. To be `#[inline(always)]`.
+    /// Does the work. Mark it `#[inline(always)]`.
     fn run(self) -> Self::Output;
 }
 
@@ -238,9 +238,9 @@ pub trait Mask: Copy {
     fn or(self, other: Self) -> Self;
     /// Where it is false.
     fn not(self) -> Self;
-    /// Bit i: lane i.
+    /// The mask as bits: bit i is lane i.
     fn lanes(self) -> u32;
-    /// Lane i: bit i.
+    /// The mask from bits: lane i is bit i.
     fn of_lanes(lanes: u32) -> Self;
 }
 
@@ -281,14 +281,14 @@ impl Mask for bool {
     }
 }
 
-/// The methods of [`Real`] that `core` does not have, from the standard library. The tests may always use it. Sine and cosine of
-/// doubles are those of lanes instead: as exact, the same on every platform, and faster.
+/// The methods of [`Real`] that `core` does not have, from the standard library. The tests may always use it. Sine and cosine of doubles are
+/// those of lanes instead: as exact, faster, and the same on every platform.
 #[cfg(any(feature = "std", all(test, not(feature = "libm"))))]
 macro_rules! elementary {
     ($float:ident, $sin_cos:path; $sqrt:ident, $sin_cos_of_libm:ident, $atan2:ident, $exp:ident, $ln:ident, $pow:ident) => {
         #[inline(always)]
         fn mul_add(self, a: Self, b: Self) -> Self {
-            // without the instruction, the library's fused routine takes a hundred times as long
+            // without the instruction, the fused routine of the library takes a hundred times as long
             if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
                 $float::mul_add(self, a, b)
             } else {
@@ -371,14 +371,14 @@ macro_rules! elementary {
 
 #[cfg(feature = "std")]
 use lanes::sin_cos_of_double;
-/// Tests without the feature have no lanes.
+/// Without the feature, tests have no lanes.
 #[cfg(all(test, not(feature = "std"), not(feature = "libm")))]
 fn sin_cos_of_double(x: f64) -> (f64, f64) {
     x.sin_cos()
 }
 
-/// Implements [`Real`] for a primitive, given the names of its elementary functions in `libm`, and [`Real::run`] where
-/// that is to be compiled here.
+/// Implements [`Real`] for a primitive type, given the names of its elementary functions in `libm`, and [`Real::march`] if that is to be
+/// compiled here.
 #[cfg(any(feature = "std", feature = "libm", test))]
 macro_rules! primitive {
     (
@@ -447,7 +447,7 @@ primitive!(
     exp,
     log,
     pow,
-    // a function without parameters of its own, so that it is compiled in this crate and nowhere else
+    // a function without type parameters of its own, so that it is compiled in this crate and nowhere else
     #[cfg(not(bryant_equations))]
     #[inline(never)]
     fn march(

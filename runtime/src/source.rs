@@ -1,6 +1,6 @@
-//! The text of this crate, so that a scene can be compiled on demand with `rustc` alone.
+//! The source text of this crate, so that `rustc` alone can compile a scene on demand.
 //!
-//! Written to a directory under the paths given, it builds without any dependency:
+//! Written to a directory under the given paths, it builds without any dependency:
 //! `rustc --edition 2024 --crate-type rlib --crate-name bryant_runtime --cfg 'feature="std"' lib.rs`.
 
 macro_rules! files {

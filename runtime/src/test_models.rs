@@ -30,8 +30,67 @@ const fn unit(kind: StateKind) -> &'static str {
     }
 }
 
-/// A model without parameters and outputs, on a unit struct: names, initial state, derivative. q̇ is that of time 0, which
+/// A mass at x that has nothing else: what is not said of a model below.
+pub const BARE: Info = Info {
+    name: "",
+    digest: "",
+    dimension: 2,
+    coordinates: &["x"],
+    velocities: &["v"],
+    kinds: &[StateKind::Position, StateKind::Velocity],
+    units: &["m", "m/s"],
+    auxiliaries: &[],
+    memory: &[],
+    guards: &[],
+    kinks: &[],
+    onsets: &[],
+    corners: 0,
+    longest_step: f64::INFINITY,
+    powers: &[],
+    curves: &[],
+    time_ends: false,
+    pivots: &[],
+    conditions: &[],
+    free: false,
+    outputs: &[],
+    parameters: &[],
+    breakpoints: &[],
+    duration: 1.0,
+    every: 0.1,
+};
+
+/// What models on unit structs have in common: how many numbers there are of each kind, and where a run starts. q̇ is that of time 0, which
 /// counts only where it depends on time.
+macro_rules! bare {
+    ($model:ident, state $state:expr, outputs $outputs:expr, guards $guards:expr, kinks $kinks:expr, powers $powers:expr,
+     curves $curves:expr, from $y0:expr) => {
+        type With<U: Real> = $model;
+        type Parameters = None;
+        type State = [T; $state];
+        type Outputs = [T; $outputs];
+        type Guards = [T; $guards];
+        type Kinks = [T; $kinks];
+        type Powers = [T; $powers];
+        type Curves = [T; $curves];
+        fn new(_: None) -> Self {
+            $model
+        }
+        fn parameters(&self) -> &None {
+            &None
+        }
+        fn initial_state(&self) -> Self::State {
+            $y0.map(T::from_f64)
+        }
+        fn coordinate_rates(&self, y: &Self::State, rate: &mut Self::State) {
+            let all: Self::State = self.derivative(T::from_f64(0.0), y);
+            let coordinates = <Self as Model<T>>::INFO.coordinates.len();
+            rate[..coordinates].copy_from_slice(&all[..coordinates]);
+        }
+    };
+}
+
+/// A model without parameters and outputs, on a unit struct: names, initial state, derivative. q̇ is that of time 0, which matters only if it depends
+/// on time.
 macro_rules! model {
     ($(#[$doc:meta])* $model:ident, [$($q:literal: $q_kind:ident),*], [$($v:literal: $v_kind:ident),*], $kinks:expr, $duration:expr,
      $y0:expr, |$t:ident, $y:ident| $rate:expr) => {
@@ -40,7 +99,7 @@ macro_rules! model {
             [], |_y| []
         }
     };
-    // and with kinks of its law
+    // the same, with the kinks of a law
     ($(#[$doc:meta])* $model:ident, [$($q:literal: $q_kind:ident),*], [$($v:literal: $v_kind:ident),*], $kinks:expr, $duration:expr,
      $y0:expr, |$t:ident, $y:ident| $rate:expr, [$($name:literal),*], |$at:ident| $law_kinks:expr) => {
         $(#[$doc])*
@@ -48,57 +107,21 @@ macro_rules! model {
         pub struct $model;
 
         impl<T: Real> Model<T> for $model {
-            type With<U: Real> = $model;
-            type Parameters = None;
-            type State = [T; [$($q,)* $($v,)*].len()];
-            type Outputs = [T; 0];
-            type Guards = [T; 0];
-            type Kinks = [T; { let names: &[&str] = &[$($name),*]; names.len() }];
-            type Powers = [T; 0];
-            type Curves = [T; 0];
+            bare!($model, state [$($q,)* $($v,)*].len(), outputs 0, guards 0, kinks { let names: &[&str] = &[$($name),*]; names.len() },
+                powers 0, curves 0, from $y0);
             const INFO: &'static Info = &Info {
                 name: stringify!($model),
-                digest: "",
-                dimension: 2,
                 coordinates: &[$($q),*],
                 velocities: &[$($v),*],
                 kinds: &[$(StateKind::$q_kind,)* $(StateKind::$v_kind,)*],
                 units: &[$(unit(StateKind::$q_kind),)* $(unit(StateKind::$v_kind),)*],
-                auxiliaries: &[],
-                memory: &[],
-                guards: &[],
                 kinks: &[$($name),*],
-                onsets: &[],
-                corners: 0,
-                longest_step: f64::INFINITY,
-                powers: &[],
-                curves: &[],
-                time_ends: false,
-                pivots: &[],
-                conditions: &[],
-                free: false,
-                outputs: &[],
-                parameters: &[],
                 breakpoints: $kinks,
                 duration: $duration,
-                every: 0.1,
+                ..BARE
             };
-            fn new(_: None) -> Self {
-                $model
-            }
-            fn parameters(&self) -> &None {
-                &None
-            }
-            fn initial_state(&self) -> Self::State {
-                $y0.map(T::from_f64)
-            }
             fn derivative(&self, $t: T, $y: &Self::State) -> Self::State {
                 $rate
-            }
-            fn coordinate_rates(&self, y: &Self::State, rate: &mut Self::State) {
-                let all: Self::State = self.derivative(T::from_f64(0.0), y);
-                let coordinates = <Self as Model<T>>::INFO.coordinates.len();
-                rate[..coordinates].copy_from_slice(&all[..coordinates]);
             }
             fn outputs(&self, _: T, _: &Self::State) -> [T; 0] {
                 []
@@ -118,28 +141,12 @@ pub struct Oscillator<T = f64> {
 }
 
 impl Oscillator {
-    /// That of every scalar.
+    /// The information on the model, the same for every scalar.
     pub const INFO: &'static Info = &Info {
         name: "oscillator",
         digest: "0123",
-        dimension: 2,
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
-        kinds: &[StateKind::Position, StateKind::Velocity],
-        units: &["m", "m/s"],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
         outputs: &[OutputInfo {
             name: "energy",
             unit: "J",
@@ -151,9 +158,8 @@ impl Oscillator {
             min: 0.0,
             max: 100.0,
         }],
-        breakpoints: &[],
         duration: 2.0,
-        every: 0.1,
+        ..BARE
     };
 }
 
@@ -244,19 +250,19 @@ model! {
 }
 
 model! {
-    /// ẋ = x²: x = 1/(1 − t) has left every bound at t = 1.
+    /// ẋ = x²: x = 1/(1 − t) grows without bound at t = 1.
     Explosion, ["x": Position], [], &[], 2.0, [1.0],
     |_t, y| [y[0] * y[0]]
 }
 
 model! {
-    /// A start that is no number.
+    /// A model whose initial state has a NaN.
     Undefined, ["x": Position], ["x": Velocity], &[], 1.0, [0.0, f64::NAN],
     |_t, y| [y[1], y[0]]
 }
 
 model! {
-    /// A derivative that is no number from the start.
+    /// A model whose derivative is NaN from the start.
     Undetermined, ["x": Position], ["x": Velocity], &[], 1.0, [0.0, 0.0],
     |_t, y| [y[1], T::from_f64(0.0) / y[0]]
 }
@@ -269,31 +275,11 @@ pub struct Runaway;
 pub const SPRING: Curve<2> = Curve::new([[-1.0, 0.0], [0.45, 1e-3]], Extrapolate::Error);
 
 impl<T: Real> Model<T> for Runaway {
-    type With<U: Real> = Runaway;
-    type Parameters = None;
-    type State = [T; 2];
-    type Outputs = [T; 2];
-    type Guards = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 1];
+    bare!(Runaway, state 2, outputs 2, guards 0, kinks 0, powers 0, curves 1, from [0.0, 1.0]);
     const INFO: &'static Info = &Info {
         name: "runaway",
-        digest: "",
-        dimension: 2,
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
-        kinds: &[StateKind::Position, StateKind::Velocity],
-        units: &["m", "m/s"],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        time_ends: false,
         curves: &[CurveInfo {
             name: "spring: curve",
             first: -1.0,
@@ -303,9 +289,6 @@ impl<T: Real> Model<T> for Runaway {
             told: true,
             kind: crate::CurveKind::Curve,
         }],
-        pivots: &[],
-        conditions: &[],
-        free: false,
         outputs: &[
             OutputInfo {
                 name: "place",
@@ -316,25 +299,10 @@ impl<T: Real> Model<T> for Runaway {
                 unit: "N",
             },
         ],
-        parameters: &[],
-        breakpoints: &[],
-        duration: 1.0,
-        every: 0.1,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Runaway
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 2] {
-        [0.0, 1.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], -SPRING.value(y[0])]
-    }
-    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[0], SPRING.value(y[0])]
@@ -350,55 +318,20 @@ impl<T: Real> Model<T> for Runaway {
 pub struct Spin;
 
 impl<T: Real> Model<T> for Spin {
-    type With<U: Real> = Spin;
-    type Parameters = None;
-    type State = [T; 4];
-    type Outputs = [T; 0];
-    type Guards = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
+    bare!(Spin, state 4, outputs 0, guards 0, kinks 0, powers 0, curves 0, from [1.0, 0.0, 0.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "spin",
-        digest: "",
         dimension: 3,
         coordinates: &["w", "x", "y", "z"],
         velocities: &[],
         kinds: &[StateKind::Angle; 4],
         units: &["rad", "rad", "rad", "rad"],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
         duration: 100.0,
         every: 10.0,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Spin
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 4] {
-        [1.0, 0.0, 0.0, 0.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, q: &[T; 4]) -> [T; 4] {
         [-q[3], -q[2], q[1], q[0]]
-    }
-    fn coordinate_rates(&self, y: &[T; 4], rate: &mut [T; 4]) {
-        *rate = self.derivative(T::from_f64(0.0), y);
     }
     fn outputs(&self, _: T, _: &[T; 4]) -> [T; 0] {
         []
@@ -409,60 +342,24 @@ impl<T: Real> Model<T> for Spin {
     }
 }
 
-/// x = −cos t, with a guard where x turns round, at t = π, 2π …, and a memory of the largest x that a step ended with.
+/// x = −cos t. An event function changes its sign where x turns round, at t = π, 2π …; the memory is the largest x at the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Ratchet;
 
 impl<T: Real> Model<T> for Ratchet {
-    type With<U: Real> = Ratchet;
-    type Parameters = None;
-    type State = [T; 3];
-    type Outputs = [T; 0];
-    type Guards = [T; 1];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
+    bare!(Ratchet, state 3, outputs 0, guards 1, kinks 0, powers 0, curves 0, from [-1.0, 0.0, -2.0]);
     const INFO: &'static Info = &Info {
         name: "ratchet",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
-        auxiliaries: &[],
         memory: &["largest"],
         guards: &["turns"],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
         duration: 10.0,
         every: 0.5,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Ratchet
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 3] {
-        [-1.0, 0.0, -2.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, &[x, v, _]: &[T; 3]) -> [T; 3] {
         [v, -x, T::from_f64(0.0)]
-    }
-    fn coordinate_rates(&self, y: &[T; 3], rate: &mut [T; 3]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
         []
@@ -476,60 +373,25 @@ impl<T: Real> Model<T> for Ratchet {
     }
 }
 
-/// x = t, with a guard that from t = 0.5 on changes its sign wherever x leaves the place where memory was renewed: every step is cut down to a rounding of x.
+/// x = t. From t = 0.5 on, the event function changes its sign wherever x leaves the place of the last update, so every step is cut down to a
+/// rounding of x.
 #[derive(Clone, Copy, Debug)]
 pub struct Ledge;
 
 impl<T: Real> Model<T> for Ledge {
-    type With<U: Real> = Ledge;
-    type Parameters = None;
-    type State = [T; 3];
-    type Outputs = [T; 0];
-    type Guards = [T; 1];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
+    bare!(Ledge, state 3, outputs 0, guards 1, kinks 0, powers 0, curves 0, from [0.0, 1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "ledge",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
-        auxiliaries: &[],
         memory: &["largest"],
         guards: &["leaves"],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
         duration: 10.0,
         every: 0.5,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Ledge
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 3] {
-        [0.0, 1.0, 0.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, &[_, v, _]: &[T; 3]) -> [T; 3] {
         [v, T::from_f64(0.0), T::from_f64(0.0)]
-    }
-    fn coordinate_rates(&self, y: &[T; 3], rate: &mut [T; 3]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
         []
@@ -545,61 +407,23 @@ impl<T: Real> Model<T> for Ledge {
     }
 }
 
-/// A point that is pushed hard from one moment on, at which no step ends, and that counts how often it is renewed.
+/// A point that is pushed hard from a certain moment on, at which no step ends. It counts how often it is updated.
 #[derive(Clone, Copy, Debug)]
 pub struct Counter;
 
 impl<T: Real> Model<T> for Counter {
-    type With<U: Real> = Counter;
-    type Parameters = None;
-    type State = [T; 3];
-    type Outputs = [T; 0];
-    type Guards = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
+    bare!(Counter, state 3, outputs 0, guards 0, kinks 0, powers 0, curves 0, from [0.0, 1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "counter",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
-        auxiliaries: &[],
         memory: &["renewals"],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
         duration: 2.0,
-        every: 0.1,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Counter
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 3] {
-        [0.0, 1.0, 0.0].map(T::from_f64)
-    }
     fn derivative(&self, t: T, &[_, v, _]: &[T; 3]) -> [T; 3] {
         let (zero, push) = (T::from_f64(0.0), T::from_f64(1e4));
         [v, T::select(T::from_f64(1.234).lt(t), push, zero), zero]
-    }
-    fn coordinate_rates(&self, y: &[T; 3], rate: &mut [T; 3]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
         []
@@ -610,25 +434,14 @@ impl<T: Real> Model<T> for Counter {
     }
 }
 
-/// Time goes by; a first switch fires at 1 s, a second one where the first has fired, a third where the second has.
+/// Time passes. A first switch fires at 1 s, a second one after the first, a third after the second.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain;
 
 impl<T: Real> Model<T> for Chain {
-    type With<U: Real> = Chain;
-    type Parameters = None;
-    type State = [T; 5];
-    type Outputs = [T; 0];
-    type Guards = [T; 3];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
+    bare!(Chain, state 5, outputs 0, guards 3, kinks 0, powers 0, curves 0, from [0.0, 0.0, 9.0, 9.0, 9.0]);
     const INFO: &'static Info = &Info {
         name: "chain",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
         kinds: &[
             StateKind::Position,
             StateKind::Velocity,
@@ -637,40 +450,15 @@ impl<T: Real> Model<T> for Chain {
             StateKind::Memory,
         ],
         units: &["m", "m/s", "", "", ""],
-        auxiliaries: &[],
         memory: &["first", "second", "third"],
         guards: &["first", "second", "third"],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
-        powers: &[],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
         duration: 2.0,
         every: 0.5,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Chain
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 5] {
-        [0.0, 0.0, 9.0, 9.0, 9.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, &[_, v, ..]: &[T; 5]) -> [T; 5] {
         let zero = T::from_f64(0.0);
         [v, zero, zero, zero, zero]
-    }
-    fn coordinate_rates(&self, y: &[T; 5], rate: &mut [T; 5]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 5]) -> [T; 0] {
         []
@@ -684,7 +472,7 @@ impl<T: Real> Model<T> for Chain {
     }
     fn guards(&self, t: T, &[_, _, first, second, third]: &[T; 5]) -> [T; 3] {
         let (one, ever) = (T::from_f64(1.0), T::from_f64(8.0));
-        // what has fired rests at 1
+        // the event function of a switch that has fired stays at 1
         let waiting = |time: T, guard: T| T::select(time.lt(ever), one, guard);
         [
             waiting(first, one - t),
@@ -695,7 +483,7 @@ impl<T: Real> Model<T> for Chain {
 }
 
 model! {
-    /// A ball that falls from 1 m upon a spring of 100 N/m: the force has a kink where it touches.
+    /// A ball that falls from 1 m onto a spring of 100 N/m: the force has a kink where it touches.
     Ball, ["z": Position], ["z": Velocity], &[], 3.0, [1.0, 0.0],
     |_t, y| {
         let (zero, stiffness) = (T::from_f64(0.0), T::from_f64(100.0));
@@ -706,8 +494,8 @@ model! {
 }
 
 model! {
-    /// A mass of 1 kg that runs into a belt at 2 m/s: from 1 m on it is pulled back by 100 N/m and 4 N s/m, never pushed. The
-    /// force jumps where the belt goes taut.
+    /// A mass of 1 kg that runs into a belt at 2 m/s. From 1 m on the belt pulls it back with 100 N/m and 4 N s/m, and never pushes. The force jumps
+    /// where the belt goes taut.
     Tether, ["x": Position], ["x": Velocity], &[], 1.5, [0.0, 2.0],
     |_t, y| {
         let zero = T::from_f64(0.0);
@@ -722,60 +510,20 @@ model! {
     }
 }
 
-/// A mass of 1 kg under 1 N whose power lacks a tenth from 0.5 s on.
+/// A mass of 1 kg under 1 N, whose reported power is a tenth too small from 0.5 s on.
 #[derive(Clone, Copy, Debug)]
 pub struct Leaky;
 
 impl<T: Real> Model<T> for Leaky {
-    type With<U: Real> = Leaky;
-    type Parameters = None;
-    type State = [T; 2];
-    type Outputs = [T; 0];
-    type Guards = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 1];
-    type Curves = [T; 0];
+    bare!(Leaky, state 2, outputs 0, guards 0, kinks 0, powers 1, curves 0, from [0.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "Leaky",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
-        kinds: &[StateKind::Position, StateKind::Velocity],
-        units: &["m", "m/s"],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
         powers: &["thrust"],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
         breakpoints: &[0.5],
-        duration: 1.0,
-        every: 0.1,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Leaky
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 2] {
-        [0.0, 0.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], T::from_f64(1.0)]
-    }
-    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 2]) -> [T; 0] {
         []
@@ -795,55 +543,14 @@ impl<T: Real> Model<T> for Leaky {
 pub struct Stage;
 
 impl<T: Real> Model<T> for Stage {
-    type With<U: Real> = Stage;
-    type Parameters = None;
-    type State = [T; 2];
-    type Outputs = [T; 0];
-    type Guards = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 1];
-    type Curves = [T; 0];
+    bare!(Stage, state 2, outputs 0, guards 0, kinks 0, powers 1, curves 0, from [1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "Stage",
-        digest: "",
-        dimension: 2,
-        coordinates: &["x"],
-        velocities: &["v"],
-        kinds: &[StateKind::Position, StateKind::Velocity],
-        units: &["m", "m/s"],
-        auxiliaries: &[],
-        memory: &[],
-        guards: &[],
-        kinks: &[],
-        onsets: &[],
-        corners: 0,
-        longest_step: f64::INFINITY,
         powers: &["spring"],
-        curves: &[],
-        time_ends: false,
-        pivots: &[],
-        conditions: &[],
-        free: false,
-        outputs: &[],
-        parameters: &[],
-        breakpoints: &[],
-        duration: 1.0,
-        every: 0.1,
+        ..BARE
     };
-    fn new(_: None) -> Self {
-        Stage
-    }
-    fn parameters(&self) -> &None {
-        &None
-    }
-    fn initial_state(&self) -> [T; 2] {
-        [1.0, 0.0].map(T::from_f64)
-    }
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], -y[0]]
-    }
-    fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
-        rate[0] = y[1];
     }
     fn outputs(&self, _: T, _: &[T; 2]) -> [T; 0] {
         []

@@ -1,4 +1,4 @@
-//! A scalar that only the tests need, to show that the trait carries several scenarios at once: two lanes.
+//! A scalar of two lanes for the tests only. It shows that the trait carries several scenarios at once.
 
 use crate::real::{Mask, Real};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};

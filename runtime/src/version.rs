@@ -1,14 +1,15 @@
 //! The contract between generated code and this crate.
 
-/// Version of the contract between generated code and this crate. It changes whenever code written for one would not work
-/// with the other.
+/// Version of the contract between generated code and this crate. It changes whenever code generated for one version
+/// would not work with another.
 pub const GENERATED_CODE_VERSION: u32 = 14;
 
-/// Stops compilation where generated code and this crate do not belong together; generated modules contain
-/// `const _: () = bryant_runtime::check_generated_code_version(13);`
+/// Stops compilation if generated code and this crate do not belong together. Generated modules contain
+/// `const _: () = bryant_runtime::check_generated_code_version(VERSION);` with the version that they were generated
+/// for.
 ///
 /// # Panics
-/// At compile time, where the versions differ.
+/// At compile time, if the versions differ.
 pub const fn check_generated_code_version(version: u32) {
     assert!(
         version >= GENERATED_CODE_VERSION,

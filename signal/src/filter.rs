@@ -1,4 +1,4 @@
-//! Filters of channel frequency classes (ISO 6487, SAE J211-1) of signals: [`bryant_runtime::response::filter`] has the mathematics.
+//! Filters of channel frequency classes (ISO 6487, SAE J211-1) for signals: [`bryant_runtime::response::filter`] has the mathematics.
 
 use crate::Signal;
 use bryant_runtime::response::filter;
@@ -15,7 +15,8 @@ pub fn letter(class: Class) -> char {
     }
 }
 
-/// The class that a channel code of ISO-MME says its samples are filtered by; `None` where it says none, or is no code.
+/// The class with which the samples of a channel were filtered, by its channel code of ISO-MME; `None` if the code gives none or is not a
+/// code.
 pub fn class_of_code(code: &str) -> Option<Class> {
     let last = code.chars().nth(15).filter(|_| code.len() == 16);
     Class::ALL
@@ -23,7 +24,7 @@ pub fn class_of_code(code: &str) -> Option<Class> {
         .find(|class| Some(letter(*class)) == last)
 }
 
-/// `CFC180`, `cfc 180` or `180`.
+/// A class, written as `CFC180`, `cfc 180` or `180`.
 ///
 /// # Errors
 /// There is no such class.
@@ -36,7 +37,7 @@ pub fn class(text: &str) -> Result<Class, UnknownClass> {
     known.ok_or_else(|| UnknownClass(text.to_owned()))
 }
 
-/// A class that there is not.
+/// A class that does not exist.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("there is no filter class `{0}`: give CFC60, CFC180, CFC600 or CFC1000")]
 pub struct UnknownClass(pub String);
@@ -45,25 +46,25 @@ pub struct UnknownClass(pub String);
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FilterError {
     /// The samples are too far apart for the class.
-    #[error("{class} needs a sample every {:.3} ms at least, and here is one every {:.3} ms", 1e3 * class.longest_interval(), 1e3 * interval)]
+    #[error("{class} needs a sample every {:.3} ms at least, but there is one every {:.3} ms", 1e3 * class.longest_interval(), 1e3 * interval)]
     TooCoarse {
         /// The class.
         class: Class,
-        /// Of the samples \[s\].
+        /// Time between the samples \[s\].
         interval: f64,
     },
     /// There are too few samples.
-    #[error("a filter needs ten samples at least, and here are {0}")]
+    #[error("a filter needs ten samples at least, but there are only {0}")]
     TooFew(usize),
     /// Samples are missing.
     #[error("the sample at {0} s is missing, and a filter needs all")]
     Missing(f64),
 }
 
-/// The signal filtered. Samples must be at least ten times as frequent as the class says, as both standards ask.
+/// The filtered signal. The samples must be at least ten times as frequent as the class says, as both standards require.
 ///
 /// # Errors
-/// Where samples are too far apart, too few, or missing.
+/// The samples are too far apart, there are too few, or some are missing.
 pub fn filtered(signal: &Signal, class: Class, standard: Standard) -> Result<Signal, FilterError> {
     let interval = signal.interval;
     if !class.allows(interval) {
@@ -84,7 +85,7 @@ mod tests {
     use crate::Signal;
     use std::f64::consts::PI;
 
-    /// a₀, b₁, b₂ at 1e-4 s and 1e-5 s, computed in many digits by others.
+    /// a₀, b₁, b₂ at 1e-4 s and 1e-5 s, computed by others with many digits.
     #[test]
     fn coefficients_are_those_of_the_standards() {
         let given = [
@@ -165,7 +166,7 @@ mod tests {
         }
     }
 
-    /// A half-sine of 10 ms: its peak, and where it begins, filtered; computed by others.
+    /// A half-sine of 10 ms, computed by others: its peak, and its beginning, filtered.
     #[test]
     fn a_pulse_is_filtered_as_by_others() {
         let pulse = signal(|t| match (0.02..=0.03).contains(&t) {

@@ -1,4 +1,4 @@
-//! Signals of tests and simulations: what both have in common, so that they can be compared.
+//! Signals of tests and simulations in a common form, so that they can be compared.
 //!
 //! | module | what |
 //! |---|---|

@@ -1,6 +1,6 @@
-//! How well a signal agrees with a reference: ISO 18571, four numbers from 0 to 1 and their weighted mean.
+//! The agreement of a signal with a reference by ISO 18571: four numbers from 0 to 1 and their weighted mean.
 //!
-//! Of a reference R and a comparison C, both of N samples at 10 kHz, over the interval that is judged:
+//! R is the reference and C the comparison, both with N samples at 10 kHz over the rated interval:
 //!
 //! | part | weight | what |
 //! |---|---|---|
@@ -9,30 +9,30 @@
 //! | magnitude | 0.2 | where the shifted signals overlap, C is warped in time onto R (dynamic time warping, within 10 %): 1 − E/0.5, E = Σ\|C − R\|/Σ\|R\| |
 //! | slope | 0.2 | there, too, of the slopes, each the mean of nine: 1 − E/2 |
 //!
-//! The phase takes the smallest shift of those that correlate best, to the left before to the right. Where ways through the warping cost the same, the step along
-//! both signals is taken before one along the reference alone, and that before one along the comparison.
+//! The phase takes the smallest shift among those that correlate best, a shift to the left before one to the right. If several paths of the
+//! warping cost the same, a step along both signals is taken first, then one along the reference alone, then one along the comparison.
 
 use thiserror::Error;
 
-/// Samples of ISO 18571 a second.
+/// Samples per second in ISO 18571.
 pub const RATE: f64 = 1e4;
 
-/// How well two signals agree, each number from 0 to 1.
+/// The agreement of two signals; each number is from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rating {
-    /// How much lies near the reference.
+    /// How close the comparison is to the reference.
     pub corridor: f64,
-    /// How little it must be shifted.
+    /// How little the comparison must be shifted.
     pub phase: f64,
-    /// How large it is.
+    /// How well the magnitudes agree.
     pub magnitude: f64,
-    /// How steep it is.
+    /// How well the slopes agree.
     pub slope: f64,
-    /// By how many samples the comparison is late; negative where it is early.
+    /// Number of samples by which the comparison is late; negative if it is early.
     pub late: i64,
 }
 
-/// Why signals cannot be rated.
+/// Why two signals cannot be rated.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum RatingError {
     /// They have different lengths.
@@ -49,7 +49,7 @@ pub enum RatingError {
     Constant,
 }
 
-/// A word for a rating.
+/// The grade of a rating.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grade {
     /// Above 0.94.
@@ -58,7 +58,7 @@ pub enum Grade {
     Good,
     /// Above 0.58.
     Fair,
-    /// All else.
+    /// Everything else.
     Poor,
 }
 
@@ -79,7 +79,7 @@ impl Rating {
         0.4 * self.corridor + 0.2 * (self.phase + self.magnitude + self.slope)
     }
 
-    /// The word for the weighted mean.
+    /// The grade of the weighted mean.
     pub fn grade(&self) -> Grade {
         match self.overall() {
             overall if overall > 0.94 => Grade::Excellent,
@@ -90,10 +90,10 @@ impl Rating {
     }
 }
 
-/// Rates a comparison by a reference, both at 10 kHz over the interval that is judged.
+/// Rates a comparison by a reference, both at 10 kHz over the rated interval.
 ///
 /// # Errors
-/// Where the signals have different lengths or are too short, a sample is missing, or the reference never changes.
+/// The signals have different lengths or are too short, a sample is missing, or the reference never changes.
 pub fn rate(reference: &[f64], comparison: &[f64]) -> Result<Rating, RatingError> {
     let count = reference.len();
     if comparison.len() != count {
@@ -144,7 +144,7 @@ fn corridor(reference: &[f64], comparison: &[f64]) -> f64 {
     scores / reference.len() as f64
 }
 
-/// By how many samples the comparison is late.
+/// Number of samples by which the comparison is late.
 fn best_shift(reference: &[f64], comparison: &[f64]) -> i64 {
     let count = reference.len();
     let mut best = (correlation(reference, comparison), 0);
@@ -161,7 +161,7 @@ fn best_shift(reference: &[f64], comparison: &[f64]) -> i64 {
     best.1
 }
 
-/// Pearson's coefficient; −1 of a signal that does not change, which correlates with nothing.
+/// Pearson's coefficient; −1 for a signal that does not change, because it correlates with nothing.
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let count = a.len() as f64;
     let mean = |x: &[f64]| x.iter().sum::<f64>() / count;
@@ -179,7 +179,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
     }
 }
 
-/// The step by which a place of the warping is reached.
+/// The step by which a cell of the warping is reached.
 #[derive(Clone, Copy, PartialEq)]
 enum Step {
     Both,
@@ -187,13 +187,13 @@ enum Step {
     Comparison,
 }
 
-/// Σ|C − R|/Σ|R| of signals of one length, warped onto each other.
+/// Σ|C − R|/Σ|R| of two signals of the same length, warped onto each other.
 fn warped_error(reference: &[f64], comparison: &[f64]) -> f64 {
     let count = reference.len();
-    // |i − j| at most
+    // largest |i − j|
     let band = (count.div_ceil(10)).max(1) - 1;
     let width = 2 * band + 1;
-    // of a row the places j = i − band … i + band
+    // each row holds the cells j = i − band … i + band
     let mut before = vec![f64::INFINITY; width];
     let mut steps = vec![Step::Both; count * width];
     for i in 0..count {
@@ -203,7 +203,7 @@ fn warped_error(reference: &[f64], comparison: &[f64]) -> f64 {
                 continue;
             };
             let cost = (reference[i] - comparison[j]).powi(2);
-            // one row up, j is one place further right
+            // in the row above, the same j is one place further right
             let both = if i > 0 && j > 0 {
                 before[k]
             } else {
@@ -233,7 +233,7 @@ fn warped_error(reference: &[f64], comparison: &[f64]) -> f64 {
         }
         before = row;
     }
-    // back from the end
+    // the path from the end back to the start
     let (mut i, mut j) = (count - 1, count - 1);
     let (mut apart, mut size) = (0.0, 0.0);
     loop {
@@ -266,7 +266,7 @@ fn slopes(x: &[f64]) -> Vec<f64> {
     (0..x.len()).map(slope).collect()
 }
 
-/// The mean of nine, of 1, 3, 5, 7 towards the ends.
+/// The mean of nine values; of 1, 3, 5, 7 values towards the ends.
 fn smooth(x: &[f64]) -> Vec<f64> {
     let last = x.len() - 1;
     let mean = |i: usize| {
@@ -286,7 +286,7 @@ mod tests {
         (0..count).map(|i| of(f64::from(i) * 1e-4)).collect()
     }
 
-    /// A half-sine of 40 ms and 50 that begins at `begin`.
+    /// A half-sine of 40 ms with the amplitude 50 that begins at `begin`.
     fn pulse(begin: f64) -> Vec<f64> {
         samples(1001, |t| match (begin..=begin + 0.04).contains(&t) {
             true => 50.0 * (PI * (t - begin) / 0.04).sin(),
@@ -366,7 +366,7 @@ mod tests {
         let mut missing = pulse.clone();
         missing[3] = f64::NAN;
         assert_eq!(rate(&pulse, &missing), Err(RatingError::Missing));
-        // a comparison that never changes is as bad as can be, but is rated
+        // a comparison that never changes is as bad as possible, but is rated
         let poor = rate(&pulse, &vec![0.0; 1001]).unwrap();
         assert_eq!(
             (poor.grade(), poor.magnitude, poor.late),

@@ -7,11 +7,11 @@ use thiserror::Error;
 /// One channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// What it is called: the output of a run, the channel code of a test.
+    /// Its name: the name of an output of a run, or the channel code of a test.
     pub name: String,
-    /// What it is called besides, if anything: the name of the channel in words.
+    /// An additional name, if there is one: the name of the channel in words.
     pub title: String,
-    /// Its unit as it is spelled; empty where none is said.
+    /// Its unit as it is written; empty if it is not given.
     pub unit: String,
     /// Its samples.
     pub signal: Signal,
@@ -27,22 +27,22 @@ pub struct Recording {
 /// Why a recording cannot be read.
 #[derive(Debug, Error)]
 pub enum ReadError {
-    /// The file system says no.
+    /// An error of the file system.
     #[error("{path}: {error}")]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error.
         error: std::io::Error,
     },
-    /// A file holds something else than it should.
+    /// The content of a file is wrong.
     #[error("{path}:{line}: {message}")]
     Content {
         /// The file.
         path: PathBuf,
         /// The line, from 1 on.
         line: u64,
-        /// What is wrong, with the remedy.
+        /// The error, with the remedy.
         message: String,
     },
 }
@@ -57,7 +57,7 @@ impl ReadError {
     }
 }
 
-/// A regular file as bytes.
+/// The bytes of a regular file.
 pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadError> {
     let failed = |error| ReadError::Io {
         path: path.to_owned(),
@@ -70,10 +70,10 @@ pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadError> {
 }
 
 impl Recording {
-    /// The channels of a CSV file, or of an ISO-MME file `.mme`, with its folder `Channel`; of a folder, those of the one `.mme` file in it.
+    /// The channels of a CSV file, or of an ISO-MME file `.mme` with its folder `Channel`, or of a folder with one `.mme` file.
     ///
     /// # Errors
-    /// Where a file cannot be read, or holds something else.
+    /// A file cannot be read, or its content is wrong.
     pub fn read(path: &Path) -> Result<Recording, ReadError> {
         let is_mme = path
             .extension()
@@ -84,7 +84,7 @@ impl Recording {
         }
     }
 
-    /// The channel of this name, or else of this title.
+    /// The channel with this name, or else the one with this title.
     pub fn channel(&self, name: &str) -> Option<&Channel> {
         let by = |of: fn(&Channel) -> &str| self.channels.iter().find(|one| of(one) == name);
         by(|one| &one.name).or_else(|| by(|one| &one.title))

@@ -1,9 +1,9 @@
 //! Numbers at equal intervals of time.
 
-/// How much intervals may differ and still count as equal, beside their mean: times are printed with few digits.
+/// Intervals count as equal if they deviate by at most this share of their mean: times are printed with few digits.
 const UNEVEN: f64 = 1e-3;
 
-/// Numbers at equal intervals of time. Not-a-number stands for a sample that is missing.
+/// Numbers at equal intervals of time. NaN stands for a missing sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signal {
     /// Time of the first sample \[s\].
@@ -15,7 +15,7 @@ pub struct Signal {
 }
 
 impl Signal {
-    /// Samples at these times, where the times are at equal intervals; `None` where they are not, or where there are less than two.
+    /// Samples at these times if the times are at equal intervals; `None` if they are not, or if there are fewer than two.
     pub fn of_samples(times: &[f64], values: &[f64]) -> Option<Signal> {
         let (first, last) = (*times.first()?, *times.last()?);
         let count = times.len();
@@ -43,11 +43,11 @@ impl Signal {
         self.time(self.values.len().saturating_sub(1))
     }
 
-    /// The number at a time between the first sample and the last, by a straight line between neighbours; not-a-number elsewhere.
+    /// The value at a time between the first sample and the last, interpolated linearly; NaN elsewhere.
     pub fn at(&self, time: f64) -> f64 {
         let place = (time - self.first) / self.interval;
         let last = self.values.len() as f64 - 1.0;
-        // what rounding takes away from the ends is given back
+        // a time slightly outside by rounding counts as inside
         let inside = -UNEVEN <= place && place <= last + UNEVEN;
         if !inside {
             return f64::NAN;
@@ -61,7 +61,7 @@ impl Signal {
         }
     }
 
-    /// The same signal from one time to another, at other intervals. Times outside have not-a-number.
+    /// The same signal from one time to another, at other intervals. Times outside have the value NaN.
     pub fn resampled(&self, from: f64, to: f64, interval: f64) -> Signal {
         let count = ((to - from) / interval + UNEVEN).floor() as usize + 1;
         let values = (0..count).map(|i| self.at(from + i as f64 * interval));

@@ -7,7 +7,7 @@ use std::path::Path;
 /// Reads a table. An empty cell is a sample that is missing.
 ///
 /// # Errors
-/// Where the file cannot be read, a cell is no number, or times are not at equal intervals.
+/// The file cannot be read, a cell is not a number, or times are not at equal intervals.
 pub fn read(path: &Path) -> Result<Recording, ReadError> {
     let bytes = bytes_of(path)?;
     let mut reader = csv::Reader::from_reader(bytes.as_slice());
@@ -74,7 +74,7 @@ pub fn read(path: &Path) -> Result<Recording, ReadError> {
     Ok(Recording { channels })
 }
 
-/// `head acceleration [m/s^2]` as its parts.
+/// The parts of `head acceleration [m/s^2]`.
 fn name_and_unit(column: &str) -> (&str, &str) {
     let column = column.trim();
     let parts = column

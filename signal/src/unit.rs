@@ -1,9 +1,9 @@
-//! Units of channels, as they are spelled in tables and in files of test data.
+//! Units of channels, as they are written in tables and in files of test data.
 
-/// A quantity, by the spelling that is its SI unit.
+/// A quantity, named by its SI unit as it is written here.
 type Quantity = &'static str;
 
-/// Spellings, the quantity, and the SI value of one unit.
+/// Ways to write a unit, its quantity, and the SI value of one unit.
 const KNOWN: &[(&str, Quantity, f64)] = &[
     ("m/s^2", "m/s^2", 1.0),
     ("m/(s*s)", "m/s^2", 1.0),
@@ -38,14 +38,14 @@ const KNOWN: &[(&str, Quantity, f64)] = &[
     ("-", "1", 1.0),
 ];
 
-/// The SI unit of the quantity that a unit measures; `None` of one that is not known.
+/// The SI unit of the quantity that a unit measures; `None` for an unknown unit.
 pub fn quantity(unit: &str) -> Option<&'static str> {
     let known = KNOWN.iter().find(|known| known.0 == unit);
     known.map(|known| known.1)
 }
 
-/// What a number in one unit is to be multiplied by to be one in another; `None` where they are different quantities, or one of them is not known and they are
-/// spelled differently. Units that are not said fit none that are.
+/// The factor that converts numbers from one unit to another; `None` if the quantities differ, or if one unit is unknown and they are
+/// written differently. A missing unit fits no given unit.
 pub fn factor(from: &str, to: &str) -> Option<f64> {
     if from == to {
         return Some(1.0);

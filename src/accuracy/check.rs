@@ -1,14 +1,15 @@
-//! The check of a run by a second one, by another formula and at a tenth of the tolerance.
+//! A run is checked by a second run: by another formula and at a tenth of the tolerance.
 //!
-//! A run at the default tolerance promises an error of at most [`PROMISED`] in every output, relative to the output's largest magnitude. Where
-//! the second run differs by more, in an output or in a response of itself, the run is repeated, each time at a tenth of the tolerance and by
-//! the other formula, until two runs that follow each other agree. The sharper of the two is the result.
+//! A run at the default tolerance promises an error of at most [`PROMISED`] in every output, relative to the output's largest magnitude. If
+//! the second run differs by more, in an output or in a response (relative to the response itself), the run is repeated, each time at a
+//! tenth of the tolerance and by the other formula, until two successive runs agree. The sharper of the two is the result.
 //!
-//! What is 0 in truth shrinks with the tolerance and never agrees: the velocity of a ball at rest. An output that has fallen below a hundredth
-//! of its size in the first run is such a one; its size in the sharpest run bounds it, and its relative error does not count. The same holds for an
-//! output that consists of [rounding errors](super::conditioning).
+//! A quantity that is exactly 0 shrinks with the tolerance and never agrees between two runs; the velocity of a ball at rest is an example.
+//! An output is taken as such a quantity when it has fallen below a hundredth of its size in the first run. Its size in the sharpest run is
+//! then its bound, and its relative error does not count. The same holds for an output that consists of [rounding
+//! errors](super::conditioning).
 //!
-//! A run by a method that somebody chose promises nothing of the kind. It is not repeated, and only a difference beyond [`FAR`] says that it
+//! If the user chose the method, the run makes no such promise. It is not repeated, and only a difference beyond [`FAR`] says that it
 //! cannot be trusted.
 
 use super::conditioning;
@@ -22,19 +23,16 @@ use bryant_runtime::program::{ErrorKind, Job, Scalar};
 use bryant_runtime::response::Answer;
 use std::time::Instant;
 
-/// The error of an output that a run promises unless something else is asked for, relative to the output's largest magnitude.
+/// The error of every output that a run promises unless the user asks for another accuracy, relative to the output's largest magnitude.
 pub const PROMISED: f64 = 1e-3;
-/// A difference beyond this says that a run by any method is wrong.
+/// A run by any method is wrong if it differs from its check by more than this.
 pub const FAR: f64 = 0.1;
-/// How long a check may take at least \[s\].
-const PATIENCE: f64 = 0.3;
-/// It may take so many times as long as the run in any case: a tenth of the tolerance takes 1.6 times the steps.
-const AGAIN: f64 = 3.0;
-/// How long all sharper runs may take together at least \[s\], and of the time of the first one in any case.
+/// The check and all sharper runs together may always take this time \[s\], and this many times the time of the first run. A check usually takes 1.6 times
+/// the steps; one that takes far more has something to report, so it is waited for.
 const LONGEST: [f64; 2] = [10.0, 5.0];
-/// Kinks are located below this tolerance, where that pays.
+/// Below this tolerance kinks are located, which pays there.
 const LOCATED: f64 = 1e-8;
-/// A method of order 8 is cheaper below this tolerance.
+/// Below this tolerance a method of order 8 is cheaper.
 const HIGH: f64 = 1e-10;
 
 /// A run and what its check says.
@@ -44,30 +42,30 @@ pub struct Checked {
     pub recording: Recording,
     /// How it was computed.
     pub setting: Setting,
-    /// How far the first run was from its check, where sharper ones followed.
+    /// How far the first run was from its check, if sharper runs followed.
     pub first: Option<Difference>,
-    /// Runs in all.
+    /// Number of all runs.
     pub runs: usize,
-    /// What it was compared with, and what came of that; `None` of a run that failed.
+    /// The setting of the second run, and its verdict; `None` if the run failed.
     pub check: Option<(Setting, Verdict)>,
-    /// The difference beyond which it is not to be trusted.
+    /// The run cannot be trusted if it differs from its check by more than this.
     pub limit: f64,
-    /// Whether sharper runs would have taken too long.
+    /// Whether there was not enough time for sharper runs.
     pub out_of_time: bool,
 }
 
 /// What a second run says.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// How far the two are apart.
+    /// How far the two runs are apart.
     Apart(Difference),
-    /// It failed, and why.
+    /// The second run failed, for this reason.
     Failed(String),
-    /// It would have taken longer than this \[s\].
+    /// The second run would have taken longer than this \[s\].
     TooLong(f64),
 }
 
-/// Runs a job and checks it. `chosen` says that somebody chose the method. `progress` hears of the time of every sample.
+/// Runs a job and checks it. `chosen` says that the user chose the method. `progress` is called with the time of every sample.
 pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f64)) -> Checked {
     let mut checked = Checked {
         recording: simulation::run(model, job, progress),
@@ -88,7 +86,7 @@ pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f
     let shrunk: Vec<f64> = columns
         .map(|output| SHRUNK * largest(&output.values))
         .collect();
-    let mut patience = PATIENCE.max(AGAIN * wall);
+    let mut patience = end;
     let first = checked.recording.answers.clone();
     let asked = &job.reading.asked[..];
     let (mut floors, mut rounding) = (Vec::new(), Vec::new());
@@ -108,7 +106,7 @@ pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f
             }
         }
         let Verdict::Apart(difference) = &verdict else {
-            // what a sharper run does not tell, the comparison before it has told
+            // a sharper run that failed says nothing new; the comparison before it stands
             match checked.first {
                 None => checked.check = Some((opinion, verdict)),
                 Some(_) => checked.out_of_time = matches!(verdict, Verdict::TooLong(_)),
@@ -135,7 +133,7 @@ pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f
     }
 }
 
-/// A run of another setting, which may take so long \[s\].
+/// A run of another setting, which may take `patience` \[s\].
 pub fn second(
     model: &dyn Runs,
     job: &Job,
@@ -145,7 +143,7 @@ pub fn second(
 ) -> Recording {
     let job = Job {
         time_limit: run::limit(patience),
-        // a limit on the steps of a run is none on its check
+        // the limit on the steps of the run does not apply to its check
         max_steps: None,
         ..opinion.job(job)
     };
@@ -153,13 +151,13 @@ pub fn second(
 }
 
 impl Verdict {
-    /// Whether the two are as close as promised, or nothing is known of that.
+    /// Whether the two runs are as close as promised, or nothing is known about that.
     fn is_close(&self) -> bool {
         !matches!(self, Verdict::Apart(d) if d.worst > PROMISED || d.worst_response > PROMISED)
     }
 
-    /// What a second run, which might take so long \[s\], says of a run. Outputs that are nowhere larger than their floors do not count, nor
-    /// responses, which are given by what they are asked of and their answers of the first run, of signals that shrink.
+    /// The verdict of a second run, which was allowed to take `patience` \[s\]. Outputs that are nowhere larger than their floors do not
+    /// count. Nor do responses of signals that shrink; `asked` and `first` are the responses and their answers in the first run.
     pub fn of(
         run: &Recording,
         second: &Recording,
@@ -185,7 +183,7 @@ impl Verdict {
 fn sharper(setting: &Setting) -> Setting {
     let tolerance = match setting.pace {
         Pace::Tolerance(tolerance) => rounded(0.1 * tolerance).max(FINEST),
-        // what a fixed step is worth nobody knows
+        // nobody knows the accuracy of a fixed step
         Pace::Step(_) => 1e-8,
     };
     let high = tolerance < HIGH;

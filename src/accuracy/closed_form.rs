@@ -10,7 +10,8 @@
 use super::elliptic::{amplitude, first_kind};
 use super::trajectory::Trajectory;
 use bryant_generator::model::{
-    Active, Dimension, Element, ElementId, FieldComponent, ForceKind, Model, Number, Reference,
+    Active, Dimension, Element, ElementId, Field, FieldComponent, ForceKind, Model, Number,
+    Reference,
 };
 use std::f64::consts::PI;
 
@@ -63,7 +64,7 @@ pub struct Flight {
     rate: f64,
 }
 
-/// Nearer to the separatrix than this (k² = 1) the motion is no longer determined by its start to the last digits.
+/// Closer to the separatrix (k² = 1) than this, the start does not determine the last digits of the motion any more.
 const SEPARATRIX: f64 = 1e-6;
 
 impl ClosedForm {
@@ -93,7 +94,7 @@ impl ClosedForm {
         }
     }
 
-    /// What it is, for people.
+    /// Its name, for people.
     pub fn name(&self) -> &'static str {
         match self {
             ClosedForm::Pendulum(pendulum) => match pendulum.motion {
@@ -122,7 +123,7 @@ impl ClosedForm {
         }
     }
 
-    /// Bound of its rounding, relative to how far the state goes: some roundings of the functions, and one of the phase.
+    /// Bound of its rounding errors, relative to how far the state goes: some roundings of the functions, and one of the phase.
     pub fn rounding(&self, duration: f64) -> f64 {
         let phase = match self {
             ClosedForm::Pendulum(p) => p.frequency.max(p.rate.abs()) * duration,
@@ -132,7 +133,7 @@ impl ClosedForm {
     }
 }
 
-/// The sum of the fields, x and z \[m/s²\]; `None` where anything else acts on the element.
+/// The sum of the fields, x and z \[m/s²\]; `None` if anything else acts on the element.
 fn field(model: &Model, parameters: &[f64]) -> Option<[f64; 2]> {
     const ONLY: ElementId = ElementId {
         system: 0,
@@ -140,9 +141,10 @@ fn field(model: &Model, parameters: &[f64]) -> Option<[f64; 2]> {
     };
     let mut sum = [0.0; 2];
     for force in &model.forces {
-        let ForceKind::Field { on, acceleration } = &force.kind else {
+        let ForceKind::Field(field) = &force.kind else {
             return None;
         };
+        let Field { on, acceleration } = &**field;
         if force.active != Active::default() {
             return None;
         }
@@ -364,7 +366,7 @@ mod tests {
             let closed = closed("fixed", start);
             let first: [f64; 2] = closed.state(0.0).try_into().unwrap();
             let t = 1.7;
-            // The difference of two step sizes bounds the error of the finer one, and rounding ten thousand steps.
+            // The difference of two step sizes bounds the error of the finer one; ten thousand steps add rounding.
             let [coarse, fine] = [10_000, 20_000].map(|steps| integrate(first, t, steps));
             let last = closed.state(t);
             for i in 0..2 {
@@ -420,7 +422,7 @@ mod tests {
         for (a, b) in first.iter().zip(expected) {
             assert!((a - b).abs() < 64.0 * f64::EPSILON, "{a} {b}");
         }
-        // Second differences of the centre of gravity are the field, of the angle nothing.
+        // The second differences of the centre of gravity equal the field, those of the angle are 0.
         let h = 1e-2;
         let cg = |t: f64| {
             let y = closed.state(t);
@@ -437,8 +439,7 @@ mod tests {
                     "{second}"
                 );
             }
-            // and the velocity is the rate of the position: central differences are exact for parabolas, and for the
-            // joint they miss ω³ l h²/6
+            // the velocity is the rate of the position: central differences are exact for parabolas, and err by ω³ l h²/6 at the joint
             let [before, after] = [t - h, t + h].map(|t| closed.state(t));
             let now = closed.state(t);
             for i in 0..3 {

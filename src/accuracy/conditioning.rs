@@ -1,8 +1,8 @@
-//! What an output can be known to: how much it changes when a state changes by about its rounding errors.
+//! How precisely an output can be known: how much it changes when the state changes by about its rounding errors.
 //!
-//! An output that is 0 in truth, as the acceleration of the centre of a free rod, consists of rounding errors: two runs never agree on it, however
-//! sharp they are. It differs from a wrong output in its condition: changes of the state by some rounding errors change it by a large part of its
-//! own size.
+//! An output that is exactly 0, such as the acceleration of the centre of a free rod, consists of rounding errors: two runs never agree on
+//! it, however sharp they are. Its condition tells it from a wrong output: if the state changes by a few rounding errors, such an output
+//! changes by a large part of its own size.
 
 use super::target::largest;
 use crate::simulation::{Recording, Runs};
@@ -10,16 +10,17 @@ use bryant_runtime::Method;
 use bryant_runtime::program::{Job, Reading, Start};
 use std::ops::ControlFlow;
 
-/// Share of itself by which each entry of the state is changed.
+/// Each entry of the state is changed by this share of itself.
 const CHANGE: f64 = 1e-14;
-/// An entry is taken to be at least this share of the largest of its kind: one that is 0 changes by a rounding error of the largest.
+/// An entry counts as at least this share of the largest entry of its kind: an entry that is 0 changes by a rounding error of the largest.
 const LEAST: f64 = 1e-2;
-/// An output is known only beyond so many times what these changes make of it.
+/// An output is known only if it is this many times larger than the changes that these disturbances make.
 const MARGIN: f64 = 100.0;
-/// Patterns of changes: rounding errors of a few states alone may be 0 by chance.
+/// Number of patterns of changes: the rounding errors of a few states may be 0 by chance.
 const PATTERNS: usize = 8;
 
-/// The size below which an output may consist of rounding errors, in its unit, by the last state of a run. Zeros where the run has none.
+/// For each output the size, in its unit, below which it may consist of rounding errors, evaluated at the last state of a run. All are 0 if
+/// the run has no state.
 pub fn reach(model: &dyn Runs, job: &Job, run: &Recording) -> Vec<f64> {
     let sizes = run.table.columns.iter().skip(1);
     let none: Vec<f64> = sizes.map(|_| 0.0).collect();
@@ -32,7 +33,7 @@ pub fn reach(model: &dyn Runs, job: &Job, run: &Recording) -> Vec<f64> {
     };
     let [coordinates, velocities] = [run.header.coordinates.len(), run.header.velocities.len()];
     let kinds = [0..coordinates, coordinates..coordinates + velocities];
-    // up and down in turn, in several ways: changes of all entries alike may cancel
+    // signs alternate with several periods: equal changes of all entries could cancel
     let patterns = (1..=PATTERNS).map(|period| {
         move |i: usize| [1.0, -1.0][i / period % 2] * period as f64 / PATTERNS as f64
     });
@@ -52,14 +53,14 @@ pub fn reach(model: &dyn Runs, job: &Job, run: &Recording) -> Vec<f64> {
     largest_change.iter().map(|x| MARGIN * x).collect()
 }
 
-/// The outputs of a state; `None` where they cannot be computed.
+/// The outputs at a state; `None` if they cannot be computed.
 fn outputs(model: &dyn Runs, job: &Job, t: f64, state: &[f64]) -> Option<Vec<f64>> {
     let job = Job {
         start: Some(Start {
             t,
             state: state.to_vec(),
         }),
-        // of which nothing but its start is computed, by a method that goes with any length
+        // only the start of this run is computed, by a method that accepts any length
         duration: Some(t + 1e-3),
         every: Some(1e-3),
         method: Some(Method::default()),

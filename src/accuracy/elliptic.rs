@@ -3,12 +3,12 @@
 //! Carlson, Numerical computation of real or complex elliptic integrals, Numerical Algorithms 10 (1995); Abramowitz and
 //! Stegun 16.4 and 17.6 for the descending chain of amplitudes.
 
-/// R_F(x, y, z) = ½ ∫₀^∞ [(t+x)(t+y)(t+z)]^−½ dt of arguments not negative, at most one of them zero.
+/// R_F(x, y, z) = ½ ∫₀^∞ [(t+x)(t+y)(t+z)]^−½ dt; the arguments are not negative, and at most one of them is 0.
 fn carlson(mut x: f64, mut y: f64, mut z: f64) -> f64 {
-    // The series errs by less than d⁶ where the arguments differ from their mean by less than d of it.
+    // The series errs by less than d⁶ if the arguments differ from their mean by less than the share d.
     const D: f64 = 2e-3;
     let mut value = f64::NAN;
-    // Differences fall to a quarter each round: from 2¹⁰²⁴ to D in less than 520, from usual ones in five.
+    // Differences fall to a quarter in each round: from 2¹⁰²⁴ to D in fewer than 520 rounds, usually in five.
     for _ in 0..520 {
         let mean = (x + y + z) / 3.0;
         let [dx, dy, dz] = [x, y, z].map(|a| 1.0 - a / mean);
@@ -41,7 +41,7 @@ pub fn amplitude(u: f64, modulus: f64) -> f64 {
     let mut ratios = [0.0; ROUNDS];
     let mut rounds = 0;
     let mut c = modulus;
-    // c falls to its square each time.
+    // c is about squared in each round.
     while rounds < ROUNDS && c.abs() > f64::EPSILON * a {
         c = 0.5 * (a - b);
         (a, b) = (0.5 * (a + b), (a * b).sqrt());
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
     use std::f64::consts::{FRAC_PI_2, PI};
 
-    /// A dozen roundings.
+    /// A dozen rounding errors.
     const BOUND: f64 = 16.0 * f64::EPSILON;
 
     #[test]
@@ -75,7 +75,7 @@ mod tests {
         let lemniscatic = gamma_quarter * gamma_quarter / (4.0 * PI.sqrt());
         assert!((quarter_period(0.0) / FRAC_PI_2 - 1.0).abs() < BOUND);
         assert!((quarter_period(0.5f64.sqrt()) / lemniscatic - 1.0).abs() < BOUND);
-        // and that of the arithmetic-geometric mean: K = π / (2 agm(1, k'))
+        // the same by the arithmetic-geometric mean: K = π / (2 agm(1, k'))
         for modulus in [0.1, 0.5, 0.9, 0.999] {
             let (mut a, mut b) = (1.0f64, ((1.0f64 - modulus) * (1.0 + modulus)).sqrt());
             for _ in 0..10 {

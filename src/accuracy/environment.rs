@@ -1,13 +1,13 @@
-//! What a time depends on beside the model: this program, how it evaluates, the processor.
+//! What a measured time depends on besides the model: this program, how it evaluates the equations, the processor.
 
 use crate::equations::Engine;
 
-/// Where and by what a study was made.
+/// The program and the machine that made a study.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Environment {
     /// Version of bryant.
     pub version: String,
-    /// Commit that it was built from, "unknown" where there was no repository.
+    /// Commit that the program was built from, "unknown" if there was no repository.
     pub commit: String,
     /// How equations are evaluated: "machine code (AVX2)".
     pub engine: String,
@@ -18,7 +18,7 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Of this process.
+    /// The environment of this process.
     pub fn of(engine: &Engine) -> Environment {
         Environment {
             version: env!("CARGO_PKG_VERSION").to_owned(),

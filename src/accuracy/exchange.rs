@@ -3,14 +3,14 @@
 
 use bryant_generator::model::{FieldComponent, Interpolate, Model, Reference, Translation};
 
-/// The model with its curves exchanged; `None` where it has none that can be. What moves bodies as given stays as it is: its
-/// slope must not jump.
+/// The model with its curves exchanged; `None` if no curve can be exchanged. Curves that prescribe motions stay as they are: their slope
+/// must not jump.
 pub fn exchanged(model: &Model) -> Option<Model> {
     let kept = of_motion(model);
     let mut other = model.clone();
     let mut changed = false;
     for (index, curve) in other.curves.iter_mut().enumerate() {
-        // Between two points both are the same line.
+        // Between two points a cubic is the same line.
         if kept.contains(&index) || curve.points.len() < 3 {
             continue;
         }
@@ -24,7 +24,7 @@ pub fn exchanged(model: &Model) -> Option<Model> {
     changed.then_some(other)
 }
 
-/// The curves that give motions.
+/// The indices of the curves that prescribe motions.
 fn of_motion(model: &Model) -> Vec<usize> {
     let mut curves = Vec::new();
     let mut add = |translation: &Translation| {

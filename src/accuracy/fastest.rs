@@ -1,9 +1,10 @@
-//! The fastest motion of a scene, and what it comes of: it bounds the steps of explicit methods, however little accuracy is asked for.
+//! The fastest motion of a scene, and the force that causes it. It bounds the steps of explicit methods, however little accuracy is asked
+//! for.
 //!
-//! At some states of a run ẏ = f(t, y) is linearised. The largest |λ| of ∂f/∂y is that of repeated products with it, whose growth is averaged
-//! geometrically, so that it is |λ| for an oscillation too. What the products tend to is the motion x itself. Along it the power of each effect,
-//! force times velocity, is bent: P(y + εx) − 2 P(y) + P(y − εx) is 2 ε² times the change of the force by the velocity. The effect whose power is bent
-//! most is what the motion comes of.
+//! ẏ = f(t, y) is linearised at some states of a run. The largest |λ| of ∂f/∂y follows from repeated products with this matrix: the
+//! geometric mean of their growth is |λ|, for an oscillation too. The products tend to the motion x of this eigenvalue. Along x the power
+//! of each effect (force times velocity) is curved: P(y + εx) − 2 P(y) + P(y − εx) is 2 ε² times the change of the force with the velocity.
+//! The effect whose power is curved most causes the motion.
 
 use super::setting::{Curves, Pace, Setting, time, two_digits};
 use crate::equations::Engine;
@@ -17,25 +18,26 @@ use std::time::Duration;
 pub struct Fastest {
     /// |λ| \[1/s\].
     pub rate: f64,
-    /// When \[s\].
+    /// Its time \[s\].
     pub t: f64,
-    /// The velocity that it moves most.
+    /// The velocity that changes most in this motion.
     pub velocity: String,
-    /// What it comes of; `None` where no effect has a power in it.
+    /// The effect that causes it; `None` if no effect has a power in it.
     pub effect: Option<String>,
 }
 
-/// States of a run that are kept, and each how manieth is looked at, besides the last few.
+/// About this many states of a run are kept; every `EACH`-th and the last few are examined.
 const STATES: f64 = 240.0;
 const EACH: usize = 10;
 const LAST: usize = 3;
-/// Products with the linearisation, and how many of the first are forgotten.
+/// Number of products with the linearisation, and how many of the first are ignored.
 const PRODUCTS: usize = 300;
 const FORGOTTEN: usize = 100;
-/// How far the largest velocity is moved to see what is bent \[m/s, rad/s\].
+/// The largest velocity is changed by this much to see which power is curved \[m/s, rad/s\].
 const MOVED: f64 = 1e-3;
 
-/// Of a run of a job, with these values of all parameters, as far as it comes within so many seconds; `None` where nothing moves.
+/// The fastest motion of a run of a job, with these values of all parameters. The run is examined as far as it comes within `patience`
+/// seconds; `None` if nothing moves.
 pub fn fastest(engine: &Engine, job: &Job, parameters: &[f64], patience: f64) -> Option<Fastest> {
     let info = engine.info();
     let duration = job.duration.unwrap_or(info.duration);
@@ -52,7 +54,7 @@ pub fn fastest(engine: &Engine, job: &Job, parameters: &[f64], patience: f64) ->
         ..setting.job(job)
     };
     let mut states = Vec::new();
-    // a run that is out of time, or fails, is looked at as far as it came
+    // a run that fails or is out of time is examined as far as it came
     let mut keep = |t: f64, y: &[f64], _: &[f64]| {
         states.push((t, y.to_vec()));
         ControlFlow::Continue(())
@@ -79,14 +81,14 @@ pub fn fastest(engine: &Engine, job: &Job, parameters: &[f64], patience: f64) ->
     })
 }
 
-/// The largest |λ| at a state, and the motion that has it; `None` where there is none.
+/// The largest |λ| at a state, and its motion; `None` if there is none.
 fn motion(model: &dyn Adjustable<f64>, t: f64, y: &[f64]) -> Option<(f64, Vec<f64>)> {
     let n = y.len();
     let (mut matrix, mut by_time) = (vec![0.0; n * n], vec![0.0; n]);
     if !model.jacobian(t, y, &mut matrix, &mut by_time) {
         return None;
     }
-    // no entry is forgotten, and none is like another
+    // every entry is excited, and no two neighbours alike
     let mut x: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * (i % 7) as f64).collect();
     let mut growth = 0.0;
     for k in 0..PRODUCTS {
@@ -107,7 +109,7 @@ fn motion(model: &dyn Adjustable<f64>, t: f64, y: &[f64]) -> Option<(f64, Vec<f6
     Some(((growth / (PRODUCTS - FORGOTTEN) as f64).exp(), x))
 }
 
-/// The effect whose power is bent most along a motion.
+/// The effect whose power is curved most along a motion.
 fn effect(model: &dyn Adjustable<f64>, t: f64, y: &[f64], x: &[f64], moved: f64) -> Option<String> {
     let names = model.info().powers;
     let powers = |by: f64| {
@@ -143,8 +145,8 @@ mod tests {
     use super::*;
     use bryant_generator::model;
 
-    /// A rod of J = 0.6 kg m² whose joint has friction of 2 N m, smooth below a rate of 0.01 rad/s: c = 200 N m s/rad at rest. A spring of 60 N m/rad
-    /// alone would make 10 1/s.
+    /// A rod of J = 0.6 kg m² whose joint has friction of 2 N m, smooth below a rate of 0.01 rad/s: c = 200 N m s/rad at rest. The spring
+    /// of 60 N m/rad alone would give 10 1/s.
     #[test]
     fn what_makes_a_scene_stiff_is_named() {
         let text = "\

@@ -1,4 +1,4 @@
-//! What a study finds: the Pareto front, and in a sentence what an accuracy costs.
+//! The findings of a study: the Pareto front, and one sentence that says what an accuracy costs.
 
 use super::front::{self, Cost, Digits};
 use super::point::{Point, Status};
@@ -6,25 +6,25 @@ use super::report::text::formulas;
 use super::setting::{Curves, Pace, time, two_digits};
 use super::study::Study;
 
-/// What a study finds for one error.
+/// The findings of a study for one error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Indices of the points on the front, by falling error.
+    /// Indices of the points on the front; the error falls.
     pub front: Vec<usize>,
-    /// The cheapest point for [`Finding::wanted`] that finer ones of its series confirm.
+    /// The cheapest point for [`Finding::wanted`] that all finer points of its series confirm.
     pub cheapest: Option<usize>,
-    /// The error that the sentence is about.
+    /// The error that the sentence names.
     pub wanted: f64,
-    /// What a digit costs along the front.
+    /// The cost of each further digit along the front.
     pub digits: Option<Digits>,
 }
 
 impl Finding {
-    /// Of a study; `wanted` is the error that the sentence is about.
+    /// The finding of a study; `wanted` is the error that the sentence names.
     pub fn of(study: &Study, wanted: f64) -> Finding {
         let costs: Vec<Cost> = study.points.iter().map(|p| cost(study, p)).collect();
         let front = front::pareto(&costs);
-        // Errors below the reference's own are not known.
+        // Errors below that of the reference are not known.
         let known = |&&i: &&usize| !at_most(study, &study.points[i]);
         let fitted: Vec<Cost> = front.iter().filter(known).map(|&i| costs[i]).collect();
         Finding {
@@ -42,7 +42,7 @@ impl Finding {
         let wanted = percent(self.wanted);
         let rests = rests_on(study);
         let Some(index) = self.cheapest else {
-            return format!("no setting comes to {wanted} in {name}; {rests}");
+            return format!("no setting reaches {wanted} in {name}; {rests}");
         };
         let point = &study.points[index];
         let median = point.done().map_or(f64::NAN, |done| done.timing.median);
@@ -61,7 +61,7 @@ impl Finding {
     }
 }
 
-/// How many settings a finding rests on, and what became of the others.
+/// On how many settings a finding is based, and what became of the others.
 fn rests_on(study: &Study) -> String {
     let (mut done, mut failed, mut skipped) = (0, 0, 0);
     for point in &study.points {
@@ -86,7 +86,7 @@ fn rests_on(study: &Study) -> String {
     text
 }
 
-/// Methods of whose settings the largest share was not reached, three at most: "rodas5 (31 of 33)".
+/// The methods with the largest share of skipped settings, at most three: "rodas5 (31 of 33)".
 fn most_skipped(study: &Study) -> Vec<String> {
     let counts = formulas(study).into_iter().map(|formula| {
         let all = study.points.iter().filter(|p| p.setting.formula == formula);
@@ -101,8 +101,8 @@ fn most_skipped(study: &Study) -> Vec<String> {
         .collect()
 }
 
-/// Series whose steps are bounded by stability and not by accuracy: their name, the typical step \[s\], and the fastest motion of the scene
-/// \[1/s\], the limit of stability of the method over that step.
+/// Series whose steps are bounded by stability and not by accuracy: their name, the typical step \[s\], and the rate of the fastest motion
+/// of the scene \[1/s\], which is the limit of stability of the method over that step.
 pub fn bounded_by_stability(study: &Study) -> Vec<(String, f64, f64)> {
     let mut found = Vec::new();
     let series = study
@@ -121,7 +121,7 @@ pub fn bounded_by_stability(study: &Study) -> Vec<(String, f64, f64)> {
             let order = f64::from(pair[0].0.setting.formula.order());
             let expected = finer.powf(1.0 / order);
             let grown = pair[1].1 as f64 / pair[0].1 as f64;
-            // most of the growth that accuracy would need is missing
+            // most of the growth that the accuracy would require is missing
             pair[0].1 > MANY_STEPS && grown < 1.0 + 0.25 * (expected - 1.0)
         });
         if let Some(pair) = bounded {
@@ -132,17 +132,17 @@ pub fn bounded_by_stability(study: &Study) -> Vec<(String, f64, f64)> {
     found
 }
 
-/// Fewer steps say nothing of stability.
+/// With fewer steps nothing can be said about stability.
 const MANY_STEPS: u64 = 200;
 
-/// What a point that is none costs.
+/// The cost of a point that has no result.
 const NONE: Cost = Cost {
     error: f64::INFINITY,
     time: f64::INFINITY,
 };
 
-/// Error and time of a point; not finite where there is none: another scene's curves are no way to compute this one, and an
-/// error as large as the thing itself is no accuracy at all.
+/// Error and time of a point; infinite if it has none. A run with exchanged curves has none, because it does not compute this scene, and
+/// neither has one with an error of 100 % or more.
 pub fn cost(study: &Study, point: &Point) -> Cost {
     let Some(done) = point.done() else {
         return NONE;
@@ -157,8 +157,9 @@ pub fn cost(study: &Study, point: &Point) -> Cost {
     }
 }
 
-/// The costs of points that come to an error, and not by luck: where a finer one of the same series does not, neither does this
-/// one, for who does not know the solution. A run that fails says so, and tells nothing of others.
+/// The costs of points that reach an error, and not by luck: if a finer point of the same series does not reach it, this one does not
+/// count, for a user who does not know the solution cannot tell. A run that failed reports this itself, and says nothing about other
+/// points.
 fn confirmed(study: &Study, costs: &[Cost], wanted: f64) -> Vec<Cost> {
     let points = &study.points;
     let refuted = |i: usize| {

@@ -1,4 +1,4 @@
-//! The Pareto front of error and time, and what a digit costs along it.
+//! The Pareto front of error and time, and the cost of each further digit along it.
 
 /// A point of the diagram.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,8 +9,8 @@ pub struct Cost {
     pub time: f64,
 }
 
-/// Indices of the points of which no other is at once as accurate and as fast, by falling error. Of equal points the
-/// first is taken; points that are not finite are none.
+/// Indices of the points on the front: no other point is both as accurate and as fast. The error falls along the list. Of equal points the
+/// first is taken; points that are not finite are left out.
 pub fn pareto(points: &[Cost]) -> Vec<usize> {
     let usable = |p: &Cost| p.error.is_finite() && p.error >= 0.0 && p.time.is_finite();
     let mut order: Vec<usize> = (0..points.len()).filter(|&i| usable(&points[i])).collect();
@@ -19,7 +19,7 @@ pub fn pareto(points: &[Cost]) -> Vec<usize> {
         a.time.total_cmp(&b.time).then(a.error.total_cmp(&b.error))
     });
     let mut best = f64::INFINITY;
-    // From the fastest on, whatever is more accurate than all that is faster.
+    // From the fastest on, a point stays if it is more accurate than all faster ones.
     order.retain(|&i| {
         let better = points[i].error < best;
         best = best.min(points[i].error);
@@ -28,14 +28,14 @@ pub fn pareto(points: &[Cost]) -> Vec<usize> {
     order
 }
 
-/// The cheapest of the points that err by no more than `error`.
+/// The cheapest point whose error is at most `error`.
 pub fn cheapest(points: &[Cost], error: f64) -> Option<usize> {
     pareto(points)
         .into_iter()
         .find(|&i| points[i].error <= error)
 }
 
-/// What a digit costs: log₁₀ time = a + b · digits, digits = −log₁₀ error, by least squares.
+/// The cost of a digit: log₁₀ time = a + b · digits, digits = −log₁₀ error, by least squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Digits {
     /// Factor on the time for each further digit: 10^b.
@@ -48,7 +48,7 @@ pub struct Digits {
     pub points: usize,
 }
 
-/// The regression over points with positive error; `None` where they span less than one digit or are fewer than three.
+/// The regression over points with positive error; `None` if there are fewer than three, or they span less than one digit.
 pub fn digits(points: &[Cost]) -> Option<Digits> {
     let usable = points.iter().filter(|p| p.error > 0.0 && p.time > 0.0);
     let pairs: Vec<(f64, f64)> = usable.map(|p| (-p.error.log10(), p.time.log10())).collect();
@@ -57,7 +57,7 @@ pub fn digits(points: &[Cost]) -> Option<Digits> {
         fold(f64::min, f64::INFINITY),
         fold(f64::max, f64::NEG_INFINITY),
     );
-    // NaN, where there is no point, is not enough either.
+    // If there is no point, the range is NaN, which is not enough either.
     let enough = pairs.len() >= 3 && most - least >= 1.0;
     enough.then(|| Digits {
         factor: 10f64.powf(slope(&pairs)),
@@ -67,7 +67,7 @@ pub fn digits(points: &[Cost]) -> Option<Digits> {
     })
 }
 
-/// Slope b of the line y = a + b x with the least squares of its errors in y.
+/// Slope b of the line y = a + b x with the least squares of the errors in y.
 fn slope(pairs: &[(f64, f64)]) -> f64 {
     let count = pairs.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / count;
@@ -89,7 +89,7 @@ mod tests {
         let points = [
             cost(1e-2, 1.0),
             cost(1e-3, 2.0),
-            // beaten by the one before
+            // slower and less accurate than the one before
             cost(2e-3, 2.5),
             // as accurate as the second, and slower
             cost(1e-3, 3.0),
@@ -141,7 +141,7 @@ mod tests {
         assert_eq!(digits(&[cost(1e-1, 1.0), cost(1e-5, 2.0)]), None);
         let close = [cost(1e-3, 1.0), cost(2e-3, 1.5), cost(3e-3, 2.0)];
         assert_eq!(digits(&close), None);
-        // Errors of zero have no digits to count.
+        // An error of 0 has no number of digits.
         assert_eq!(digits(&[cost(0.0, 1.0); 5]), None);
     }
 

@@ -1,7 +1,7 @@
 //! The head injury criterion: HIC = max (t₂ − t₁) [ 1/(t₂ − t₁) ∫ a dt ]^2.5, a in g, t₂ − t₁ at most 15 ms \[SAE J1727\].
 //!
-//! The acceleration is taken as linear between its samples. Windows begin and end on samples; where the longest window does
-//! not fit the samples, its other end lies between two of them.
+//! The acceleration is taken as linear between its samples. Windows begin and end on samples; if the longest window does not fit the
+//! samples, its other end lies between two of them.
 
 /// Standard acceleration of gravity \[m/s²\].
 const G: f64 = 9.806_65;
@@ -9,8 +9,8 @@ const G: f64 = 9.806_65;
 /// The longest window of HIC15 \[s\].
 pub const WINDOW: f64 = 15e-3;
 
-/// HIC of accelerations \[m/s²\] at increasing times \[s\], over windows of at most `window` \[s\]; `None` where there are
-/// fewer than two samples, or one is not finite.
+/// HIC of accelerations \[m/s²\] at increasing times \[s\], over windows of at most `window` \[s\]; `None` if there are fewer than two
+/// samples, or one is not finite.
 pub fn hic(times: &[f64], accelerations: &[f64], window: f64) -> Option<f64> {
     let samples = times.len().min(accelerations.len());
     let finite = |values: &[f64]| values.iter().take(samples).all(|v| v.is_finite());
@@ -26,7 +26,7 @@ pub fn hic(times: &[f64], accelerations: &[f64], window: f64) -> Option<f64> {
             largest = largest.max(length * (velocity / (G * length)).powf(2.5));
         }
     };
-    // A hair more than the window: samples of a grid are not exactly where they should be.
+    // Slightly more than the window: the times of samples are rounded.
     let reach = window * (1.0 + 1e-9);
     for (first, &from) in times.iter().enumerate() {
         for (last, &to) in times.iter().enumerate().skip(first + 1) {
@@ -44,7 +44,7 @@ pub fn hic(times: &[f64], accelerations: &[f64], window: f64) -> Option<f64> {
     Some(largest)
 }
 
-/// A function that is linear between samples, and its integral from the first.
+/// A signal that is linear between samples, with its integral from the first sample.
 struct Signal<'a> {
     times: &'a [f64],
     values: &'a [f64],
@@ -67,7 +67,7 @@ impl<'a> Signal<'a> {
         }
     }
 
-    /// From the first sample to a time between the first and the last.
+    /// The integral from the first sample to a time between the first and the last.
     fn integral(&self, t: f64) -> f64 {
         let after = self.times.partition_point(|x| *x <= t);
         let last = after.clamp(1, self.times.len() - 1);
@@ -97,7 +97,7 @@ mod tests {
         let found = hic(&times, &values, WINDOW).unwrap();
         assert!((found / expected - 1.0).abs() < 1e-12, "{found}");
         assert!((expected - 265.165).abs() < 1e-3);
-        // Samples that do not meet the window: its end lies between two of them.
+        // The window does not fit the samples: its end lies between two of them.
         let (times, values) = pulse(51, 2e-3, |_| 50.0 * G);
         let found = hic(&times, &values, WINDOW).unwrap();
         assert!((found / expected - 1.0).abs() < 1e-12, "{found}");
@@ -118,7 +118,7 @@ mod tests {
         });
         let found = hic(&times, &values, WINDOW).unwrap();
         let expected = factor * length * amplitude.powf(2.5);
-        // The trapezoidal rule errs by (π h/T)²/12 of the mean, the ends of the window by half a sample, to the square.
+        // The trapezoidal rule errs by (π h/T)²/12 of the mean; the ends of the window err by half a sample, which enters squared.
         let bound = 2.5 * (std::f64::consts::PI * every / length).powi(2);
         assert!((found / expected - 1.0).abs() < bound, "{found} {expected}");
     }

@@ -1,4 +1,4 @@
-//! What accuracy costs in time.
+//! The cost of accuracy in time.
 //!
 //! ```text
 //!                ┌─ reference: double-double, or a closed form ─┐
@@ -7,17 +7,17 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`setting`], [`plan`], [`schedule`] | one way to compute a motion; all that are compared; in which order |
-//! | [`mod@reference`], [`closed_form`] | what is true; `elliptic`: functions of a closed form |
+//! | [`setting`], [`plan`], [`schedule`] | one way to compute a motion; all ways that are compared; their order |
+//! | [`mod@reference`], [`closed_form`] | the true motion; `elliptic`: functions of a closed form |
 //! | [`norm`], [`reading`], [`hic`] | errors in the state and in what an engineer reads |
 //! | [`run`], [`trajectory`] | one run of a setting; its samples |
-//! | [`point`], [`study`] | what came of a setting; of all of them |
-//! | [`front`], [`finding`] | what is worth choosing, and the sentence about it |
+//! | [`point`], [`study`] | the result of one setting; of all of them |
+//! | [`front`], [`finding`] | the settings worth choosing, and the sentence about them |
 //! | [`fastest`] | the motion that bounds the steps of explicit methods |
 //! | [`report`] | table, CSV, JSON, Markdown |
 //! | [`target`] | a run as accurate as wanted |
 //! | [`check`] | a run as accurate as promised, checked by a second one |
-//! | [`exchange`], [`operations`], [`environment`] | cubics for lines; the cost of an evaluation; what times depend on |
+//! | [`exchange`], [`operations`], [`environment`] | cubics in place of lines; the cost of an evaluation; what times depend on |
 
 pub mod check;
 pub mod closed_form;

@@ -7,14 +7,14 @@
 //! | velocity, angular velocity | difference | its largest magnitude |
 //! | state of a force law | difference | its largest magnitude |
 //!
-//! Where an entry starts is as arbitrary as the origin of the frame, so positions and angles are not relative to their
-//! magnitude. An entry that hardly moves is measured by its companions: no scale is below a hundredth of the largest among
-//! the entries of its kind. A kind that does not move at all is measured in SI units. The memory of force laws is left out:
-//! it jumps, and a jump a rounding earlier is no error of its size; what it does shows in everything else.
+//! Where an entry starts is as arbitrary as the origin of the frame, so errors of positions and angles are not relative to their magnitude.
+//! An entry that hardly moves is measured by the others of its kind: no scale is below a hundredth of the largest scale of that kind. A
+//! kind that does not move at all is measured in SI units. The memory of force laws is left out: it jumps, and a jump that comes one
+//! rounding error earlier is not an error of the size of the jump. The effect of memory shows in all other entries.
 
 use super::trajectory::Trajectory;
 
-/// A scale is at least this part of the largest of its kind.
+/// A scale is at least this share of the largest scale of its kind.
 const LEAST: f64 = 1e-2;
 
 /// How the states of one model are compared with those of one reference.
@@ -40,25 +40,25 @@ enum Kind {
     Orientation,
     Velocity,
     AngularVelocity,
-    /// Of a force law; each is a kind of its own.
+    /// A state of a force law; each is a kind of its own.
     Auxiliary(usize),
 }
 
 /// The names of the entries of a state.
 #[derive(Clone, Copy, Debug)]
 pub struct Names<'a> {
-    /// Of q.
+    /// Names of the coordinates q.
     pub coordinates: &'a [String],
-    /// Of v.
+    /// Names of the velocities v.
     pub velocities: &'a [String],
-    /// Of the states of force laws.
+    /// Names of the states of force laws.
     pub auxiliaries: &'a [String],
 }
 
-/// The largest error, and whose it is.
+/// The largest error, and the entry that has it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateError {
-    /// Relative; infinite where a state is not finite.
+    /// Relative error; infinite if a state is not finite.
     pub error: f64,
     /// Name of the entry.
     pub entry: String,
@@ -114,7 +114,7 @@ impl Norm {
         Norm { entries }
     }
 
-    /// The error of a run in the samples that both have; infinite where it has fewer.
+    /// The error of a run over the samples that both have; infinite if the run has fewer.
     pub fn error(&self, reference: &Trajectory, run: &Trajectory) -> StateError {
         let mut worst = StateError {
             error: 0.0,
@@ -151,7 +151,7 @@ impl Entry {
     }
 }
 
-/// How far an entry goes during a run.
+/// How far an entry moves during a run.
 fn extent(kind: Kind, index: usize, run: &Trajectory) -> f64 {
     let fold = |pick: fn(f64, f64) -> f64, start| run.entry(index).fold(start, pick);
     match kind {
@@ -228,7 +228,7 @@ mod tests {
 
     #[test]
     fn positions_and_angles_are_relative_to_their_range() {
-        // x goes from 100 to 102, phi from 1 to 5, their rates reach 4 and 8
+        // x goes from 100 to 102, phi from 1 to 5; their rates reach 4 and 8
         let reference = run(&[&[100.0, 1.0, -4.0, 8.0], &[102.0, 5.0, 2.0, 0.0]]);
         let norm = norm(&["a.x", "a/b.phi"], &["a.vx", "a/b.omega"], &[], &reference);
         let of = |y: &[f64]| norm.error(&reference, &run(&[&[100.0, 1.0, -4.0, 8.0], y]));
@@ -262,7 +262,7 @@ mod tests {
         // a hundredth of the 10 m along x
         let expected = (1e-3 - 1e-12) / 0.1;
         assert!((of(&[10.0, 1e-3, 1.0, 0.0]) - expected).abs() < 1e-15);
-        // no angle moves: radians; no such state moves: its unit
+        // no angle moves, so that the error is in radians; no such state moves, so that the error is in its unit
         assert!((of(&[10.0, 1e-12, 1.5, 0.0]) - 0.5).abs() < 1e-15);
         assert!((of(&[10.0, 1e-12, 1.0, 0.25]) - 0.25).abs() < 1e-15);
     }
@@ -279,7 +279,7 @@ mod tests {
         assert!((off.error - 5e-3).abs() < 1e-14, "{off:?}");
         assert_eq!(off.entry, "a/b");
         assert!(of(about_z(2.3).map(|q| -q)).error < 1e-15);
-        // A whole turn less a tenth is a tenth.
+        // A whole turn less 0.1 rad is an error of 0.1 rad.
         let turn = of(about_z(2.3 + 2.0 * std::f64::consts::PI - 0.1));
         assert!((turn.error - 0.05).abs() < 1e-14);
     }

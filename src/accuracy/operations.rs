@@ -1,34 +1,34 @@
 //! The operations of one evaluation, as `bryant check` counts them.
 
 use bryant_generator::model::Model;
-use bryant_generator::{dynamics, emit};
+use bryant_generator::{dynamics, program};
 use bryant_runtime::Report;
 
-/// What one evaluation of the derivative costs.
+/// The cost of one evaluation of the derivative.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
-    /// Additions, multiplications, divisions, roots; a sine, a cosine and a call of a law are one each.
+    /// Additions, multiplications, divisions, roots; a sine, a cosine and a call of a law count as one each.
     pub evaluation: u64,
     /// Sines and cosines among them.
     pub sines: u64,
 }
 
-/// A dual number costs about as much as three numbers: a product is one product, and two with a sum.
+/// A dual number costs about three times as much as a number: a product becomes three products and a sum.
 const DUAL: u64 = 3;
 
 impl Operations {
-    /// Of a model.
+    /// The operations of a model.
     pub fn of(model: &Model) -> Operations {
         let options = dynamics::Options {
             matrices: false,
             ..dynamics::Options::default()
         };
         let equations = dynamics::derive_with(model, options);
-        let emitted = emit::Options {
+        let emitted = program::Options {
             matrices: false,
-            ..emit::Options::default()
+            ..program::Options::default()
         };
-        let costs = emit::costs(model, &equations, &emitted);
+        let costs = program::costs(model, &equations, &emitted);
         let Some((_, table)) = costs.iter().find(|(name, _)| *name == "accelerations") else {
             return Operations::default();
         };
@@ -41,8 +41,8 @@ impl Operations {
         }
     }
 
-    /// Of a whole run with a state of so many entries: a Jacobian is an evaluation of dual numbers per entry, and one
-    /// for the time.
+    /// The operations of a whole run whose state has `entries` entries: a Jacobian takes one evaluation over dual numbers for each entry,
+    /// and one for the time.
     pub fn of_run(&self, report: &Report, entries: usize) -> u64 {
         let duals = DUAL * (entries as u64 + 1) * report.jacobians;
         self.evaluation * (report.evaluations + duals)

@@ -1,4 +1,4 @@
-//! What is run: series of settings, each from coarse to fine.
+//! The settings that are run: series, each from coarse to fine.
 //!
 //! | series | steps, tolerances | scalars | kinks |
 //! |---|---|---|---|
@@ -7,14 +7,14 @@
 //! | some, with fast sine and cosine | decades | `fast` | located |
 //! | the same, with curves exchanged | decades | `f64` | located |
 //!
-//! What cannot differ is not run twice: kinks are passed only where the scene comes to one, sines are fast only where there
-//! are some, and curves exchanged where there are any.
+//! Nothing is run twice that cannot differ: kinks are passed only if the scene comes to a kink, sines are fast only if there are sines, and
+//! curves are exchanged only if there are curves.
 
 use super::setting::{Curves, Pace, Setting};
 use bryant_runtime::Formula;
 use bryant_runtime::program::Scalar;
 
-/// What is asked for.
+/// The request of the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
     /// Formulas, each once.
@@ -23,7 +23,7 @@ pub struct Request {
     pub tolerances: Range,
     /// Steps from the longest to the shortest \[s\].
     pub steps: Range,
-    /// Few points.
+    /// Run few points.
     pub quick: bool,
 }
 
@@ -34,7 +34,7 @@ pub struct Range {
     to: f64,
 }
 
-/// What there is about a scene that can make a difference.
+/// The properties of a scene that decide which settings can differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scene {
     /// The motion comes to kinks of force laws.
@@ -45,28 +45,28 @@ pub struct Scene {
     pub curves: bool,
 }
 
-/// Settings that differ in their pace alone, from coarse to fine.
+/// Settings that differ in their pace only, from coarse to fine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// All but the pace.
+    /// The setting, except its pace.
     pub of: Setting,
     /// From coarse to fine.
     pub paces: Vec<Pace>,
 }
 
-/// A tolerance below this in `f32` is below what it resolves.
+/// Tolerances below this cannot be resolved in `f32`.
 const SINGLE: f64 = 1e-7;
 
-/// A range that is none.
+/// An invalid range.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct RangeError(String);
 
 impl Range {
-    /// From the larger to the smaller, whichever comes first.
+    /// A range between two numbers, in whichever order.
     ///
     /// # Errors
-    /// Numbers that are not positive and finite.
+    /// A number is not positive and finite.
     pub fn new(a: f64, b: f64) -> Result<Range, RangeError> {
         match [a, b].into_iter().find(|x| !(*x > 0.0 && x.is_finite())) {
             Some(wrong) => Err(RangeError(format!("{wrong} is not a positive number"))),
@@ -77,10 +77,10 @@ impl Range {
         }
     }
 
-    /// Reads "1e-2..1e-8", or one number, each by `number`.
+    /// Reads "1e-2..1e-8", or one number; `number` reads each of them.
     ///
     /// # Errors
-    /// What `number` says; [`Range::new`].
+    /// Those of `number`, and those of [`Range::new`].
     pub fn read<E: std::fmt::Display>(
         text: &str,
         number: impl Fn(&str) -> Result<f64, E>,
@@ -95,12 +95,12 @@ impl Range {
         self.from
     }
 
-    /// As it is read, its ends written by `number`.
+    /// The range as it is read, its ends written by `number`.
     pub fn text(&self, number: impl Fn(f64) -> String) -> String {
         format!("{}..{}", number(self.from), number(self.to))
     }
 
-    /// Its ends and the powers of ten between them; with `halves` three times these, too.
+    /// The ends of the range and the powers of ten between them; with `halves` also three times these.
     fn ladder(&self, halves: bool) -> Vec<f64> {
         let digits: &[u32] = if halves { &[3, 1] } else { &[1] };
         let (high, low) = (
@@ -110,7 +110,7 @@ impl Range {
         let mut values = vec![self.from];
         for exponent in (low..=high).rev() {
             for digit in digits {
-                // By way of the text, so that the numbers are those that people write.
+                // Numbers are parsed from text, so that they are exactly those that people write.
                 let value: f64 = format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN);
                 let inside = value < self.from * (1.0 - 1e-9) && value > self.to * (1.0 + 1e-9);
                 values.extend(inside.then_some(value));
@@ -122,7 +122,7 @@ impl Range {
         values
     }
 
-    /// The part above a limit.
+    /// The part of the range above a limit.
     fn above(&self, limit: f64) -> Option<Range> {
         (self.from >= limit).then(|| Range {
             from: self.from,
@@ -130,8 +130,8 @@ impl Range {
         })
     }
 
-    /// The usual steps for samples so far apart in a run so long: from the longest that is in a table of powers of ten and
-    /// three times these down to a thousandth of it.
+    /// The usual steps for a run of this duration with this time between samples: from the longest step in a table of powers of ten and
+    /// three times these, down to a thousandth of it.
     pub fn of_steps(every: f64, duration: f64) -> Range {
         let longest = every.min(0.1 * duration);
         let exponent = longest.log10().floor() as i32;
@@ -192,7 +192,7 @@ pub fn series(request: &Request, scene: Scene) -> Vec<Series> {
     all
 }
 
-/// The formulas by which arithmetic and curves are compared: a usual one of each kind, or whatever is asked for.
+/// The formulas for which arithmetic and curves are compared: a usual one of each kind, or those that the user asks for.
 fn compared(formulas: &[Formula]) -> Vec<Formula> {
     let usual = [Formula::Rk4, Formula::Tsit5, Formula::Dop853];
     let found: Vec<Formula> = usual.into_iter().filter(|f| formulas.contains(f)).collect();
@@ -202,7 +202,7 @@ fn compared(formulas: &[Formula]) -> Vec<Formula> {
     }
 }
 
-/// Fixed steps and, where the formula estimates its error, tolerances.
+/// A series of fixed steps and, if the formula estimates its error, a series of tolerances.
 fn both(request: &Request, of: Setting, halves: bool) -> Vec<Series> {
     let steps = request.steps.ladder(halves).into_iter().map(Pace::Step);
     let mut all = vec![Series {
@@ -217,7 +217,7 @@ fn both(request: &Request, of: Setting, halves: bool) -> Vec<Series> {
         let values = tolerances.ladder(halves).into_iter();
         let mut paces: Vec<Pace> = values.map(Pace::Tolerance).collect();
         if request.quick {
-            // Every other one, and the last.
+            // Every other pace, and the last.
             let last = paces.len().saturating_sub(1);
             let mut indices = 0..;
             paces.retain(|_| indices.next().is_some_and(|i| i % 2 == 0 || i == last));
@@ -296,7 +296,7 @@ mod tests {
                 }
             }
         }
-        // From coarse to fine, and nothing twice.
+        // settings go from coarse to fine, and none comes twice
         let settings: Vec<Setting> = series.iter().flat_map(Series::settings).collect();
         for (i, setting) in settings.iter().enumerate() {
             assert!(!settings[..i].contains(setting), "{}", setting.name());

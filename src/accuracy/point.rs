@@ -1,52 +1,52 @@
-//! A point of the study: one setting, and what came of it.
+//! A point of the study: one setting and its result.
 
 use super::norm::StateError;
 use super::reading::{Reading, ReadingError};
 use super::setting::{Pace, Setting};
 use bryant_runtime::Report;
 
-/// One setting, and what came of it.
+/// One setting and its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     /// How the run was computed.
     pub setting: Setting,
-    /// What came of it.
+    /// Its result.
     pub status: Status,
 }
 
-/// What came of a setting.
+/// The result of a setting.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Status {
-    /// The run came to its end.
+    /// The run reached its end.
     Done(Box<Done>),
-    /// It failed; the reason.
+    /// The run failed; the reason.
     Failed(String),
-    /// It was not run; the reason.
+    /// The setting was not run; the reason.
     Skipped(String),
 }
 
-/// A run that came to its end.
+/// A run that reached its end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Done {
-    /// Error in the state, and whose it is.
+    /// The error in the state, and the entry that has it.
     pub state: StateError,
     /// Errors of the readings of the study, in its order.
     pub readings: Vec<ReadingError>,
-    /// What is missing in the balance of energy, as a part of the energy exchanged.
+    /// The gap in the balance of energy, relative to the energy exchanged.
     pub energy: Option<f64>,
-    /// Change of momentum that no force explains, as a part of the momentum there is; `None` where it is not known.
+    /// The change of momentum that no force explains, relative to the total momentum; `None` if it is not known.
     pub momentum: Option<f64>,
     /// What the run took.
     pub report: Report,
-    /// Evaluations times the operations of one; a Jacobian counts as three evaluations per entry of the state.
+    /// Evaluations times the operations of one evaluation; a Jacobian counts as three evaluations for each entry of the state.
     pub operations: u64,
-    /// Order seen between this point and the coarser one before it.
+    /// The order, estimated from this point and the coarser one before it.
     pub order: Option<f64>,
-    /// How long it took.
+    /// Time of the run.
     pub timing: Timing,
 }
 
-/// How long a run took.
+/// Time of a run, from several repetitions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timing {
     /// Median of the repetitions \[s\].
@@ -57,7 +57,7 @@ pub struct Timing {
     pub repetitions: usize,
 }
 
-/// What is asked for: one number per run.
+/// The error that the user asks for: one number for each run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// The error in the state.
@@ -68,16 +68,16 @@ pub enum Measure {
     Reading(usize),
 }
 
-/// An error as far as it can be known.
+/// An error, as far as it can be known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Known {
-    /// The error, or the reference's own where that is larger.
+    /// The error, or that of the reference if this is larger.
     pub error: f64,
-    /// The error is below the reference's own: it is at most [`Known::error`].
+    /// The true error is below that of the reference: it is at most [`Known::error`].
     pub at_most: bool,
 }
 
-/// The reference's own errors.
+/// The errors of the reference itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Own {
     /// In the state.
@@ -87,7 +87,7 @@ pub struct Own {
 }
 
 impl Own {
-    /// Of what is asked for.
+    /// The error of the reference in the measure asked for.
     pub fn of(&self, measure: Measure) -> f64 {
         match measure {
             Measure::State => self.state,
@@ -98,7 +98,7 @@ impl Own {
 }
 
 impl Timing {
-    /// Of times in any order \[s\]; zero where there is none.
+    /// The timing from times in any order \[s\]; all zero if there are none.
     pub fn of(times: &[f64]) -> Timing {
         let mut sorted = times.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -122,7 +122,7 @@ fn quantile(sorted: &[f64], part: f64) -> f64 {
 }
 
 impl Done {
-    /// The error asked for, no less than the reference's own.
+    /// The error in the measure asked for, at least that of the reference.
     pub fn error(&self, of: Measure, own: &Own) -> Known {
         let known = |error: f64, own: f64| Known {
             error: error.max(own),
@@ -137,7 +137,7 @@ impl Done {
             Measure::Reading(index) => reading(index),
             Measure::Worst => {
                 let all = (0..self.readings.len()).map(reading);
-                // Of equal errors one that is known is worse.
+                // Of equal errors, one that is known exactly counts as the worse.
                 all.reduce(|a, b| {
                     let worse = b.error > a.error || b.error == a.error && a.at_most;
                     if worse { b } else { a }
@@ -163,7 +163,7 @@ impl Measure {
 }
 
 impl Point {
-    /// The run, where it came to its end.
+    /// The result of a run that reached its end.
     pub fn done(&self) -> Option<&Done> {
         match &self.status {
             Status::Done(done) => Some(done),
@@ -172,9 +172,8 @@ impl Point {
     }
 }
 
-/// Orders seen between neighbours of one series, from coarse to fine: log(e₁/e₂)/log(h₁/h₂), with the errors in the state and
-/// the steps that were taken, or the tolerances. `None` for the first, and where either error is not known or not above the
-/// reference's own.
+/// Orders estimated from neighbours of one series, from coarse to fine: log(e₁/e₂)/log(h₁/h₂), where e are the errors in the state and h
+/// the steps taken, or the tolerances. `None` for the first point, and if either error is not known or not above that of the reference.
 pub fn orders(points: &[&Point], own: &Own) -> Vec<Option<f64>> {
     let known = |point: &Point| {
         let done = point.done()?;
@@ -192,7 +191,7 @@ pub fn orders(points: &[&Point], own: &Own) -> Vec<Option<f64>> {
         .map(|point| {
             let now = known(point);
             let order = before.zip(now).and_then(|((e1, h1), (e2, h2))| {
-                // Errors of the order of the whole say nothing about an order.
+                // An error as large as the motion itself says nothing about the order.
                 (h1 > h2 && e1 < 1.0).then(|| (e1 / e2).ln() / (h1 / h2).ln())
             });
             before = now;
@@ -274,7 +273,7 @@ pub(crate) mod tests {
         for order in &orders[1..3] {
             assert!((order.unwrap() - 4.0).abs() < 1e-12, "{orders:?}");
         }
-        // The last error is below the reference's own.
+        // The last error is below that of the reference.
         assert_eq!(orders[3], None);
     }
 

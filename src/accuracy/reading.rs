@@ -1,9 +1,9 @@
-//! What an engineer reads of a run: of every output its peak and when it comes, of every acceleration the head injury
-//! criterion, with the error of each.
+//! The readings of an engineer: the peak of every output and its time, the head injury criterion of every acceleration, each with its
+//! error.
 //!
-//! The peak is the sample of the largest magnitude. Its time is that of the parabola through this sample and its two
-//! neighbours, looked for near the time of the reference's peak: of two peaks that nearly tie, rounding decides which is
-//! the larger, and a change from one to the other is no error in time.
+//! The peak is the sample of the largest magnitude. Its time is that of the vertex of the parabola through this sample and its two
+//! neighbours. It is looked for near the time of the reference's peak: if two peaks nearly tie, rounding decides which is larger, and a
+//! change from one to the other is not an error in time.
 
 use super::hic::{WINDOW, hic};
 use super::trajectory::Trajectory;
@@ -30,11 +30,11 @@ pub struct Reading {
     pub kind: Kind,
     /// Value of the reference.
     pub value: f64,
-    /// Time of it, of a peak \[s\].
+    /// Time of a peak \[s\].
     pub time: Option<f64>,
 }
 
-/// How a number is read off an output.
+/// The kinds of readings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The sample of the largest magnitude.
@@ -46,19 +46,19 @@ pub enum Kind {
 /// The error of a reading.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReadingError {
-    /// Of the value, relative to the reference's.
+    /// Error of the value, relative to that of the reference.
     pub value: f64,
-    /// Of the time of a peak \[s\].
+    /// Error of the time of a peak \[s\].
     pub time: Option<f64>,
 }
 
-/// Peaks below this part of the largest in the same unit are noise beside it, and are not read.
+/// Peaks below this share of the largest one in the same unit are noise, and are not read.
 const NOISE: f64 = 1e-6;
 
-/// Half of the time in which the peak is looked for, as a part of the run; at least two samples.
+/// Half of the interval in which the peak is looked for, as a share of the run; at least two samples.
 const NEAR: f64 = 0.02;
 
-/// All readings of a reference: those that are not zero.
+/// All readings of a reference that are not zero.
 pub fn of(columns: &[Column], reference: &Trajectory) -> Vec<Reading> {
     let series: Vec<Vec<f64>> = (0..columns.len()).map(|i| reference.output(i)).collect();
     let peaks: Vec<Option<usize>> = series.iter().map(|values| peak(values, |_| true)).collect();
@@ -98,7 +98,7 @@ pub fn of(columns: &[Column], reference: &Trajectory) -> Vec<Reading> {
 }
 
 impl Reading {
-    /// The same reading of another reference; its value is not a number where that has none.
+    /// The same reading of another reference; its value is NaN if that reference has none.
     pub fn again(&self, reference: &Trajectory) -> Reading {
         let values = reference.output(self.column);
         let (value, time) = match self.kind {
@@ -118,7 +118,7 @@ impl Reading {
         }
     }
 
-    /// The error of the same reading of a run; infinite where the run has none.
+    /// The error of the same reading of a run; infinite if the run has no such reading.
     pub fn error(&self, reference: &Trajectory, run: &Trajectory) -> ReadingError {
         let values = run.output(self.column);
         let relative = |value: f64| match ((value - self.value) / self.value).abs() {
@@ -139,7 +139,7 @@ impl Reading {
                 value: peak(&values, |_| true)
                     .filter(|_| whole)
                     .map_or(f64::INFINITY, |sample| {
-                        // A peak of the other sign is another peak of the same size.
+                        // A peak of the opposite sign is a different peak of the same size.
                         relative(values[sample].abs() * self.value.signum())
                     }),
                 time: self.time.and_then(|time| {
@@ -152,7 +152,7 @@ impl Reading {
         }
     }
 
-    /// How far from the reference's time a peak is looked for \[s\].
+    /// How far from the time of the reference a peak is looked for \[s\].
     fn reach(&self, reference: &Trajectory) -> f64 {
         let times = &reference.times;
         let (first, last) = (times.first(), times.last());
@@ -165,7 +165,7 @@ impl Reading {
     }
 }
 
-/// The sample of the largest magnitude among some; `None` where one of them is not finite, or there is none.
+/// The sample of the largest magnitude among some samples; `None` if one of them is not finite, or there are none.
 fn peak(values: &[f64], among: impl Fn(usize) -> bool) -> Option<usize> {
     let mut best: Option<usize> = None;
     for (i, value) in values.iter().enumerate().filter(|(i, _)| among(*i)) {
@@ -179,8 +179,8 @@ fn peak(values: &[f64], among: impl Fn(usize) -> bool) -> Option<usize> {
     best
 }
 
-/// Abscissa of the vertex of the parabola through a sample and its neighbours, not beyond them; the sample's own at the
-/// ends, and where the neighbours do not surround a peak.
+/// Abscissa of the vertex of the parabola through a sample and its neighbours, limited to the interval between them; the abscissa of the
+/// sample itself at the ends, and if the neighbours do not surround a peak.
 fn vertex(times: &[f64], values: &[f64], sample: usize) -> f64 {
     let inner = sample > 0 && sample + 1 < values.len().min(times.len());
     if !inner {
@@ -226,7 +226,7 @@ mod tests {
         let reference = sampled(0.1, 11, &|t| vec![3.0 - (t - 0.43).powi(2), 0.0]);
         let columns = columns(&[("force", "N"), ("chin force", "N")]);
         let readings = of(&columns, &reference);
-        // What is zero all the time has no relative error.
+        // An output that is always 0 has no relative error.
         assert_eq!(readings.len(), 1);
         assert_eq!(readings[0].name, "peak force");
         assert!((readings[0].time.unwrap() - 0.43).abs() < 1e-12);
@@ -255,7 +255,7 @@ mod tests {
         let readings = of(&columns(&[("x", "m")]), &reference);
         let run = sampled(0.02, 101, &swing([1.0, 1.002]));
         let error = readings[0].error(&reference, &run);
-        // In the run the second peak, of the other sign, is the larger.
+        // In the run the second peak, of the opposite sign, is the larger one.
         assert!((error.value - 0.001 / 1.001).abs() < 1e-12, "{error:?}");
         assert!(error.time.unwrap() < 1e-12, "{error:?}");
     }
@@ -266,7 +266,7 @@ mod tests {
         let reference = sampled(1e-3, 101, &|_| vec![500.0, -500.0]);
         let readings = of(&columns, &reference);
         let names: Vec<&str> = readings.iter().map(|r| r.name.as_str()).collect();
-        // A component has none.
+        // A component of an acceleration has no HIC.
         assert_eq!(
             names,
             [

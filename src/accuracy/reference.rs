@@ -1,10 +1,10 @@
-//! What is true: a motion computed so sharply that the errors of all others can be measured against it.
+//! The reference: a motion computed so sharply that the errors of all other runs can be measured against it.
 //!
-//! Dormand–Prince 8(5,3) in double-double arithmetic, kinks located, at tolerances that fall until the time allowed is used
-//! up. The last two are compared: what they differ by bounds the error of the coarser one and is stated as the reference's
-//! own. Where double-doubles would take longer than allowed, by the measured time of their evaluations, the reference is in `f64`; errors
-//! below its own are then not known, and the statement says so. Where the motion is known in closed form, states are measured against that, and the computed solution, which gives
-//! the outputs too, is checked by it.
+//! It is computed by Dormand–Prince 8(5,3) in double-double arithmetic with kinks located, at tolerances that fall until the allowed time
+//! is used up. The last two solutions are compared: their difference bounds the error of the coarser one and is stated as the error of the
+//! reference. If double-doubles would take longer than allowed, judged by the measured time of an evaluation, the reference is computed in
+//! `f64`; errors below its own are then not known, and the statement says so. If the motion is known in closed form, states are measured
+//! against the closed form. The computed solution, which gives the outputs, is then checked by it.
 
 use super::closed_form::ClosedForm;
 use super::norm::{Names, Norm};
@@ -20,26 +20,26 @@ use bryant_runtime::{Adjustable, Formula, Real, Report};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// A reference, and how far it can be trusted.
+/// A reference with its own errors.
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// Names and units of the model.
     pub header: Header,
-    /// What is true: states in closed form where there is one, outputs of the computed solution.
+    /// The true motion: states in closed form if there is one, outputs of the computed solution.
     pub trajectory: Trajectory,
     /// How states are compared with it.
     pub norm: Norm,
-    /// What is read off it.
+    /// The readings of it.
     pub readings: Vec<Reading>,
     /// Its own errors.
     pub own: Own,
-    /// What it is, for people.
+    /// A sentence that says how the reference was computed.
     pub statement: String,
-    /// What the computed solution took.
+    /// The cost of the computed solution.
     pub report: Report,
-    /// Tolerances of the solution and of the one that checks it.
+    /// Tolerances of the solution and of the one that it is compared with.
     pub tolerances: [f64; 2],
-    /// The closed form that it was checked by, and what the computed solution differs from it by in the state.
+    /// The name of the closed form, and by how much the computed solution differs from it in the state.
     pub closed: Option<(&'static str, f64)>,
 }
 
@@ -57,7 +57,7 @@ pub enum ReferenceError {
         /// Why it failed.
         error: Box<RunError>,
     },
-    /// Sharper solutions do not come closer.
+    /// Sharper solutions do not converge.
     #[error(
         "there is nothing to measure errors against: solutions at tolerances {} and {} in double-double differ by {difference:.1e} in \
          the state ({entry})\n  help: the motion depends on its start more sharply than can be computed, or a force jumps where nothing \
@@ -68,19 +68,19 @@ pub enum ReferenceError {
         tolerances: [f64; 2],
         /// In the state.
         difference: f64,
-        /// Whose it is.
+        /// The entry with this difference.
         entry: String,
     },
 }
 
-/// What helps where a reference failed.
+/// The remedy for a reference that failed.
 fn remedy(error: &RunError) -> &'static str {
     match error.kind {
         ErrorKind::Time => {
-            "give more time by --budget, of which a third is for the reference; or a shorter --duration"
+            "give more time with --budget (a third of it is for the reference), or a shorter --duration"
         }
         _ => {
-            "`bryant run` with the same options shows how far the scene runs; a shorter --duration ends before that"
+            "`bryant run` with the same options shows how far the scene runs; give a --duration that ends before that"
         }
     }
 }
@@ -88,27 +88,27 @@ fn remedy(error: &RunError) -> &'static str {
 /// Tolerances tried in double-double arithmetic, from coarse to fine.
 const TOLERANCES: [f64; 4] = [1e-9, 1e-12, 1e-15, 1e-18];
 
-/// Tolerances tried in `f64`. The first shows how many evaluations the scene takes.
+/// Tolerances tried in `f64`. The first one shows how many evaluations the scene needs.
 const OF_DOUBLES: [f64; 4] = [1e-6, 1e-9, 1e-11, 1e-13];
 
 /// The order of the method: the number of steps grows with this root of the tolerance.
 const ORDER: f64 = 8.0;
 
-/// Evaluations that are timed to learn how fast an arithmetic is.
+/// Number of evaluations that are timed to measure the speed of an arithmetic.
 const TRIED: u32 = 20;
 
-/// Solutions that differ by more than this are no reference.
+/// Two solutions that differ by more than this are no reference.
 const APART: f64 = 1e-3;
 
-/// Where the numbers of samples end.
+/// Differences below this are rounding errors of the samples.
 const SAMPLE: f64 = 2.0 * f64::EPSILON;
 
 /// Computes the reference of a scene.
 ///
-/// `job` has what is the same in all runs; `patience` is how long one solution may take \[s\].
+/// `job` has the settings that are the same in all runs; `patience` is the time that one solution may take \[s\].
 ///
 /// # Errors
-/// Everything that leaves no reference, with the reason.
+/// No reference can be computed, and why.
 pub fn compute(
     engine: &Engine,
     job: &Job,
@@ -159,7 +159,7 @@ pub fn compute(
         }
         match (solve(scalar, tolerance), &check) {
             (Ok(sharper), _) => check = Some(std::mem::replace(&mut last, sharper)),
-            // Steps that become too small, or the time is used up: what there is must do.
+            // steps became too small, or the time is used up: the solution before is the reference
             (Err(_), Some(_)) => break,
             (Err(error), None) => return Err(error),
         }
@@ -169,7 +169,7 @@ pub fn compute(
     assess(last, &check, closed, instead)
 }
 
-/// How long an evaluation of the derivative takes \[s\], at the start of a run.
+/// Time of one evaluation of the derivative at the start of a run \[s\].
 fn time_of_evaluation<T: Real>(model: &dyn Adjustable<T>) -> f64 {
     let zero = T::from_f64(0.0);
     let mut y = vec![zero; model.info().state_length()];
@@ -184,7 +184,7 @@ fn time_of_evaluation<T: Real>(model: &dyn Adjustable<T>) -> f64 {
     start.elapsed().as_secs_f64() / f64::from(TRIED)
 }
 
-/// A run that came to its end.
+/// A run that reached its end.
 struct Solution {
     scalar: Scalar,
     tolerance: f64,
@@ -194,7 +194,7 @@ struct Solution {
     took: Duration,
 }
 
-/// How the reference is computed.
+/// The setting of the reference.
 fn setting(scalar: Scalar, tolerance: f64) -> Setting {
     Setting {
         formula: Formula::Dop853,

@@ -9,16 +9,16 @@ use bryant_runtime::program::{Energy, Finding, Header, Job, RunError};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// What came out of a run.
+/// The outcome of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Names and units.
     pub header: Header,
-    /// Its samples; none of a silent run.
+    /// Its samples; empty for a run without samples.
     pub trajectory: Trajectory,
-    /// What it took, or why it failed.
+    /// The cost of the run, or why it failed.
     pub result: Result<Report, RunError>,
-    /// Where the energy went.
+    /// The balance of energy.
     pub energy: Option<Energy>,
     /// Why it cannot be trusted.
     pub doubts: Vec<Finding>,
@@ -26,7 +26,7 @@ pub struct Outcome {
     pub took: Duration,
 }
 
-/// Runs a job, until it is [interrupted](interrupt) at most.
+/// Runs a job until its end, or until an [interrupt](interrupt).
 pub fn run(engine: &Engine, job: &Job) -> Outcome {
     let header = Header::of(engine.info());
     let mut trajectory = Trajectory::default();
@@ -54,7 +54,7 @@ pub fn run(engine: &Engine, job: &Job) -> Outcome {
     }
 }
 
-/// How long a run may take, of seconds; none where a `Duration` cannot hold them.
+/// The time that a run may take, from seconds; `None` if a `Duration` cannot hold them.
 pub fn limit(seconds: f64) -> Option<Duration> {
     Duration::try_from_secs_f64(seconds).ok()
 }

@@ -1,8 +1,8 @@
-//! In which order the settings of a study are run, and how long each may take.
+//! The order in which the settings of a study are run, and the time that each may take.
 //!
-//! The study has series: settings that differ in their step or tolerance alone, from coarse to fine. A processor that is free takes the next
-//! setting of one series: first of every series that has no error below 100 % yet, then of the series whose last point is nearest to the
-//! front of accuracy against time; of several, of the one with the fewest points. So a study that ends early has the front, and lacks what is
+//! The study has series: settings that differ in their step or tolerance only, from coarse to fine. A free processor takes the next setting
+//! of one series: first of every series that has no error below 100 % yet, then of the series whose last point is nearest to the front of
+//! accuracy against time; among several, of the one with the fewest points. So a study that ends early has the front, and lacks the points
 //! far from it.
 
 use super::front::Cost;
@@ -14,16 +14,16 @@ use std::sync::mpsc::channel;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-/// A run is stopped when it takes so many times as long as predicted; predictions from a coarser neighbour are rarely worse.
+/// A run is stopped when it takes this many times its predicted time; predictions from a coarser neighbour are rarely worse.
 const PATIENCE: f64 = 5.0;
 
-/// Why a setting was not run that Ctrl-C came before.
+/// The reason of a setting that was not run because of Ctrl-C.
 pub const INTERRUPTED: &str = "not reached: interrupted by Ctrl-C";
 
-/// Added to the rank of a setting that is run again: no cost is so far from the front.
+/// Is added to the rank of a setting that is run again: no cost is as far from the front as this.
 const LATER: f64 = 1e3;
 
-/// A run of which nothing is known may take this part of what any run may take.
+/// A run whose time cannot be predicted may take this share of the limit of a run.
 const FIRST: f64 = 0.25;
 
 /// All settings of a study, and how long they may take.
@@ -32,28 +32,28 @@ pub struct Schedule<'a> {
     /// How long one run may take \[s\].
     limit: f64,
     begin: Instant,
-    /// How long after `begin` no further run begins \[s\].
+    /// No run begins later than this after `begin` \[s\].
     all: f64,
-    /// Runs at once.
+    /// Number of runs at the same time.
     workers: usize,
 }
 
-/// What came of a setting, and what it cost.
+/// The result of a setting, and its cost.
 pub type Ran = (Status, Cost);
 
-/// How far a series is.
+/// The progress of a series.
 struct Line {
     settings: Vec<Setting>,
     points: Vec<Point>,
     costs: Vec<Cost>,
     /// One of its settings is being run.
     busy: bool,
-    /// What its next setting may take, where it took longer than predicted before \[s\].
+    /// The time that its next setting may take, if that took longer than predicted before \[s\].
     allowance: Option<f64>,
 }
 
 impl<'a> Schedule<'a> {
-    /// Of these series; one run may take `limit` \[s\], all of them `all` \[s\] from now on.
+    /// A schedule of these series; one run may take `limit` \[s\], all of them `all` \[s\] from now on.
     pub fn new(series: &'a [Series], limit: f64, all: f64) -> Self {
         Schedule {
             series,
@@ -64,12 +64,12 @@ impl<'a> Schedule<'a> {
         }
     }
 
-    /// The same with so many runs at once, instead of one for each processor.
+    /// The same with this many runs at a time, instead of one for each processor.
     pub fn on(self, workers: usize) -> Self {
         Schedule { workers, ..self }
     }
 
-    /// Runs the settings; the points from series to series, from coarse to fine. `run` is given how long it may take \[s\].
+    /// Runs the settings and returns their points, series by series, from coarse to fine. `run` gets the time that it may take \[s\].
     pub fn carry_out(
         &self,
         run: &(dyn Fn(&Setting, f64) -> Ran + Sync),
@@ -121,7 +121,7 @@ impl<'a> Schedule<'a> {
         lines.into_iter().flat_map(Line::complete).collect()
     }
 
-    /// What to run next, and how long it may take \[s\]. Settings that would take too long are skipped on the way.
+    /// The next setting and the time that it may take \[s\]. Settings that would take too long are skipped on the way.
     fn next(&self, lines: &Mutex<Vec<Line>>) -> Option<(usize, Setting, f64)> {
         loop {
             let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
@@ -138,7 +138,7 @@ impl<'a> Schedule<'a> {
                 ranks.then(a.points.len().cmp(&b.points.len()))
             });
             let Some((index, _)) = nearest else {
-                // what others run now may open further settings of their series, which they take themselves
+                // the threads that run now continue their own series
                 return None;
             };
             let limit = self.limit;
@@ -146,7 +146,7 @@ impl<'a> Schedule<'a> {
             let setting = line.settings[line.points.len()];
             let predicted = line.predict(&setting);
             if predicted == Some(f64::INFINITY) {
-                line.skip("a coarser one takes too long already (--budget)".to_owned());
+                line.skip("a coarser setting already takes too long (--budget)".to_owned());
                 continue;
             }
             if let Some(predicted) = predicted.filter(|predicted| *predicted > limit) {
@@ -166,11 +166,12 @@ impl<'a> Schedule<'a> {
 }
 
 impl Line {
-    /// How long a run will take \[s\], from the coarser neighbour: in proportion to the number of fixed steps, or as the order of the method says.
+    /// Predicted time of a run \[s\], from its coarser neighbour: proportional to the number of fixed steps, or by the order of the method.
     fn predict(&self, setting: &Setting) -> Option<f64> {
         let (point, cost) = (self.points.last()?, self.costs.last()?);
         if !cost.time.is_finite() {
-            // stopped or failed: the next is no cheaper, but a failure of a coarse setting says nothing of a finer one
+            // stopped or failed: after a stop the next setting takes no less time, but a failure of a coarse setting says nothing about a
+            // finer one
             return matches!(point.status, Status::Skipped(_)).then_some(f64::INFINITY);
         }
         let finer = point.setting.pace.value() / setting.pace.value();
@@ -181,10 +182,10 @@ impl Line {
         })
     }
 
-    /// The lower, the sooner its next setting is run.
+    /// The series with the lowest rank is continued first.
     fn rank(&self, all: &[Cost]) -> f64 {
         if let Some(allowance) = self.allowance {
-            // what takes longer than it should waits for what does not
+            // a setting that took longer than predicted waits for all others
             return LATER + allowance;
         }
         let begun = self.costs.iter().rev().find(|cost| cost.time.is_finite());
@@ -196,7 +197,7 @@ impl Line {
         }
     }
 
-    /// Leaves out its next setting.
+    /// Skips its next setting.
     fn skip(&mut self, why: String) {
         let setting = self.settings[self.points.len()];
         self.points.push(Point {
@@ -206,7 +207,7 @@ impl Line {
         self.costs.push(NONE);
     }
 
-    /// Its points, those that were not reached among them.
+    /// All its points, including those that were not reached.
     fn complete(mut self) -> Vec<Point> {
         let why = match interrupt::asked() {
             true => INTERRUPTED,
@@ -224,7 +225,7 @@ const NONE: Cost = Cost {
     time: f64::INFINITY,
 };
 
-/// How far a cost is from the front of all: ln of its time over that of the fastest which is as accurate; 0 on the front.
+/// The distance of a cost from the front: ln of its time over that of the fastest run that is as accurate; 0 on the front.
 fn far(all: &[Cost], cost: Cost) -> f64 {
     let as_accurate = all.iter().filter(|other| other.error <= cost.error);
     let fastest = as_accurate.fold(f64::INFINITY, |least, other| least.min(other.time));
@@ -234,7 +235,7 @@ fn far(all: &[Cost], cost: Cost) -> f64 {
     }
 }
 
-/// How far one of these costs is from their front; 0 on it.
+/// The distance of one of these costs from their front; 0 on it.
 pub fn distance(all: &[Cost], index: usize) -> f64 {
     far(all, all[index])
 }
@@ -263,7 +264,7 @@ mod tests {
         if formula == Formula::Rk4 { 4 } else { 1 }
     }
 
-    /// A method of order 1 and one of order 4, each as fast as the other at equal steps: more of the second is run.
+    /// A method of order 1 and one of order 4, equally fast at equal steps: the second one gets more runs.
     #[test]
     fn more_is_run_where_the_front_is() {
         let all = [series(Formula::SemiImplicitEuler), series(Formula::Rk4)];
@@ -287,7 +288,7 @@ mod tests {
                 .position(|t| t.0 == formula && (t.1 / step - 1.0).abs() < 1e-9);
             found.unwrap()
         };
-        // They take turns until the better one is known, which goes on before the other does.
+        // The two take turns until the better one is known, which is then finished first.
         assert!(place(Formula::Rk4, 1e-7) < place(Formula::SemiImplicitEuler, 1e-3));
     }
 
@@ -314,7 +315,7 @@ mod tests {
         );
     }
 
-    /// A run of 0.4 s after one of 1 ms, where five are predicted: it is stopped at first, and run when nothing else is left.
+    /// A run of 0.4 s after one of 1 ms, far more than predicted: it is stopped at first, and run again when nothing else is left.
     #[test]
     fn what_was_predicted_wrongly_is_run_with_more_time() {
         let mut all = [series(Formula::Tsit5)];

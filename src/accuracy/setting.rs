@@ -10,7 +10,7 @@ pub struct Setting {
     pub formula: Formula,
     /// How long steps are.
     pub pace: Pace,
-    /// Of which numbers.
+    /// The type of its numbers.
     pub scalar: Scalar,
     /// Whether steps end at kinks of force laws.
     pub locate: bool,
@@ -21,23 +21,23 @@ pub struct Setting {
 /// How long steps are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// Equally long \[s\].
+    /// All steps have this length \[s\].
     Step(f64),
-    /// As the tolerance allows, relative.
+    /// Steps follow from this relative tolerance.
     Tolerance(f64),
 }
 
 /// Which curves the model has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curves {
-    /// Those that it was written with.
+    /// The curves that the model was written with.
     Written,
     /// Cubics for straight lines, and straight lines for cubics.
     Exchanged,
 }
 
 impl Setting {
-    /// What a job says of method and kinks, or leaves to the defaults.
+    /// The setting of a job: what it says about method and kinks, and defaults for the rest.
     pub fn of(job: &Job) -> Self {
         let method = job.method.unwrap_or_default();
         Setting {
@@ -79,7 +79,7 @@ impl Setting {
         }
     }
 
-    /// Whether it differs from another in the length of its steps, or its tolerance, alone.
+    /// Whether it differs from another setting only in the length of its steps or its tolerance.
     pub fn same_series(&self, other: &Setting) -> bool {
         let kinds = [self.pace, other.pace].map(|pace| matches!(pace, Pace::Step(_)));
         kinds[0] == kinds[1]
@@ -97,7 +97,7 @@ impl Setting {
         }
     }
 
-    /// "dop853 at tolerance 3e-4 in f64", with what is not as usual behind it.
+    /// "dop853 at tolerance 3e-4 in f64"; settings that are not the usual ones follow.
     pub fn name(&self) -> String {
         let mut name = format!("{} at {}", self.formula.name(), self.pace.name());
         if self.scalar != Scalar::F64 {
@@ -152,7 +152,7 @@ pub fn time(seconds: f64) -> String {
     format!("{rounded} {unit}")
 }
 
-/// Rounded to two digits, which is more than a time on a busy machine has.
+/// Rounded to two digits: a time on a busy machine is not more precise.
 pub fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }

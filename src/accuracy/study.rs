@@ -1,11 +1,11 @@
-//! The study: the reference, every setting once for its error, then again and again for its time.
+//! The study: the reference, then every setting once for its error, then again and again for its time.
 //!
-//! All of it keeps to a budget of time. A third of the budget is for the reference, a third for errors, the rest for times; what one part
-//! leaves goes to the next.
+//! The whole study keeps within a budget of time. A third of the budget is for the reference, a third for errors, the rest for times; time
+//! that one part does not need goes to the next.
 //!
-//! Errors are computed on all processors at once, in an order that `schedule` decides: first the coarse end of every series, then more where
-//! the front of accuracy against time is. A run that takes longer than its share is stopped. Times are measured one run after the other, in
-//! rounds over the points, those nearest to the front first, so that whatever slows the machine down slows all of them down.
+//! Errors are computed on all processors at once, in the order of `schedule`: first the coarse end of every series, then more points near
+//! the front of accuracy against time. A run that takes longer than its share is stopped. Times are measured one run after the other, in
+//! rounds over the points, those nearest to the front first, so that a disturbance of the machine slows all of them down.
 
 use super::closed_form::ClosedForm;
 use super::environment::Environment;
@@ -26,39 +26,39 @@ use bryant_generator::model::Model;
 use bryant_runtime::program::{ErrorKind, Job};
 use std::time::Instant;
 
-/// What is studied.
+/// The subject of a study.
 pub struct Subject<'a> {
     /// The model.
     pub model: &'a Model,
     /// Its equations, over every scalar.
     pub engine: &'a Engine,
-    /// Those of the model with its curves exchanged, where there is such a one.
+    /// The equations of the model with its curves exchanged, if there is such a model.
     pub exchanged: Option<&'a Engine>,
-    /// What is the same in all runs: duration, sampling, parameters.
+    /// The settings that are the same in all runs: duration, sampling, parameters.
     pub job: Job,
     /// The values of all parameters, in the model's order.
     pub parameters: Vec<f64>,
 }
 
-/// How much is done.
+/// The effort of a study.
 #[derive(Clone, Debug)]
 pub struct Effort {
     /// What is run.
     pub request: Request,
     /// Repetitions of a point whose run is short.
     pub repetitions: usize,
-    /// How long the runs may take, all together, without the reference \[s\].
+    /// Time for all runs together, without the reference \[s\].
     pub budget: f64,
 }
 
-/// What came out.
+/// The result of a study.
 #[derive(Clone, Debug)]
 pub struct Study {
     /// Name of the model.
     pub model: String,
     /// Its digest.
     pub digest: String,
-    /// Where and by what.
+    /// The program and the machine that made it.
     pub environment: Environment,
     /// Length of the runs \[s\].
     pub duration: f64,
@@ -66,7 +66,7 @@ pub struct Study {
     pub every: f64,
     /// Parameters, their values (SI) and units.
     pub parameters: Vec<(String, f64, String)>,
-    /// What errors are measured against.
+    /// The reference that errors are measured against.
     pub reference: Reference,
     /// The same for the model with its curves exchanged.
     pub exchanged: Option<Exchanged>,
@@ -74,15 +74,15 @@ pub struct Study {
     pub not_exchanged: Option<String>,
     /// Operations of one evaluation of the derivative.
     pub operations: Operations,
-    /// What the diagram and the sentence are about.
+    /// The error that the diagram and the sentence show.
     pub of: Measure,
     /// From series to series, from coarse to fine.
     pub points: Vec<Point>,
-    /// The fastest motion, where stability and not accuracy bounds the steps of a method.
+    /// The fastest motion, if stability and not accuracy bounds the steps of a method.
     pub fastest: Option<Fastest>,
-    /// Somebody pressed Ctrl-C before it was all done.
+    /// Ctrl-C was pressed before the study was complete.
     pub interrupted: bool,
-    /// Time that it all took \[s\].
+    /// Total time of the study \[s\].
     pub took: f64,
 }
 
@@ -91,13 +91,13 @@ pub struct Study {
 pub struct Exchanged {
     /// Its own reference.
     pub reference: Reference,
-    /// What the two models differ by in the state.
+    /// The difference of the two models in the state.
     pub state: f64,
-    /// And in each reading.
+    /// The difference of the two models in each reading.
     pub readings: Vec<f64>,
 }
 
-/// What is being done.
+/// The stage of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// The reference is computed.
@@ -111,31 +111,31 @@ pub enum Stage {
 /// Why there is no study.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
-    /// There is nothing to measure errors against.
+    /// There is no reference to measure errors against.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
-    /// There is no error of what is asked for.
+    /// The error asked for does not exist.
     #[error("{0}")]
     Measure(String),
 }
 
-/// Part of the budget for the reference, and for reference and errors together.
+/// The share of the budget for the reference, and for reference and errors together.
 const REFERENCE: f64 = 1.0 / 3.0;
 const ERRORS: f64 = 2.0 / 3.0;
 
-/// A run may take this part of the budget.
+/// The share of the budget that one run may take.
 const SHARE: f64 = 1.0 / 20.0;
 
-/// Rounds in which all points take part; in further ones only those whose run is short.
+/// Number of rounds in which all points take part; later rounds have only points with short runs.
 const ROUNDS_OF_ALL: usize = 3;
 
-/// A run shorter than this \[s\] is repeated as often as asked for: the scatter of longer ones is small.
+/// A run shorter than this \[s\] is repeated as often as requested: longer runs scatter little.
 const SHORT: f64 = 20e-3;
 
-/// Does the study. `progress` hears of the stage and the part of it that is done.
+/// Carries out the study. `progress` is called with the stage and the share of it that is done.
 ///
 /// # Errors
-/// No reference; a program that does not run.
+/// There is no reference, or a program does not run.
 pub fn study(
     subject: &Subject<'_>,
     environment: Environment,
@@ -216,7 +216,7 @@ pub fn study(
 
 impl Exchanged {
     fn of(written: &Reference, mut own: Reference) -> Exchanged {
-        // Read off as the written one is, so that errors stand in the same columns.
+        // The same readings as of the written model, so that errors are in the same columns.
         let again = |reading: &Reading| reading.again(&own.trajectory);
         let readings: Vec<Reading> = written.readings.iter().map(again).collect();
         let errors = own.own.readings.iter().copied().fold(0.0, f64::max);
@@ -238,7 +238,7 @@ impl Exchanged {
 }
 
 impl Study {
-    /// The reference of a point's curves, and its own errors.
+    /// The errors of the reference that belongs to a point's curves.
     pub fn own(&self, curves: Curves) -> &Own {
         match (&self.exchanged, curves) {
             (Some(exchanged), Curves::Exchanged) => &exchanged.reference.own,
@@ -247,7 +247,7 @@ impl Study {
     }
 }
 
-/// What all runs are measured with.
+/// The references and settings that all runs are measured with.
 struct Bench<'a> {
     subject: &'a Subject<'a>,
     reference: &'a Reference,
@@ -272,7 +272,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Every setting once, as far as the budget goes; from series to series, from coarse to fine.
+    /// Runs every setting once, as far as the budget allows; the points are in the order of the series, from coarse to fine.
     fn errors(&self, all: &[Series], progress: &mut dyn FnMut(Stage, f64)) -> Vec<Point> {
         let end = self.clock.left(ERRORS);
         let schedule = Schedule::new(all, SHARE * self.clock.budget, end);
@@ -294,7 +294,7 @@ impl Bench<'_> {
         points
     }
 
-    /// The error that is asked for and the time of a run; infinite where there is none.
+    /// The error asked for and the time of a run; infinite if there is none.
     fn cost(&self, setting: &Setting, status: &Status) -> Cost {
         match status {
             Status::Done(done) => Cost {
@@ -310,7 +310,7 @@ impl Bench<'_> {
         }
     }
 
-    /// One run, which may take so long \[s\].
+    /// One run, which may take `limit` \[s\].
     fn run(&self, setting: &Setting, limit: f64) -> Status {
         let job = Job {
             time_limit: run::limit(limit),
@@ -319,7 +319,7 @@ impl Bench<'_> {
         let outcome = run::run(self.engine(setting.curves), &job);
         let report = match outcome.result {
             Ok(report) => report,
-            // The limit is this study's, no fault of the setting.
+            // the limit is that of this study, so the setting is skipped, not failed
             Err(error) if error.kind == ErrorKind::Time => {
                 return Status::Skipped(format!(
                     "stopped after {}, its share of the time (--budget)",
@@ -349,12 +349,12 @@ impl Bench<'_> {
             operations: self.operations.of_run(&report, entries),
             report,
             order: None,
-            // Until it is timed alone.
+            // A first value, until the run is timed alone.
             timing: Timing::of(&[outcome.took.as_secs_f64()]),
         }))
     }
 
-    /// Repeats the points that are done, in rounds, those nearest to the front first.
+    /// Times the points that are done again, in rounds, those nearest to the front first.
     fn time(&self, points: &mut [Point], effort: &Effort, progress: &mut dyn FnMut(Stage, f64)) {
         let costs: Vec<Cost> = points
             .iter()
@@ -388,7 +388,7 @@ impl Bench<'_> {
                 if interrupt::asked() {
                     break 'rounds;
                 }
-                // it keeps the time that it took when its error was found
+                // the point keeps the time that was measured with its error
                 if outcome.result.is_err() {
                     continue;
                 }
@@ -408,7 +408,7 @@ impl Bench<'_> {
     }
 }
 
-/// How much of the budget is used.
+/// The use of the budget.
 #[derive(Clone, Copy, Debug)]
 struct Clock {
     start: Instant,
@@ -417,12 +417,12 @@ struct Clock {
 }
 
 impl Clock {
-    /// What is left of the first part of the budget \[s\]; below 0 where more is used.
+    /// The time that is left of the first part of the budget \[s\]; negative if more was used.
     fn rest(&self, part: f64) -> f64 {
         part * self.budget - self.start.elapsed().as_secs_f64()
     }
 
-    /// The same, never less than a hundredth of the whole.
+    /// The same, but at least a hundredth of the whole budget.
     fn left(&self, part: f64) -> f64 {
         self.rest(part).max(0.01 * self.budget)
     }

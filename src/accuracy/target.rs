@@ -1,15 +1,15 @@
-//! A run as accurate as wanted, which knows about how far it errs.
+//! A run as accurate as requested, with an estimate of its error.
 //!
-//! Error is asked for in what is printed: of each output the largest difference over all samples, relative to the output's largest
-//! magnitude in the run. A run at tolerance τ is compared with one at τ/10, that with one at τ/100, and so on; the sharpest run is the
-//! result, and its difference from the one before the estimate of its error. Where error falls in proportion to the tolerance the
-//! result errs by a ninth of that; where kinks and friction make it fall unevenly there is that margin for it. A difference that
-//! is small by accident does not count: across a kink of a force error falls like the root of the tolerance at least, so the estimate
-//! is never less than the one before over √10, and there is always one before.
+//! The error refers to the printed numbers: for each output, the largest difference over all samples, relative to the output's largest
+//! magnitude in the run. A run at tolerance τ is compared with one at τ/10, this one with one at τ/100, and so on. The sharpest run is the
+//! result, and its difference from the one before is the estimate of its error. Where the error is proportional to the tolerance, the true
+//! error of the result is a ninth of the estimate; this margin covers kinks and friction, which make the error fall unevenly. A difference
+//! that is small by accident does not count: across a kink of a force the error falls at least like the root of the tolerance. So the
+//! estimate is never less than the estimate before over √10, and there is always one before.
 //!
-//! Which method: what the diagrams of `bryant accuracy` show of the bundled models. Tsitouras 5(4) is at the front down to about
-//! 1e-7, Dormand–Prince 8(5,3) with kinks located below; where steps are bounded by stability and not by the tolerance the
-//! Rosenbrock method takes over.
+//! The choice of the method follows the diagrams of `bryant accuracy` for the bundled models. Tsitouras 5(4) is on the front down to about
+//! 1e-7, Dormand–Prince 8(5,3) with kinks located below. If stability and not the tolerance bounds the steps, the Rosenbrock method takes
+//! over.
 
 use super::conditioning;
 use super::setting::{Curves, Pace, Setting};
@@ -20,52 +20,52 @@ use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
 use bryant_runtime::response::Answer;
 
-/// Tolerances beyond are lost in rounding.
+/// Smaller tolerances are lost in rounding errors.
 pub(super) const FINEST: f64 = 1e-13;
-/// The first tolerance at most.
+/// The first tolerance is at most this.
 const COARSEST: f64 = 0.1;
-/// The least that an estimate may be, of the one before: 1/√10.
+/// An estimate is at least this share of the one before: 1/√10.
 const LEAST: f64 = 0.316;
-/// Below this accuracy the method of order 8 is cheapest.
+/// For accuracies below this the method of order 8 is cheapest.
 const HIGH: f64 = 1e-7;
-/// Outputs smaller than this share of the largest one with the same unit are noise, of which nobody wants to know the error.
+/// Outputs smaller than this share of the largest one with the same unit are noise; their error does not matter.
 const NOISE: f64 = 1e-9;
 /// A signal that has fallen to this share of its size in the first run shrinks with the tolerance.
 pub(super) const SHRUNK: f64 = 1e-2;
-/// An output that agrees this well is known, however small it is.
+/// An output that agrees this well is known, even if it is small.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// A run that is as accurate as wanted, or as accurate as it gets.
+/// A run that is as accurate as requested, or as accurate as possible.
 #[derive(Clone, Debug)]
 pub struct Accurate {
     /// The sharpest run.
     pub recording: Recording,
     /// How it was computed.
     pub setting: Setting,
-    /// Estimated error, `None` where nothing could be compared because too many runs failed.
+    /// Estimated error; `None` if nothing could be compared because too many runs failed.
     pub estimate: Option<Difference>,
-    /// Runs that it took.
+    /// Number of runs that were needed.
     pub runs: usize,
 }
 
-/// How far two runs are apart.
+/// The difference of two runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// Of each output, relative to its largest magnitude; 0 of one that is noise.
+    /// For each output, relative to its largest magnitude; 0 for noise.
     pub outputs: Vec<f64>,
-    /// The largest.
+    /// The largest of these.
     pub worst: f64,
-    /// Name of its output, "" where there is none.
+    /// Name of the output with the largest difference, "" if there is none.
     pub output: String,
-    /// Of each response that was asked for, relative to itself; empty where either run has none. They do not count for the largest.
+    /// For each response asked for, relative to itself; empty if either run has none. They are not part of [`Difference::worst`].
     pub responses: Vec<f64>,
-    /// The largest of these, but for those of signals that are noise, or vanishing.
+    /// The largest of these, without those of signals that are noise or vanish.
     pub worst_response: f64,
     /// Outputs below their floors that do not agree.
     pub vanishing: Vec<Vanishing>,
 }
 
-/// An output of which only a bound is known, as one that is 0 in truth and shrinks with the tolerance.
+/// An output that is known only by a bound, such as one that is exactly 0 and shrinks with the tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vanishing {
     /// Its name.
@@ -77,12 +77,12 @@ pub struct Vanishing {
 }
 
 impl Difference {
-    /// Of the outputs of a run, from those of a sharper one. Infinite where one of them has fewer samples.
+    /// The difference of the outputs of a run from those of a sharper run. Infinite if one of them has fewer samples.
     pub fn of(coarse: &Table, sharp: &Table) -> Difference {
         Self::beyond(coarse, sharp, &[])
     }
 
-    /// The same; an output that is nowhere larger than its floor is vanishing, and its error does not count.
+    /// The same with floors: an output that is nowhere larger than its floor is vanishing, and its error does not count.
     pub fn beyond(coarse: &Table, sharp: &Table, floors: &[f64]) -> Difference {
         // the first column is time
         let columns = || coarse.columns.iter().zip(&sharp.columns).skip(1);
@@ -127,8 +127,8 @@ impl Difference {
         }
     }
 
-    /// Adds the difference of the responses of both runs, which were asked of these outputs. A response of a signal that has
-    /// fallen below a hundredth of its size in the `first` run does not count.
+    /// Adds the differences of the responses of both runs; `asked` are the responses. A response of a signal that has fallen below a
+    /// hundredth of its size in the `first` run does not count.
     pub fn with_responses(
         self,
         asked: &[Asked],
@@ -142,7 +142,7 @@ impl Difference {
             Some(sharp.header.outputs.get(*first)?.unit.as_str())
         };
         let columns = sharp.table.columns.iter().skip(1);
-        // the largest of a unit, in rows and in samples
+        // the largest value with this unit, among rows and samples
         let scale = |of: &Asked| {
             let same = columns
                 .clone()
@@ -179,7 +179,7 @@ impl Difference {
         }
     }
 
-    /// At least the share of another one.
+    /// Raises each error to at least this share of the error in `other`.
     fn at_least(mut self, other: Option<&Difference>, share: f64) -> Difference {
         let Some(other) = other else { return self };
         for (error, other) in self.outputs.iter_mut().zip(&other.outputs) {
@@ -197,7 +197,7 @@ impl Difference {
     }
 }
 
-/// How far two values are apart; infinitely where one of them alone is no number.
+/// The difference of two values; infinite if only one of them is a number.
 fn apart(a: f64, b: f64) -> f64 {
     match a == b || (a.is_nan() && b.is_nan()) {
         true => 0.0,
@@ -212,8 +212,8 @@ pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0f64, |m, x| m.max(x.abs()))
 }
 
-/// Runs a job until its outputs and responses err by no more than `wanted`, by estimate; `progress` hears of the share of a run that is done.
-/// Of a run that fails the recording holds why.
+/// Runs a job until the estimated error of its outputs and responses is at most `wanted`; `progress` is called with the share of a run that
+/// is done. If a run fails, the recording holds the reason.
 pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64)) -> Accurate {
     let mut setting = Setting {
         formula: if wanted < HIGH {
@@ -253,7 +253,7 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         };
         let mut sharper = simulation::run(model, &next.job(job), progress);
         if interrupted(&sharper) {
-            // what there is is whole
+            // the run before is complete
             break;
         }
         runs += 1;
@@ -293,27 +293,27 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
     }
 }
 
-/// Whether somebody stopped it.
+/// Whether the user stopped the run.
 fn interrupted(recording: &Recording) -> bool {
     matches!(&recording.result, Err(error) if error.kind == ErrorKind::Stopped)
 }
 
-/// Whether an explicit method took about as many steps at a tenth of the tolerance: that many are needed for stability.
+/// Whether an explicit method took about as many steps at a tenth of the tolerance: stability then needs that many.
 fn bound_by_stability(coarse: &Recording, sharp: &Recording) -> bool {
     match (&coarse.result, &sharp.result) {
         (Ok(coarse), Ok(sharp)) => {
-            // a method of order 5 should take 1.58 times as many
+            // a method of order 5 should take 1.58 times as many steps
             coarse.steps > 2000 && (sharp.steps as f64) < 1.15 * coarse.steps as f64
         }
         _ => false,
     }
 }
 
-/// Another way to compute the run of a setting, sharper and by another formula, with kinks located.
+/// Another setting that computes the run, sharper and by another formula, with kinks located.
 pub fn second_opinion(setting: &Setting) -> Setting {
     let tolerance = match setting.pace {
         Pace::Tolerance(tolerance) => tolerance,
-        // what a fixed step is worth nobody knows
+        // nobody knows the accuracy of a fixed step
         Pace::Step(_) => 1e-6,
     };
     Setting {
@@ -328,7 +328,7 @@ pub fn second_opinion(setting: &Setting) -> Setting {
     }
 }
 
-/// To two digits, as a person would have written it.
+/// Rounded to two digits, as a person would write it.
 pub(super) fn rounded(tolerance: f64) -> f64 {
     format!("{tolerance:.1e}").parse().unwrap_or(tolerance)
 }

@@ -1,13 +1,13 @@
-//! The samples of a run, and how they are compared: states by a norm, readings one by one.
+//! The samples of a run. A norm compares their states; readings are compared one by one.
 
 /// Samples of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trajectory {
     /// \[s\], increasing.
     pub times: Vec<f64>,
-    /// Per sample: coordinates, velocities, and what force laws add; orientations in space as quaternions.
+    /// For each sample: coordinates, velocities, and states of force laws; orientations in space are quaternions.
     pub states: Vec<Vec<f64>>,
-    /// Per sample: the outputs, SI.
+    /// For each sample the outputs, SI.
     pub outputs: Vec<Vec<f64>>,
 }
 

@@ -1,31 +1,31 @@
-//! Compiles what no engine can evaluate, alone, as a small library that this process loads.
+//! Compiles what the engine cannot evaluate as a small library of its own, which this process loads.
 //!
 //! ```text
 //! scalars, curves, force laws ─rustc→ libbryant_runtime.rlib (once for each compiler) ┐
 //! functions of the user's, or one generated module ───────────────────────────────────┴─rustc→ library
 //! ```
 //!
-//! A library is kept, by its text, the compiler and the options. The same text in another model, or of another build of this program, is not
-//! compiled again.
+//! Libraries are cached by their text, the compiler and the options. The same text is not compiled again, in another model or by another
+//! build of this program.
 
 use super::library::{LoadError, names};
 use super::{BuildError, Cache, Rustc, Stage, Text, entry_name, rustc, write};
-use bryant_generator::emit::Apart;
+use bryant_generator::target::rust::Apart;
 use std::path::{Path, PathBuf};
 
-/// What the text of a library is of.
+/// The text of a library.
 pub(super) struct Source<'a> {
     /// Name of the model.
     pub name: &'a str,
-    /// What is generated.
+    /// The generated module.
     pub module: &'a str,
-    /// What is exported of it.
+    /// The exported functions of the library.
     pub exports: &'a str,
-    /// Texts of the user's in it.
+    /// The user's texts in it.
     pub texts: &'a [Text<'a>],
 }
 
-/// The library: from the cache, else compiled. `stage` hears of everything that takes time.
+/// The path of the library, from the cache or newly compiled. `stage` is called before each step that takes time.
 pub(super) fn library(
     rustc: &Rustc,
     source: &Source<'_>,
@@ -59,7 +59,7 @@ pub(super) fn library(
                     crate_type,
                     crate_name,
                     "--cfg=feature=\"std\"",
-                    // no time loop, which would be of no use there
+                    // without the time loop, which is not used there
                     "--cfg=bryant_equations",
                 ],
                 &directory.join(runtime),
@@ -85,7 +85,7 @@ pub(super) fn library(
     })
 }
 
-/// Whether a file is of the part of the runtime that `equations.rs` is the root of.
+/// Whether a file belongs to the part of the runtime whose root is `equations.rs`.
 fn belongs(path: &str) -> bool {
     let files = [
         "apart.rs",
@@ -109,7 +109,8 @@ pub(super) fn unusable(path: &Path, source: LoadError) -> BuildError {
     }
 }
 
-/// What every library exports. What its functions print goes to standard error, for results stand on standard output, and says whose it is.
+/// The part that every library exports. Output of its functions goes to standard error with a prefix, because standard output is for
+/// results.
 fn start() -> String {
     format!(
         "\
@@ -141,7 +142,7 @@ unsafe extern \"C\" fn {}(place: *mut u8, length: usize) -> usize {{
     )
 }
 
-/// What a library of functions of the user's exports.
+/// The exports of a library of user functions.
 pub(super) fn exports_of_functions(apart: &Apart) -> String {
     let mut text = "//! Functions of a user's, to be loaded; written by bryant.\n".to_owned();
     text += &start();
@@ -175,7 +176,7 @@ extern \"C\" fn {}(function: u32, base: u32, order: u32) -> Option<apart::Call> 
     )
 }
 
-/// What a library of a generated model exports, with a Jacobian or without.
+/// The exports of a library of a generated model, with a Jacobian or without.
 pub(super) fn exports_of_model(jacobian: bool) -> String {
     let jacobian = match jacobian {
         true => "ByDuals",

@@ -1,13 +1,13 @@
-//! A directory of finished entries: an entry is there whole, or not at all.
+//! A cache directory of finished entries: an entry is complete, or it does not exist.
 
 use super::BuildError;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// What the name of a directory begins with that is being filled.
+/// Prefix of the names of directories that are being filled.
 const BUILDING: &str = ".building-";
-/// Nobody fills one for so long.
+/// A directory that is this old is not being filled any more.
 const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
 /// Where compiled models are kept.
@@ -37,7 +37,7 @@ impl Cache {
             variable("HOME").map(|home| home.join(".cache"))
         };
         let root = variable("BRYANT_CACHE")
-            // A relative XDG path is to be ignored, says its specification.
+            // the XDG specification says that relative paths are ignored
             .or_else(|| {
                 variable("XDG_CACHE_HOME")
                     .filter(|p| p.is_absolute())
@@ -47,7 +47,7 @@ impl Cache {
         root.map(|root| Self { root }).ok_or(BuildError::NoCache)
     }
 
-    /// The file `file` of an entry; where the entry is not there, `build` fills a directory that becomes it.
+    /// The file `file` of an entry; if the entry does not exist, `build` fills a directory that becomes the entry.
     pub fn entry(
         &self,
         name: &str,
@@ -79,7 +79,7 @@ impl Cache {
             remove(&entry).and_then(|()| std::fs::rename(&built, &entry))
         };
         if built.exists() {
-            // What cannot be removed does no harm: its name is never looked for.
+            // A directory that cannot be removed does no harm: its name is never looked for.
             let _ = remove(&built);
         }
         match moved {
@@ -89,7 +89,7 @@ impl Cache {
         }
     }
 
-    /// Removes what was being built a day ago or earlier: whoever did was ended before it could be removed.
+    /// Removes directories whose building began a day ago or earlier: the process that filled them was ended.
     fn remove_abandoned(&self) {
         let Ok(entries) = std::fs::read_dir(&self.root) else {
             return;
@@ -100,13 +100,13 @@ impl Cache {
             let age = age.map(|modified| modified.elapsed().unwrap_or_default());
             if name.to_string_lossy().starts_with(BUILDING) && age.is_ok_and(|age| age > ABANDONED)
             {
-                // what cannot be removed does no harm
+                // a directory that cannot be removed does no harm
                 let _ = remove(&entry.path());
             }
         }
     }
 
-    /// Keeps what went wrong for a report: the directory's sources under a name of their own.
+    /// Keeps the sources and messages of a failure for a report, in the directory `failed`.
     pub fn keep_failure(&self, directory: &Path, messages: &str) -> PathBuf {
         let kept = self.root.join("failed");
         let copied = std::fs::create_dir_all(&kept).and_then(|()| {
@@ -117,7 +117,7 @@ impl Cache {
             }
             std::fs::write(kept.join("messages.txt"), messages)
         });
-        // Where even this fails, the message still says what the compiler said first.
+        // if even this fails, the message still has the first error of the compiler
         let _ = copied;
         kept
     }
@@ -199,7 +199,7 @@ mod tests {
         }
         let long_ago = std::time::SystemTime::now() - ABANDONED - Duration::from_secs(60);
         let file = std::fs::File::open(&old).unwrap();
-        // not every system lets the time of a directory be set
+        // some systems cannot set the time of a directory
         let set = file.set_modified(long_ago);
         assert!(set.is_ok() || !cfg!(unix), "{set:?}");
         cache.entry("a", "model", fill).unwrap();

@@ -1,13 +1,14 @@
-//! What a function of the user's may do to the whole program, and what is said of it then.
+//! What a user function may do to the whole program, and what the program says then.
 //!
 //! | the function | what happens |
 //! |---|---|
-//! | calls `exit` | a handler of the system's, called on the way out, says so and ends the program with 3 |
-//! | aborts, overflows its stack, reads where nothing is | a handler of signals, on a stack of its own, says so and ends the program with 3 |
-//! | does not return | a thread that looks on says so after ten seconds, or a second after Ctrl-C, and ends the program with 3 |
-//! | prints | it goes to standard error: standard output is moved out of its reach |
+//! | calls `exit` | an exit handler of the system says so and ends the program with exit code 3 |
+//! | aborts, overflows its stack, reads memory that is not its own | a signal handler on its own stack says so and ends the program with
+//! exit code 3 |
+//! | does not return | a watching thread says so after ten seconds, or one second after Ctrl-C, and ends the program with exit code 3 |
+//! | prints | the output goes to standard error: standard output is moved out of its reach |
 //!
-//! A flag of each thread says which force is being evaluated there. Where the system is not Unix there are only the flag and the thread.
+//! A flag of each thread says which force it evaluates. On systems that are not Unix there are only the flag and the watching thread.
 #![expect(
     unsafe_code,
     reason = "handlers of exits and signals are the system's; threads read what others point to"
@@ -19,33 +20,33 @@ use std::sync::atomic::{AtomicPtr, AtomicU64, Ordering};
 use std::sync::{Mutex, Once, PoisonError};
 use std::time::Duration;
 
-/// Exit code of a program that a function ended: the simulation failed on the way.
+/// Exit code if a user function ended the program: the simulation failed on the way.
 pub const EXIT_CODE: i32 = 3;
 
-/// Something of the user's, for people, as in: the user force "drag" (drag.rs).
+/// A description of a user function, for people: the user force "drag" (drag.rs).
 #[derive(Debug)]
 pub struct What(String);
 
 impl What {
-    /// It is kept until the process ends: handlers of signals read it.
+    /// The text is kept until the process ends, because signal handlers read it.
     pub fn new(text: String) -> &'static What {
         Box::leak(Box::new(What(text)))
     }
 }
 
-/// What a thread evaluates, for the thread that looks on.
+/// The user function that a thread evaluates, for the watching thread.
 struct Calls {
-    /// How many have begun.
+    /// Number of calls that have begun.
     count: AtomicU64,
-    /// That of now; null between two.
+    /// The function that is being called; null between two calls.
     now: AtomicPtr<What>,
 }
 
-/// Those of all threads that ever called something.
+/// The calls of all threads that ever called a user function.
 static THREADS: Mutex<Vec<&'static Calls>> = Mutex::new(Vec::new());
 
 thread_local! {
-    /// What is being evaluated on this thread.
+    /// The function that is being evaluated on this thread.
     static INSIDE: Cell<Option<&'static What>> = const { Cell::new(None) };
     static CALLS: &'static Calls = {
         let calls: &'static Calls = Box::leak(Box::new(Calls {
@@ -57,16 +58,16 @@ thread_local! {
     };
 }
 
-/// While it lives, something of the user's is evaluated on this thread.
+/// While this value lives, a user function is being evaluated on this thread.
 pub struct Inside(&'static Calls);
 
 impl Inside {
-    /// Begins.
+    /// Begins a call.
     #[inline]
     pub fn of(what: &'static What) -> Self {
         INSIDE.set(Some(what));
         let calls = CALLS.with(|calls| *calls);
-        // only this thread counts
+        // only this thread changes the count
         let count = calls.count.load(Ordering::Relaxed);
         calls.count.store(count + 1, Ordering::Relaxed);
         let what = std::ptr::from_ref(what).cast_mut();
@@ -83,18 +84,18 @@ impl Drop for Inside {
     }
 }
 
-/// Between two looks at what threads evaluate.
+/// Time between two looks at the threads.
 const LOOK: Duration = Duration::from_millis(250);
-/// Looks that find the same call, after which it is said not to return: ten seconds, in which a function is otherwise called a million times.
-/// Looks are counted, not time, so that a process that was halted is not accused.
+/// A call does not return if this many looks find it: ten seconds, in which a function is otherwise called a million times. Looks are
+/// counted instead of time, so that a halted process is not accused.
 const PATIENCE: u32 = 40;
-/// The same after Ctrl-C, which a call keeps from being heard.
+/// The same after Ctrl-C, which cannot be handled during a call.
 const PATIENCE_WHEN_INTERRUPTED: u32 = 4;
 
-/// Begins to look on.
+/// Starts the watching thread.
 fn look_on() {
     static ONCE: Once = Once::new();
-    // without the thread an endless call is endless, as ever
+    // without this thread, an endless call goes on for ever
     ONCE.call_once(|| drop(std::thread::Builder::new().spawn(look_for_ever)));
 }
 
@@ -116,7 +117,7 @@ fn look_for_ever() {
             *count = now;
             let interrupted = interrupt::asked() && *looks >= PATIENCE_WHEN_INTERRUPTED;
             if interrupted || *looks >= PATIENCE {
-                // SAFETY: what is not null is a `What`, which lives as long as the process.
+                // SAFETY: a pointer that is not null points to a `What`, which lives as long as the process.
                 let Some(what) = (unsafe { what.as_ref() }) else {
                     continue;
                 };
@@ -132,9 +133,9 @@ fn look_for_ever() {
     }
 }
 
-/// Ends the program, whatever else it does.
+/// Ends the program at once.
 fn end() -> ! {
-    // SAFETY: it ends the program at once; handlers of exits would wait for the call.
+    // SAFETY: it ends the program at once; exit handlers would wait for the call.
     #[cfg(unix)]
     unsafe {
         libc::_exit(EXIT_CODE)
@@ -143,16 +144,16 @@ fn end() -> ! {
     std::process::exit(EXIT_CODE)
 }
 
-/// Sees to it that nothing that is evaluated ends the program without a word. To be called before the first [`Inside`]; more often does no
-/// harm.
+/// Ensures that no user function ends the program without a message. It is to be called before the first [`Inside`]; calling it more often
+/// does no harm.
 pub fn watch() {
     look_on();
     #[cfg(unix)]
     unix::watch();
 }
 
-/// Standard output for results alone: from now on whatever else is written to standard output goes to standard error. Where that cannot be, it
-/// is standard output as it was.
+/// Standard output for results only: from now on, all other writes to standard output go to standard error. If that is not possible,
+/// standard output stays as it was.
 pub fn stdout_for_results() -> Box<dyn Output> {
     #[cfg(unix)]
     if let Some(file) = unix::moved_stdout() {
@@ -161,9 +162,9 @@ pub fn stdout_for_results() -> Box<dyn Output> {
     Box::new(std::io::stdout())
 }
 
-/// Where results are written.
+/// A place where results are written.
 pub trait Output: std::io::Write + std::io::IsTerminal {
-    /// Characters of a line, of a terminal.
+    /// Width of a line in characters, if it is a terminal.
     fn width(&self) -> Option<usize>;
 }
 
@@ -191,30 +192,36 @@ mod unix {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::sync::{Once, OnceLock};
 
-    /// Signals that a fault raises, and what is said of each.
+    /// The signals of faults, and the message for each.
     const SIGNALS: [(c_int, &str); 5] = [
         (SIGABRT, " aborted the program"),
         (
             SIGSEGV,
-            " ended the program: it calls itself without end, or reads where nothing is",
+            " ended the program: it calls itself without end, or reads memory that is not its own",
         ),
-        (SIGBUS, " ended the program: it reads where nothing is"),
-        (SIGILL, " ended the program by an instruction that is none"),
-        (SIGFPE, " ended the program by a division of whole numbers"),
+        (
+            SIGBUS,
+            " ended the program: it reads memory that is not its own",
+        ),
+        (SIGILL, " ended the program by an invalid instruction"),
+        (
+            SIGFPE,
+            " ended the program by an invalid division of integers",
+        ),
     ];
-    const HELP: &str = "\n  help: mend the function\n";
-    const EXITED: &str = " ended the program: it calls `exit`\n  help: return from the function instead; it can end nothing\n";
+    const HELP: &str = "\n  help: correct the function\n";
+    const EXITED: &str = " ended the program: it calls `exit`\n  help: return from the function instead; it must not end the program\n";
 
-    /// What was to be done with these signals before: it still is where a fault is none of the user's.
+    /// The handlers of these signals before: they are called if the fault is not in a user function.
     static BEFORE: OnceLock<[sigaction; 5]> = OnceLock::new();
-    /// Of two faults at once the first is told.
+    /// If two threads fail at once, only the first one reports.
     static TOLD: AtomicBool = AtomicBool::new(false);
 
     pub fn watch() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {
-            // SAFETY: the handlers live as long as the program, and use nothing that must not be used in one: a constant flag of the thread,
-            // `write`, `_exit`, `sigaction` and `raise`. A structure of zeros is one of no flags.
+            // SAFETY: the handlers live as long as the program and use only what a signal handler may use: a constant flag of the thread,
+            // `write`, `_exit`, `sigaction` and `raise`. A structure of zeros has no flags.
             unsafe {
                 libc::atexit(exiting);
                 let none: sigaction = std::mem::zeroed();
@@ -234,20 +241,20 @@ mod unix {
         });
     }
 
-    /// Says what happened to what is being evaluated on this thread, and ends the program. Returns where nothing is.
+    /// Reports what happened to the user function on this thread, and ends the program. It returns if there is none.
     fn tell(what: &str, help: &str) {
         let Some(inside) = INSIDE.get() else {
             return;
         };
         if TOLD.swap(true, Ordering::Relaxed) {
-            // another thread is telling, and ends the program
+            // another thread is reporting, and ends the program
             loop {
-                // SAFETY: it waits for a signal.
+                // SAFETY: it only waits for a signal.
                 unsafe { libc::pause() };
             }
         }
         for text in ["error: ", &inside.0, what, help] {
-            // SAFETY: the text is as long as it says. What cannot be written is lost.
+            // SAFETY: pointer and length are those of the text. A failed write is ignored.
             unsafe { libc::write(2, text.as_ptr().cast::<c_void>(), text.len()) };
         }
         end();
@@ -263,8 +270,8 @@ mod unix {
             return;
         };
         tell(SIGNALS[index].1, HELP);
-        // SAFETY: what was to be done before was told by the system. The fault happens once more when this returns, and a signal that was
-        // sent is sent again.
+        // SAFETY: the system returned the handler before. After this function returns, the fault happens again, and a signal that was sent
+        // is sent again.
         unsafe {
             sigaction(signal, &before[index], std::ptr::null_mut());
             if (*about).si_code <= 0 {
@@ -274,7 +281,7 @@ mod unix {
     }
 
     pub fn moved_stdout() -> Option<File> {
-        // SAFETY: the descriptor is new, and nobody else's.
+        // SAFETY: the descriptor is new and has no other owner.
         unsafe {
             let kept = libc::fcntl(1, libc::F_DUPFD_CLOEXEC, 3);
             if kept < 0 {

@@ -1,7 +1,7 @@
-//! A library that was compiled on demand, loaded into this process: the one place where addresses from it are called.
+//! A library that was compiled on demand and loaded into this process. Addresses from it are called only in this file.
 //!
-//! What it exports is written by [`apart`](super::apart), and both sides of each call stand in `bryant_runtime::apart`. A library stays loaded
-//! until the process ends, for its functions may be called from anywhere.
+//! [`apart`](super::apart) writes the exports of a library, and `bryant_runtime::apart` has both sides of each call. A library stays loaded
+//! until the process ends, because its functions may be called from anywhere.
 #![expect(
     unsafe_code,
     reason = "what is loaded is called by its address; the compiler does not see that it fits"
@@ -14,9 +14,9 @@ use bryant_runtime::real::Form;
 use std::ffi::c_void;
 use std::path::Path;
 
-/// Names of what a library exports.
+/// Names of the exports of a library.
 pub mod names {
-    /// `extern "C" fn() -> u32`: [`VERSION`](super::VERSION), and panics are kept from now on.
+    /// `extern "C" fn() -> u32`: returns [`VERSION`](super::VERSION); from then on panics are recorded.
     pub const START: &str = "bryant_start";
     /// `extern "C" fn(function: u32, base: u32, order: u32) -> Option<Call>`
     pub const FUNCTION: &str = "bryant_function";
@@ -37,28 +37,28 @@ type Said = unsafe extern "C" fn(place: *mut u8, length: usize) -> usize;
 /// Why a library cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    /// The system does not load it, or it lacks a function.
+    /// The system cannot load it, or it lacks a function.
     #[error("{0}")]
     System(#[from] libloading::Error),
-    /// It is of another version.
+    /// It was written by another version.
     #[error("it was written by another version of this program")]
     Version,
 }
 
-/// What a panic said.
+/// The message and the place of a panic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Panic {
-    /// The file; empty where it is not known.
+    /// The file; empty if it is not known.
     pub file: String,
     /// The line, counted from 1.
     pub line: usize,
     /// The column, counted from 1.
     pub column: usize,
-    /// What it said.
+    /// The message.
     pub message: String,
 }
 
-/// A library that is loaded.
+/// A loaded library.
 #[derive(Debug)]
 struct Loaded {
     library: &'static libloading::Library,
@@ -67,11 +67,11 @@ struct Loaded {
 
 impl Loaded {
     fn open(path: &Path) -> Result<Self, LoadError> {
-        // SAFETY: the library was compiled from text that this program wrote around functions of the user's, and does nothing when it is
-        // loaded. Who may write into the cache may run programs in the user's name anyway.
+        // SAFETY: the library was compiled from text that this program wrote around user functions, and does nothing when it is loaded.
+        // Whoever may write into the cache may run programs as this user anyway.
         let library = unsafe { libloading::Library::new(path)? };
         let library: &'static _ = Box::leak(Box::new(library));
-        // SAFETY: libraries that this program wrote export these names with these types; the version says so of all others.
+        // SAFETY: libraries that this program wrote export these names with these types; the version protects against all others.
         let start = unsafe { *library.get::<Start>(names::START)? };
         if start() != VERSION {
             return Err(LoadError::Version);
@@ -81,10 +81,10 @@ impl Loaded {
         Ok(Self { library, said })
     }
 
-    /// What the last panic on this thread said.
+    /// The last panic on this thread.
     fn panic(&self) -> Panic {
         let mut text = vec![0; 4096];
-        // SAFETY: there is place for as many bytes as are said to be.
+        // SAFETY: the buffer has room for as many bytes as its length says.
         let length = unsafe { (self.said)(text.as_mut_ptr(), text.len()) };
         text.truncate(length);
         let text = String::from_utf8_lossy(&text);
@@ -100,18 +100,18 @@ impl Loaded {
     }
 }
 
-/// Functions of the user's.
+/// A library of user functions.
 #[derive(Debug)]
 pub struct Functions {
     loaded: Loaded,
     find: Find,
 }
 
-/// A function of the user's over one scalar.
+/// A user function over one scalar.
 #[derive(Clone, Copy, Debug)]
 pub struct Function {
     call: Call,
-    /// Words of the arguments and of the results of one lane.
+    /// Number of words of the arguments and of the results of one lane.
     words: [usize; 2],
 }
 
@@ -124,8 +124,8 @@ impl Functions {
         Ok(Self { loaded, find })
     }
 
-    /// A function by its index, of as many arguments and results as its text says, over a scalar; `None` where the library does not have it or
-    /// the processor cannot do it.
+    /// A function by its index, with as many arguments and results as its text says, over a scalar; `None` if the library does not have it
+    /// or the processor cannot run it.
     pub fn function(
         &self,
         index: usize,
@@ -139,8 +139,8 @@ impl Functions {
         })
     }
 
-    /// Calls a function of this library with the words of one lane; an error where it panics. Results are left alone where there are not as
-    /// many words as it takes.
+    /// Calls a function of this library with the words of one lane; an error if it panics. The results stay unchanged if there are not as
+    /// many words as the function takes.
     #[inline]
     pub fn call(
         &self,
@@ -153,7 +153,7 @@ impl Functions {
         if !fits {
             return Ok(());
         }
-        // SAFETY: there are as many words as it takes and returns.
+        // SAFETY: the slices have as many words as the function takes and returns.
         match unsafe { (function.call)(arguments.as_ptr(), results.as_mut_ptr()) } {
             PANICKED => Err(self.loaded.panic()),
             _ => Ok(()),
@@ -194,18 +194,18 @@ impl Compiled {
     }
 }
 
-/// A generated model at one set of parameters.
+/// A generated model with one set of parameters.
 #[derive(Debug)]
 pub struct CompiledModel<'a> {
     of: &'a Compiled,
     model: *mut c_void,
 }
 
-// SAFETY: a model is numbers, and holds no reference to any thread.
+// SAFETY: a model consists of numbers, and has no reference to any thread.
 unsafe impl Send for CompiledModel<'_> {}
 
 impl CompiledModel<'_> {
-    /// Does something with it; false where there is nothing to tell. Slices must be as long as the model says.
+    /// Evaluates one method; false if the model has no such result. Slices must have the lengths of the model.
     pub fn evaluate(
         &self,
         what: What,
@@ -217,15 +217,15 @@ impl CompiledModel<'_> {
         self.status(what, t, y, results)
     }
 
-    /// Takes these values for all parameters.
+    /// Sets the values of all parameters.
     pub fn set_parameters(&mut self, values: &[f64]) -> Result<bool, Panic> {
         self.status(What::SetParameters, 0.0, values, &mut [])
     }
 
     fn status(&self, what: What, t: f64, y: &[f64], results: &mut [f64]) -> Result<bool, Panic> {
         let (evaluate, what) = (self.of.evaluate, what as u32);
-        // SAFETY: the model is of this library; it is changed by `set_parameters` alone, which nobody else uses meanwhile; slices are as long
-        // as they say, and generated functions check that they are as long as they need.
+        // SAFETY: the model was made by this library; only `set_parameters` changes it, and it is not used by anyone else meanwhile; the
+        // slices have their lengths, and generated functions check that these suffice.
         let status = unsafe {
             evaluate(
                 self.model,
@@ -247,7 +247,7 @@ impl CompiledModel<'_> {
 
 impl Drop for CompiledModel<'_> {
     fn drop(&mut self) {
-        // SAFETY: it was made by this library, and nobody uses it any more.
+        // SAFETY: this library made the model, and nobody uses it any more.
         unsafe { (self.of.discard)(self.model) };
     }
 }

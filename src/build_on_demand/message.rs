@@ -1,21 +1,21 @@
-//! What the compiler says of text that a user wrote: shown in the user's file, at the user's line.
+//! The compiler's messages about text of the user, shown in the user's file and at the user's line.
 //!
-//! The text of a user force stands letter for letter in the generated module, so that a line of the module is a line of
-//! the file, a constant number of lines further down.
+//! The text of a user force is copied unchanged into the generated module, so that a line of the module is a line of the file, shifted by a
+//! constant number of lines.
 
 use super::Text;
 use bryant_generator::diagnostic::{Diagnostic, Diagnostics};
 use serde_json::Value;
 
-/// What the compiler wrote, message by message; lines that are none are messages of their own.
+/// The messages of the compiler; a line that is not a message is a message of its own.
 pub struct Messages {
     messages: Vec<Value>,
-    /// For people.
+    /// The messages for people.
     pub text: String,
 }
 
 impl Messages {
-    /// From the lines of `--error-format=json`.
+    /// Reads the lines of `--error-format=json`.
     pub fn parse(output: &str) -> Self {
         let (mut messages, mut text) = (Vec::new(), String::new());
         for line in output.lines() {
@@ -35,18 +35,21 @@ impl Messages {
         Self { messages, text }
     }
 
-    /// The first error, or the first line where there is none.
+    /// The first error, or the first line if there is no error.
     pub fn first_error(&self) -> String {
         let error = self.errors().find_map(|m| m["message"].as_str());
         let first = error.or_else(|| self.text.lines().find(|line| !line.trim().is_empty()));
-        first.unwrap_or("it said nothing").trim().to_owned()
+        first
+            .unwrap_or("the compiler printed no message")
+            .trim()
+            .to_owned()
     }
 
     fn errors(&self) -> impl Iterator<Item = &Value> {
         self.messages.iter().filter(|m| m["level"] == "error")
     }
 
-    /// The errors in texts of the user's, which stand in `module`; `None` where there is none in them.
+    /// The errors in the user's texts, which are parts of `module`; `None` if there is none in them.
     pub fn in_texts(&self, module: &str, texts: &[Text<'_>]) -> Option<Diagnostics> {
         let blocks: Vec<Block<'_>> = texts
             .iter()
@@ -64,16 +67,16 @@ impl Messages {
     }
 }
 
-/// A text and where it stands in the module.
+/// A text and its place in the module.
 struct Block<'a> {
     text: &'a Text<'a>,
-    /// Lines of the module above it.
+    /// Number of lines of the module above it.
     above: usize,
     lines: usize,
 }
 
 impl<'a> Block<'a> {
-    /// Every place where the text stands: forces with different ports have a copy each.
+    /// Every place of the text: each force with other ports has its own copy.
     fn of(module: &str, text: &'a Text<'a>) -> Vec<Self> {
         let wanted = text.text.trim_end();
         let found = module.match_indices(wanted);
@@ -90,13 +93,13 @@ impl<'a> Block<'a> {
 }
 
 impl Block<'_> {
-    /// Whether a line of the module is one of the text.
+    /// Whether a line of the module belongs to the text.
     fn holds(&self, line: usize) -> bool {
         (1..=self.lines).contains(&line.saturating_sub(self.above))
     }
 }
 
-/// The text that a line of the module is of, and the line in it.
+/// The text that a line of the module belongs to, and the line in the text.
 pub fn place_in_texts<'a>(
     module: &str,
     texts: &'a [Text<'a>],
@@ -107,7 +110,7 @@ pub fn place_in_texts<'a>(
     Some((block.text, line - block.above))
 }
 
-/// An error as a problem of the user's file, if it is one: where its main place, or else any other, stands there.
+/// An error as a problem of the user's file, if its main place, or else any other of its places, is in that file.
 fn problem(error: &Value, blocks: &[Block<'_>]) -> Option<Diagnostic> {
     let empty = Vec::new();
     let spans = error["spans"].as_array().unwrap_or(&empty);
@@ -143,7 +146,7 @@ fn problem(error: &Value, blocks: &[Block<'_>]) -> Option<Diagnostic> {
     ))
 }
 
-/// What the compiler suggests, and the notes without a place.
+/// The compiler's suggestions, and its notes without a place.
 fn help(error: &Value) -> String {
     let empty = Vec::new();
     let children = error["children"].as_array().unwrap_or(&empty);
@@ -163,9 +166,11 @@ fn help(error: &Value) -> String {
         .map(|text| text.replace('\n', " "))
         .collect();
     match texts.is_empty() {
-        true => "mend this line of your file; what the function is given and returns is in \
+        true => {
+            "correct this line of your file; the arguments and the result of the function are in \
                  `bryant equations MODEL --rust`, at the end"
-            .to_owned(),
+                .to_owned()
+        }
         false => texts.join("; "),
     }
 }
@@ -209,7 +214,7 @@ mod tests {
         };
         let place = (2, 13, "    let x = y;".to_owned());
         assert_eq!(found("/anywhere/x/model.rs", 5), Some(place));
-        // before and behind it, and in another file
+        // before the text, behind it, and in another file
         assert_eq!(found("/anywhere/x/model.rs", 3), None);
         assert_eq!(found("/anywhere/x/model.rs", 7), None);
         assert_eq!(found("/anywhere/x/main.rs", 5), None);
@@ -224,6 +229,9 @@ mod tests {
             "cannot find value `y` in this scope"
         );
         assert_eq!(Messages::parse("\n segfault \n").first_error(), "segfault");
-        assert_eq!(Messages::parse("").first_error(), "it said nothing");
+        assert_eq!(
+            Messages::parse("").first_error(),
+            "the compiler printed no message"
+        );
     }
 }

@@ -6,9 +6,9 @@
 //! module of the user's functions, or of a model ──────────┘
 //! ```
 //!
-//! Plain rustc, no cargo, no network. What was compiled stays in a cache, keyed by everything that decides the result:
-//! what the model says, this program, the compiler, the processor. Entries are built beside their place and moved into it,
-//! so two runs at once do not disturb each other and a broken-off one leaves nothing behind.
+//! Plain rustc is called, without cargo or a network. Results stay in a cache. Its key has everything that decides the result: the text of
+//! the model, this program, the compiler, the processor. An entry is built in a directory beside its place and then moved there, so that
+//! two runs at once do not disturb each other and an interrupted one leaves nothing behind.
 
 mod apart;
 mod cache;
@@ -42,16 +42,16 @@ pub enum BuildError {
         /// Why it did not start.
         source: std::io::Error,
     },
-    /// The compiler does not answer as one.
+    /// The compiler does not answer as a compiler does.
     #[error(
         "`{command} {arguments}` failed: {message}\n  help: name a working compiler by RUSTC=/path/to/rustc"
     )]
     BadCompiler {
         /// The command.
         command: String,
-        /// What it was asked.
+        /// Its arguments.
         arguments: String,
-        /// What it said.
+        /// Its message.
         message: String,
     },
     /// There is no linker.
@@ -63,10 +63,10 @@ pub enum BuildError {
         /// What the compiler said.
         message: String,
     },
-    /// A function of the user's does not compile.
+    /// A user function does not compile.
     #[error("{0}")]
     User(Diagnostics),
-    /// What was generated does not compile.
+    /// The generated source does not compile.
     #[error(
         "the source written for this model does not compile, which is a fault of bryant, not of the model: {message}\n  \
          help: the source and all messages are kept in {}; please report them", .kept.display()
@@ -74,7 +74,7 @@ pub enum BuildError {
     Rejected {
         /// The first error.
         message: String,
-        /// Where source and messages are kept.
+        /// The directory where source and messages are kept.
         kept: PathBuf,
     },
     /// The cache cannot be used.
@@ -87,9 +87,9 @@ pub enum BuildError {
         /// Why.
         source: std::io::Error,
     },
-    /// A library that was compiled cannot be loaded.
+    /// A compiled library cannot be loaded.
     #[error(
-        "what was compiled for this model cannot be loaded: {source}\n  help: remove {}, and it is compiled again", .path.display()
+        "the library that was compiled for this model cannot be loaded: {source}\n  help: remove {}; the library is then compiled again", .path.display()
     )]
     Load {
         /// Its directory in the cache.
@@ -97,7 +97,7 @@ pub enum BuildError {
         /// Why.
         source: LoadError,
     },
-    /// No place for a cache is known.
+    /// There is no place for a cache.
     #[error(
         "there is no place for compiled models: neither BRYANT_CACHE nor XDG_CACHE_HOME nor HOME is set\n  \
              help: name a writable directory by BRYANT_CACHE"
@@ -105,27 +105,27 @@ pub enum BuildError {
     NoCache,
 }
 
-/// What to compile.
+/// The unit to compile.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit<'a> {
     /// Name of the model.
     pub name: &'a str,
     /// Digest of the model.
     pub digest: &'a str,
-    /// Texts of the user's that the module holds.
+    /// The user's texts that the module contains.
     pub texts: &'a [Text<'a>],
 }
 
-/// Rust text of the user's.
+/// Rust text of the user.
 #[derive(Clone, Copy, Debug)]
 pub struct Text<'a> {
     /// The file, as shown to the user.
     pub name: &'a str,
-    /// What is in it.
+    /// The content of the file.
     pub text: &'a str,
 }
 
-/// What has to be done before a model can run, for a progress indication.
+/// The work before a model can run, for a progress indication.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// The runtime is compiled, once for all models.

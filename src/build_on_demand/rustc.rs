@@ -1,4 +1,4 @@
-//! The compiler: which one, what for, and what its failures mean.
+//! The Rust compiler: how it is found and called, and what its failures mean.
 
 use super::message::Messages;
 use super::{BuildError, Cache, Text};
@@ -7,7 +7,7 @@ use std::ffi::OsString;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// A compiler that answers.
+/// A compiler that answered.
 #[derive(Clone, Debug)]
 pub struct Rustc {
     command: OsString,
@@ -16,12 +16,12 @@ pub struct Rustc {
     processor: Processor,
 }
 
-/// Whose instructions are used.
+/// The processors whose instructions are used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Processor {
-    /// This machine's, which is mostly the point of compiling here.
+    /// The processor of this machine; this is mostly the reason to compile here.
     This,
-    /// Those that every processor of its kind has: what uses others asks for them when it runs.
+    /// The common instructions of all processors of this kind; code that can use others checks for them when it runs.
     Any,
 }
 
@@ -45,12 +45,12 @@ const OPTIONS: [&str; 5] = [
 ];
 
 impl Rustc {
-    /// `$RUSTC`, else `rustc` from the path.
+    /// `$RUSTC`, else `rustc` on the path.
     pub fn find() -> Result<Self, BuildError> {
         let command = std::env::var_os("RUSTC").filter(|v| !v.is_empty());
         let command = command.unwrap_or_else(|| "rustc".into());
         let version = ask(&command, &["-vV"])?;
-        // A cache on a shared disk may serve machines of different processors.
+        // A cache on a shared disk may serve machines with different processors.
         let processor = ask(&command, &["--print=cfg", "-Ctarget-cpu=native"])?;
         Ok(Self {
             command,
@@ -59,7 +59,8 @@ impl Rustc {
         })
     }
 
-    /// The same for what is to run on other machines too, or gives the same bits there; its features are not known.
+    /// The same for code that shall also run on other machines, or give the same bits there; the features of the processor are then not
+    /// known.
     pub fn find_portable() -> Result<Self, BuildError> {
         let command = std::env::var_os("RUSTC").filter(|v| !v.is_empty());
         let command = command.unwrap_or_else(|| "rustc".into());
@@ -70,7 +71,7 @@ impl Rustc {
         })
     }
 
-    /// The same for what is to run on other machines too.
+    /// The same compiler for code that shall also run on other machines.
     pub fn portable(self) -> Self {
         let processor = Processor::Any;
         Self { processor, ..self }
@@ -81,7 +82,7 @@ impl Rustc {
         self.identity.lines().next().unwrap_or_default()
     }
 
-    /// Features of this machine's processor that it uses, sorted.
+    /// Features of this machine's processor that the code uses, sorted.
     pub fn features(&self) -> Vec<String> {
         let feature = |line: &str| {
             let name = line.strip_prefix("target_feature=\"")?.strip_suffix('"')?;
@@ -92,7 +93,7 @@ impl Rustc {
         features
     }
 
-    /// Key of what is made by this compiler of text alone, of which `digest` is: no build of this program has a say.
+    /// Key of a result that depends only on this compiler and the text with this `digest`, not on the build of this program.
     pub fn key_of_text(&self, digest: &str) -> String {
         let parts = [
             digest,
@@ -103,7 +104,7 @@ impl Rustc {
         self::digest(parts.into_iter().chain(OPTIONS))[..24].to_owned()
     }
 
-    /// Key of what is made from `digest` by this program and this compiler: 24 hexadecimal digits.
+    /// Key of a result that depends on `digest`, this program and this compiler: 24 hexadecimal digits.
     pub fn key(&self, digest: &str) -> String {
         let parts = [
             digest,
@@ -115,7 +116,7 @@ impl Rustc {
         self::digest(parts.into_iter().chain(OPTIONS))[..24].to_owned()
     }
 
-    /// Compiles one file with its modules; errors in texts of the user's, which stand in a module, are the user's.
+    /// Compiles one file with its modules; errors in the user's texts are reported in the user's files.
     pub fn compile(
         &self,
         file: &Path,
@@ -133,7 +134,7 @@ impl Rustc {
             .arg("-o")
             .arg(to)
             .arg(file);
-        // The surroundings of a cargo run or of a wrapper have no say here.
+        // Settings of a cargo run or of a wrapper must not change the result.
         command.env_remove("RUSTFLAGS").env_remove("RUSTC_WRAPPER");
         let output = command.output().map_err(|source| BuildError::NoCompiler {
             command: self.command.to_string_lossy().into_owned(),
@@ -158,7 +159,7 @@ impl Rustc {
     }
 }
 
-/// SHA-256 of several texts, none of which can be mistaken for part of another.
+/// SHA-256 of several texts, each with its length, so that no text can be mistaken for part of another.
 pub fn digest<'a>(parts: impl IntoIterator<Item = &'a str>) -> String {
     let mut hasher = Sha256::new();
     for part in parts {
@@ -172,7 +173,7 @@ pub fn digest<'a>(parts: impl IntoIterator<Item = &'a str>) -> String {
         .collect()
 }
 
-/// What tells two builds of this program apart that bear the same version: one of them may write other equations.
+/// A text that tells apart two builds of this program with the same version: one of them may write other equations.
 fn program_identity() -> String {
     let file = std::env::current_exe().and_then(std::fs::metadata);
     let Ok(file) = file else {
@@ -203,14 +204,17 @@ fn ask(command: &OsString, arguments: &[&str]) -> Result<String, BuildError> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// The first error among a compiler's messages, without what surrounds it.
+/// The first error among the messages of the compiler, without its context.
 fn first_error(messages: &str) -> String {
     let error = messages.lines().find_map(|line| {
         let rest = line.strip_prefix("error")?;
         rest.split_once(": ").map(|(_, message)| message)
     });
     let first = error.or_else(|| messages.lines().find(|line| !line.trim().is_empty()));
-    first.unwrap_or("it said nothing").trim().to_owned()
+    first
+        .unwrap_or("the compiler printed no message")
+        .trim()
+        .to_owned()
 }
 
 #[cfg(test)]
@@ -228,7 +232,7 @@ mod tests {
         let messages = "warning: x\nerror[E0308]: mismatched types\n --> a.rs\nerror: aborting";
         assert_eq!(first_error(messages), "mismatched types");
         assert_eq!(first_error("\n segfault \n"), "segfault");
-        assert_eq!(first_error(""), "it said nothing");
+        assert_eq!(first_error(""), "the compiler printed no message");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! A model as rustc compiles its generated Rust: to compare engines with.
+//! A model whose generated Rust was compiled by rustc: to compare engines with.
 
 use super::apart::{Source, exports_of_model, library, unusable};
 use super::guard::{self, Inside, What as Named};
@@ -13,16 +13,16 @@ use std::sync::OnceLock;
 pub struct RustcModel {
     library: Compiled,
     info: &'static Info,
-    /// Of its user forces.
+    /// Description of its user forces.
     what: &'static Named,
     name: String,
     failure: OnceLock<String>,
 }
 
 impl RustcModel {
-    /// Compiles a model, unless that is done, for this machine's processor, and loads it. `source` writes the generated module; `info` is of the
-    /// same model. With a Jacobian, which the Rosenbrock method needs, it takes three times as long to compile. `stage` hears of everything that
-    /// takes time.
+    /// Compiles a model for this machine's processor, unless the cache has it, and loads it. `source` writes the generated module; `info`
+    /// belongs to the same model. With a Jacobian, which the Rosenbrock method needs, compilation takes three times as long. `stage` is
+    /// called before each step that takes time.
     pub fn of(
         unit: Unit<'_>,
         info: &'static Info,
@@ -62,7 +62,7 @@ impl RustcModel {
         })
     }
 
-    /// What went wrong first, if anything did: whatever was computed since is not-a-number.
+    /// The first failure, if there was one: all values computed since are NaN.
     pub fn failure(&self) -> Option<&str> {
         self.failure.get().map(String::as_str)
     }
@@ -78,14 +78,14 @@ impl RustcModel {
     }
 }
 
-/// The model at one set of parameters.
+/// The model with one set of parameters.
 struct At<'a> {
     of: &'a RustcModel,
     model: CompiledModel<'a>,
 }
 
 impl At<'_> {
-    /// Fills the results; false where there is nothing to tell.
+    /// Fills the results; false if the model has no such result.
     fn fill(&self, what: What, t: f64, y: &[f64], results: &mut [f64]) -> bool {
         let _inside = Inside::of(self.of.what);
         match self.model.evaluate(what, t, y, results) {
@@ -98,7 +98,7 @@ impl At<'_> {
         }
     }
 
-    /// As many numbers as wanted; `None` where there is nothing to tell.
+    /// An array of results; `None` if the model has no such result.
     fn some<const N: usize>(&self, what: What, t: f64, y: &[f64]) -> Option<[f64; N]> {
         let mut results = [f64::NAN; N];
         self.fill(what, t, y, &mut results).then_some(results)
@@ -132,7 +132,7 @@ impl Dynamics<f64> for At<'_> {
     }
 
     fn jacobian(&self, t: f64, y: &[f64], by_state: &mut [f64], by_time: &mut [f64]) -> bool {
-        // Columns of memory stay as they are, so what is there goes along.
+        // Columns of memory stay as they are, so the present values go along.
         let mut results = [&*by_state, &*by_time].concat();
         let told = self.fill(What::Jacobian, t, y, &mut results);
         let (of_state, of_time) = results.split_at(by_state.len());

@@ -1,4 +1,4 @@
-//! The functions of a model's user forces, compiled alone and called in this process.
+//! The functions of a model's user forces: compiled as a library and called in this process.
 
 use super::apart::{Source, exports_of_functions, library, unusable};
 use super::guard::{self, Inside, What};
@@ -7,8 +7,8 @@ use super::message::place_in_texts;
 use super::{BuildError, Rustc, Stage, Text};
 use bryant_engine::UserFunctions;
 use bryant_generator::diagnostic::{Diagnostic, Diagnostics};
-use bryant_generator::emit::Apart;
 use bryant_generator::model::{ForceKind, Model};
+use bryant_generator::target::rust::Apart;
 use bryant_runtime::real::{Base, Form};
 use std::sync::OnceLock;
 
@@ -16,9 +16,9 @@ use std::sync::OnceLock;
 #[derive(Debug)]
 pub struct UserForces {
     library: Functions,
-    /// By force of the model; `None` for forces of other kinds.
+    /// One entry for each force of the model; `None` for forces of other kinds.
     forces: Vec<Option<Force>>,
-    /// The text that was compiled, and the user's in it: panics are shown there.
+    /// The compiled text, which contains the user's texts; panics are shown there.
     module: String,
     texts: Vec<(String, String)>,
     failure: OnceLock<UserFailure>,
@@ -30,29 +30,29 @@ struct Force {
     what: &'static What,
     /// The file, as shown to the user.
     file: String,
-    /// By base and order.
+    /// The functions by base and order.
     functions: [[Option<Function>; 2]; Base::ALL.len()],
 }
 
-/// A function of the user's did not do its work.
+/// A user function failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{problems}")]
 pub struct UserFailure {
     /// The force.
     pub force: String,
-    /// What happened, where.
+    /// The problem and its place.
     pub problems: Diagnostics,
 }
 
 impl UserForces {
-    /// Compiles the functions of a model, unless that is done, and loads them; `None` where the model has none. `sources` are names, as shown, and
-    /// texts of the files that they are in. `stage` hears of everything that takes time.
+    /// Compiles the functions of a model, unless the cache has them, and loads them; `None` if the model has none. `sources` are the names,
+    /// as shown to the user, and the texts of their files. `stage` is called before each step that takes time.
     pub fn of(
         model: &Model,
         sources: Vec<(String, String)>,
         stage: &mut dyn FnMut(Stage),
     ) -> Result<Option<Self>, BuildError> {
-        let Some(apart) = bryant_generator::emit::apart(model) else {
+        let Some(apart) = bryant_generator::target::rust::apart(model) else {
             return Ok(None);
         };
         let texts: Vec<Text<'_>> = sources
@@ -78,12 +78,12 @@ impl UserForces {
         }))
     }
 
-    /// What went wrong first, if anything did: whatever was computed since is not-a-number.
+    /// The first failure, if there was one: all values computed since are NaN.
     pub fn failure(&self) -> Option<&UserFailure> {
         self.failure.get()
     }
 
-    /// The same, and it is forgotten: before another run.
+    /// Returns the first failure and forgets it, before another run.
     pub fn take_failure(&mut self) -> Option<UserFailure> {
         self.failure.take()
     }
@@ -93,7 +93,7 @@ impl UserForces {
         self.failure.get_or_init(|| {
             let message = format!("the user force \"{}\" panicked: {}", force.name, panic.message);
             let message = message.replace('\n', " ");
-            let help = "a function of the user's gives a number for every state; where there is none, it is `T::from_f64(f64::NAN)`";
+            let help = "a user function must return a number for every state; where there is none, return `T::from_f64(f64::NAN)`";
             let texts: Vec<Text<'_>> = self
                 .texts
                 .iter()
@@ -160,7 +160,7 @@ impl UserFunctions for UserForces {
             let function = force.functions[form.base as usize].get(form.order as usize);
             Some((force, (*function?)?))
         });
-        // No scalar that runs are made over lacks a function.
+        // a function exists for every scalar that runs are made over
         let Some((force, function)) = function else {
             results.fill(f64::NAN);
             return;

@@ -41,7 +41,7 @@ median, 95 %         of repetitions in rounds over all points
 
 All of it takes no longer than --budget says: a third of that is for the reference, a third for errors, on all processors, the rest for times. The
 coarse end of every series comes first, then more where the front is; a run that takes longer than its share is stopped. Where
-stability and not accuracy bounds the steps of a method, it is said, with the motion and the force that bound them.
+stability and not accuracy bounds the steps of a method, the report says so and names the motion and the force that bound them.
 
 Ctrl-C ends it with the report of what was computed, and exit code 130.
 
@@ -63,27 +63,27 @@ pub struct Arguments {
     #[arg(long, value_name = "FROM..TO", value_parser = tolerances, allow_hyphen_values = true)]
     tolerances: Option<Range>,
 
-    /// Fixed steps, two times [default: a thousandfold range below the time between samples]
+    /// Fixed steps, from one time to another [default: a thousandfold range below the time between samples]
     #[arg(long, value_name = "FROM..TO", value_parser = steps, allow_hyphen_values = true)]
     steps: Option<Range>,
 
-    /// A coarser plan: decades, fewer combinations
+    /// Run a coarser plan: decades, fewer combinations
     #[arg(long)]
     quick: bool,
 
-    /// How often a run is timed; long ones less often [default: 11, 3 with --quick]
+    /// Repetitions of the timing of a run; long runs have fewer [default: 11, 3 with --quick]
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=10_000))]
     repetitions: Option<u16>,
 
-    /// How long all runs may take together, a time; slow settings are skipped [default: 40 s, 10 s with --quick]
+    /// Time that all runs together may take; slow settings are skipped [default: 40 s, 10 s with --quick]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     budget: Option<f64>,
 
-    /// Error of the sentence and the diagram: `state`, `worst` of all readings, or the name of an output [default: worst]
+    /// Error that the summary sentence and the diagram show: `state`, `worst` of all readings, or the name of an output [default: worst]
     #[arg(long, value_name = "OUTPUT")]
     of: Option<String>,
 
-    /// The accuracy that the sentence is about
+    /// Accuracy for which the summary sentence names the cheapest setting
     #[arg(long, value_name = "ERROR", default_value = "1 %", value_parser = accuracy, allow_hyphen_values = true)]
     accuracy: f64,
 
@@ -103,7 +103,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// File of all points with every setting; - prints it instead of the table [default: MODEL-accuracy.csv]
+    /// CSV file of all points with their settings; - prints it instead of the table [default: MODEL-accuracy.csv]
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
@@ -111,11 +111,11 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.svg|.png", value_parser = outputs::picture)]
     picture: Vec<PathBuf>,
 
-    /// File of a section for a page: the sentence, the diagram, the front; - prints it instead of the table
+    /// Markdown file with the summary sentence, the diagram and the front; - prints it instead of the table
     #[arg(long, value_name = "FILE.md")]
     markdown: Option<PathBuf>,
 
-    /// Write no files but those that are named
+    /// Write only the files that are named
     #[arg(long)]
     no_files: bool,
 
@@ -128,17 +128,17 @@ pub struct Arguments {
 #[derive(Clone, Debug)]
 struct Methods(Vec<Formula>);
 
-/// Where results go.
+/// The places where results go.
 struct Places {
     csv: Option<PathBuf>,
     pictures: Vec<PathBuf>,
 }
 
-/// Samples of a run at most: all of them are compared, of many runs.
+/// A run may have at most this many samples: the samples of many runs are kept and compared.
 const MOST_SAMPLES: f64 = 1e5;
 
 impl Arguments {
-    /// Does the study and reports it.
+    /// Carries out the study and reports it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         found.tell(terminal);
@@ -170,7 +170,7 @@ impl Arguments {
         engine.check()?;
         let finding = Finding::of(&study, self.accuracy);
 
-        // Files first: whoever closes the pipe after ten lines still has them.
+        // Files come first: a user who closes the pipe after ten lines still has them.
         let results = self.results(&study, &finding, &places)?;
         let (prints, files): (Vec<_>, Vec<_>) =
             results.into_iter().partition(|(path, _)| is_standard(path));
@@ -200,7 +200,7 @@ impl Arguments {
         ));
         let outcome = match study.interrupted {
             true => Err(Error::Interrupted(format!(
-                "{} settings are missing, and times are of fewer repetitions",
+                "{} settings are missing, and the times are medians of fewer repetitions",
                 study.points.len() - done
             ))),
             false => Ok(()),
@@ -208,7 +208,7 @@ impl Arguments {
         terminal.end(printed, outcome)
     }
 
-    /// What is run, and how often.
+    /// The settings that are run, and how often.
     fn effort(&self, model: &Model) -> Result<Effort, Error> {
         let duration = self.duration.unwrap_or(model.run.duration);
         let every = self.every.unwrap_or(model.run.every).min(duration);
@@ -223,7 +223,7 @@ impl Arguments {
         let longest = steps.largest();
         if longest > duration {
             return Err(Error::Input(format!(
-                "--steps: steps of {} are longer than the run of {}\n  help: steps from {} down are possible",
+                "--steps: steps of {} are longer than the run of {}\n  help: give steps of {} or less",
                 time(longest),
                 time(duration),
                 time(every)
@@ -232,7 +232,7 @@ impl Arguments {
         if longest > every * (1.0 + 1e-9) {
             return Err(Error::Input(format!(
                 "--steps: steps of {} are longer than the {} between two samples, on which steps end\n  \
-                 help: steps from {} down are possible; a longer --every allows longer ones",
+                 help: give steps of {} or less, or a longer --every",
                 time(longest),
                 time(every),
                 time(every)
@@ -258,7 +258,7 @@ impl Arguments {
         })
     }
 
-    /// Whether `--of` can be anything at all, before anything is computed.
+    /// Checks `--of` before anything is computed.
     fn check_of(&self, model: &Model) -> Result<(), Error> {
         let Some(name) = &self.of else { return Ok(()) };
         let outputs = || model.outputs.iter().map(|o| o.name.as_str());
@@ -273,7 +273,7 @@ impl Arguments {
         Err(unknown_of(name, &all))
     }
 
-    /// What `--of` names.
+    /// The error that `--of` names.
     fn measure(&self, readings: &[Reading]) -> Result<Measure, StudyError> {
         let name = match self.of.as_deref() {
             None | Some("worst") if readings.is_empty() => return Ok(Measure::State),
@@ -342,7 +342,7 @@ impl Arguments {
         })
     }
 
-    /// Where results go: what is asked for, and the usual files.
+    /// The places of results: those that are requested, and the usual files.
     fn places(&self, found: &Found) -> Result<Places, Error> {
         let usual = |extension: &str| {
             let file = format!("{}-accuracy.{extension}", found.model.name);
@@ -367,7 +367,7 @@ impl Arguments {
         Ok(Places { csv, pictures })
     }
 
-    /// Every result with its place, in the order in which they are written.
+    /// Writes every result to its place, in the order of this list.
     fn results(
         &self,
         study: &Study,
@@ -393,7 +393,7 @@ impl Arguments {
         }
         Ok(results)
     }
-    /// The command that makes this study, without where files go.
+    /// The command that makes this study, without the options for files.
     fn command(&self) -> String {
         let mut words = vec!["bryant accuracy".to_owned(), quoted(&self.model)];
         let mut option = |name: &str, value: Option<String>| {
@@ -427,7 +427,7 @@ impl Methods {
     }
 }
 
-/// A word as a shell reads it.
+/// A word quoted for a shell.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=".contains(c);
     match word.chars().all(plain) && !word.is_empty() {
@@ -436,14 +436,14 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// A picture as a page links it: as seen from the directory of the page, where both are absolute or both are not.
+/// The link of a picture in a page: relative to the directory of the page if both paths are absolute or both are relative.
 fn link(page: &Path, picture: &Path) -> String {
     let text = |path: &Path| path.to_string_lossy().replace('\\', "/");
     let directory = page.parent().unwrap_or(Path::new(""));
     let common = directory.components().zip(picture.components());
     let common = common.take_while(|(a, b)| a == b).count();
     let up = directory.components().skip(common);
-    // up from a directory that is itself up from here leads nobody knows where
+    // the parent of a directory `..` is not known
     let unknown = up.clone().any(|part| part == Component::ParentDir);
     if unknown || page.is_absolute() != picture.is_absolute() {
         return text(picture);
@@ -493,7 +493,7 @@ fn steps(text: &str) -> Result<Range, String> {
     })
 }
 
-/// An error that is wished for: between 0 and 1, possibly in %.
+/// A requested error: between 0 and 1, possibly in %.
 pub(super) fn accuracy(text: &str) -> Result<f64, String> {
     match quantity::quantity(text, "") {
         Ok(value) if value > 0.0 && value < 1.0 => Ok(value),

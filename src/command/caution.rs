@@ -1,28 +1,28 @@
-//! What is likely to go wrong in runs of a model that is sound.
+//! Warnings about likely problems in the runs of a valid model.
 
 pub mod singular;
 
 use bryant_generator::model::{Active, Dimension, ForceKind, JointTorque, Model};
 use std::f64::consts::FRAC_PI_2;
 
-/// How near the middle of three relative angles may come to ±90°: 10° \[rad\].
+/// The middle one of three relative angles is critical within this distance of ±90°: 10° \[rad\].
 const NEAR: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
-/// One sentence each, with a remedy.
+/// The warnings, each a sentence with a remedy.
 pub fn cautions(model: &Model) -> Vec<String> {
     let mut all = middle_angles(model);
     all.extend(singular::cautions(model));
     all
 }
 
-/// Laws about the three relative angles of a ball joint whose middle one may come near ±90°.
+/// Warns of laws about the three relative angles of a ball joint if the middle angle may come near ±90°.
 fn middle_angles(model: &Model) -> Vec<String> {
     if model.dimension == Dimension::Plane {
         return Vec::new();
     }
     let joints = || {
         model.forces.iter().filter_map(|force| match &force.kind {
-            ForceKind::Joint { child, about, .. } => Some((force, *child, about)),
+            ForceKind::Joint(law) => Some((force, law.child, &law.about)),
             _ => None,
         })
     };
@@ -34,7 +34,7 @@ fn middle_angles(model: &Model) -> Vec<String> {
             if *x == none && *z == none {
                 return None;
             }
-            // what always acts about y in the same joint ends the rotation, whichever force it is of
+            // a law of any force ends the rotation of this joint if it always acts about y
             let always = joints().filter(|(other, element, _)| {
                 *element == child && other.active == Active::default()
             });
@@ -55,8 +55,8 @@ fn middle_angles(model: &Model) -> Vec<String> {
         .collect()
 }
 
-/// How far from 0 a middle angle may go, where that is within 10° of ±90° \[rad\]; infinite where nothing ends it. An elastic torque is taken to
-/// end it where no stop does.
+/// How far from 0 the middle angle may go \[rad\]; `None` if that is not within 10° of ±90°, infinite if nothing ends the rotation. If
+/// there is no stop, an elastic torque is assumed to end it.
 fn middle_angle(law: &JointTorque, defaults: &[f64]) -> Option<f64> {
     let stop = law.stop.as_ref();
     let open = if law.elastic.is_some() {
@@ -71,6 +71,6 @@ fn middle_angle(law: &JointTorque, defaults: &[f64]) -> Option<f64> {
         from.map_or(open, |from| -from.value(defaults)),
     ];
     let far = ends[0].max(ends[1]);
-    // what rounding makes of 80° is 80°
+    // an angle that is 80° but for rounding counts as 80°
     (far > FRAC_PI_2 - NEAR + 1e-9).then_some(far)
 }

@@ -6,12 +6,13 @@ use super::model_argument::{find, find_without_sources, nearest};
 use super::progress::Progress;
 use super::terminal::Terminal;
 use bryant_generator::dynamics::{self, derive_with};
-use bryant_generator::emit;
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::model::{
     Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System,
 };
+use bryant_generator::program::{self, Options};
+use bryant_generator::target::rust;
 use bryant_study::criteria::limits::Limits;
 use bryant_study::criteria::{Judged, Missing, judge};
 use bryant_study::facts::ModelFacts;
@@ -22,8 +23,8 @@ use std::fmt::Write as _;
 /// Read a model and say what is in it, or report everything that is wrong with it
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
-Nothing is compiled. The operations are those of one evaluation of the equations; a sine, a cosine or a curve is not in
-their number and listed beside it.
+Nothing is compiled. The operations are those of one evaluation of the equations; sines, cosines and curves are not
+counted among them and are listed beside.
 
 Examples:
   bryant check my.yaml
@@ -34,7 +35,7 @@ pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,
 
-    /// Print a Rust file to begin with for this user force, whose file need not exist yet
+    /// Print a first Rust file for this user force, whose file need not exist yet
     #[arg(long, value_name = "FORCE", conflicts_with = "json")]
     skeleton: Option<String>,
 
@@ -48,7 +49,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Reads and reports.
+    /// Reads the model and reports.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         if let Some(force) = &self.skeleton {
             return terminal.print(&skeleton(&find_without_sources(&self.model)?, force)?);
@@ -81,7 +82,7 @@ impl Arguments {
     }
 }
 
-/// A sentence where no criterion of the model can be computed, and where some cannot.
+/// A sentence that says which criteria of the model cannot be computed, if there are any.
 fn unjudged(limits: &Limits, all: &[Judged]) -> Option<String> {
     let missing = all.iter().filter_map(|one| match &one.response {
         Err(Missing::Place(place)) => Some(format!("{} ({place})", one.criterion.name)),
@@ -99,13 +100,13 @@ fn unjudged(limits: &Limits, all: &[Judged]) -> Option<String> {
 
 /// What `--skeleton` prints.
 fn skeleton(model: &Model, force: &str) -> Result<String, Error> {
-    emit::skeleton(model, force).ok_or_else(|| {
+    rust::skeleton(model, force).ok_or_else(|| {
         let all = model.forces.iter();
         let users = all.filter(|f| matches!(f.kind, ForceKind::User(_)));
         let names: Vec<&str> = users.map(|f| f.name.as_str()).collect();
         let help = match (nearest(force, &names), names.is_empty()) {
             (Some(near), _) => format!("did you mean \"{near}\"?"),
-            (None, false) => format!("there is {}", names.join(", ")),
+            (None, false) => format!("there are: {}", names.join(", ")),
             (None, true) => "add a force `- user: NAME`; see docs/forces/user.md".to_owned(),
         };
         let force = force.escape_debug();
@@ -135,7 +136,7 @@ fn system_freedoms(model: &Model, system: &System) -> usize {
     reference + joints.sum::<usize>()
 }
 
-/// Operations of the generated methods. That of the outputs calls that of the accelerations where it needs them.
+/// The operations of the generated methods. The method of the outputs calls that of the accelerations if it needs them.
 struct Costs {
     route: Route,
     accelerations: Count,
@@ -149,11 +150,11 @@ impl Costs {
             ..dynamics::Options::default()
         };
         let equations = derive_with(model, options);
-        let emitted = emit::Options {
+        let emitted = Options {
             matrices: false,
-            ..emit::Options::default()
+            ..Options::default()
         };
-        let costs = emit::costs(model, &equations, &emitted);
+        let costs = program::costs(model, &equations, &emitted);
         let of = |method: &str| {
             let found = costs.iter().find(|(name, _)| *name == method);
             found.map_or_else(Count::default, |(_, table)| table.total.clone())
@@ -170,19 +171,6 @@ fn route(route: Route) -> &'static str {
     match route {
         Route::Elimination => "by elimination",
         Route::MassMatrix => "by factorising S",
-    }
-}
-
-fn kind(kind: &ForceKind) -> &'static str {
-    match kind {
-        ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
-        ForceKind::Field { .. } => "field",
-        ForceKind::Contact(_) => "contact",
-        ForceKind::Belt(_) => "belt",
-        ForceKind::Spring(_) => "spring",
-        ForceKind::Airbag(_) => "airbag",
-        ForceKind::Load(_) => "load",
-        ForceKind::User(_) => "user",
     }
 }
 
@@ -239,7 +227,7 @@ fn as_text(model: &Model, costs: &Costs) -> String {
         }
     }
     for force in &model.forces {
-        let _ = writeln!(text, "  {:11} {}", kind(&force.kind), force.name);
+        let _ = writeln!(text, "  {:11} {}", force.kind.key(), force.name);
     }
     if model.forces.is_empty() {
         text.push_str("  forces      none\n");
@@ -281,7 +269,7 @@ fn defaults(model: &Model) -> Vec<f64> {
     model.parameters.iter().map(|p| p.default).collect()
 }
 
-/// Which joints the freedoms of an element follow.
+/// The joints that the freedoms of an element follow.
 fn following(system: &System, element: usize) -> String {
     let freedoms = system.elements[element].joint.freedoms().iter();
     let leaders = freedoms.filter_map(|freedom| freedom.follows.as_ref());
@@ -290,7 +278,7 @@ fn following(system: &System, element: usize) -> String {
     named.collect()
 }
 
-/// Two spaces per generation.
+/// Two spaces for each generation.
 fn indent(system: &System, mut element: usize) -> String {
     let mut depth = 0;
     while let Some(parent) = system.elements[element].parent {
@@ -365,7 +353,7 @@ fn as_json(model: &Model, costs: &Costs) -> Value {
     let forces: Vec<Value> = model
         .forces
         .iter()
-        .map(|force| json!({ "kind": kind(&force.kind), "name": force.name }))
+        .map(|force| json!({ "kind": force.kind.key(), "name": force.name }))
         .collect();
     let switches: Vec<&str> = model.switches.iter().map(|s| s.name.as_str()).collect();
     let parameters: Vec<Value> = model

@@ -55,7 +55,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", default_value = ISO, value_parser = filter_standard())]
     filter_standard: Standard,
 
-    /// Take straight lines between samples that are further apart than 0.1 ms
+    /// Interpolate linearly between samples that are more than 0.1 ms apart
     #[arg(long)]
     resample: bool,
 
@@ -96,7 +96,7 @@ struct Rated {
 }
 
 impl Arguments {
-    /// Reads both, and rates.
+    /// Reads the two files and rates their channels.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let run = recording(&self.run)?;
         let measured = recording(&self.measured)?;
@@ -149,7 +149,7 @@ impl Arguments {
         }
     }
 
-    /// The rating of a channel; none of one that nobody has named and that never changes.
+    /// The rating of a channel; `None` for a channel that the user has not named and that never changes.
     fn rated(&self, run: &Channel, measured: &Channel) -> Result<Option<Rated>, Error> {
         let wrong = |message: String| Error::Input(format!("channel \"{}\": {message}", run.name));
         let factor = unit::factor(&run.unit, &measured.unit).ok_or_else(|| {
@@ -167,7 +167,7 @@ impl Arguments {
         let begin = self.from.unwrap_or(ours.first.max(theirs.first));
         let end = self.to.unwrap_or(ours.last().min(theirs.last()));
         let there = [ours.first.max(theirs.first), ours.last().min(theirs.last())];
-        // what rounding takes away from an end is not missing
+        // a difference by rounding does not shorten the interval
         let rounding = 1e-3 / RATE;
         if begin < there[0] - rounding || end > there[1] + rounding || begin >= end {
             return Err(wrong(format!(
@@ -188,7 +188,7 @@ impl Arguments {
         }))
     }
 
-    /// A signal, filtered where that is asked for, with samples close enough.
+    /// A signal, filtered if this is requested, with samples that are close enough.
     fn prepared(&self, name: &str, signal: &Signal, path: &Path) -> Result<Signal, String> {
         let coarse = signal.interval * RATE > 1.0 + 1e-6;
         if coarse && !self.resample {
@@ -204,7 +204,7 @@ impl Arguments {
         };
         match class_of_code(name) {
             Some(before) if before == class => return Ok(signal.clone()),
-            // what a filter has taken away is not there for a wider one
+            // frequencies that a filter has removed cannot be restored for a wider filter
             Some(before) if before.frequency() < class.frequency() => {
                 return Err(format!(
                     "the channel {name} of {} is filtered by {before} already, and {class} is wanted\n  help: give --filter {before}",

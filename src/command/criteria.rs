@@ -37,15 +37,15 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", required_unless_present = "list")]
     dummy: Option<String>,
 
-    /// The channel of a place; may be repeated
+    /// The channel of a place of the dummy; may be repeated
     #[arg(long, value_name = "PLACE=CHANNEL", value_parser = pair)]
     place: Vec<(String, String)>,
 
-    /// Whose coefficients filters have
+    /// Standard whose coefficients the filters have
     #[arg(long, value_name = "NAME", default_value = ISO, value_parser = filter_standard())]
     filter_standard: Standard,
 
-    /// Nothing moves along y: resultants are of x and z
+    /// The motion is planar: nothing moves along y, and resultants have the components x and z
     #[arg(long)]
     planar: bool,
 
@@ -59,7 +59,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Reads, and judges.
+    /// Reads the recording and judges it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let (Some(path), Some(standard), Some(dummy), false) =
             (&self.recording, &self.standard, &self.dummy, self.list)
@@ -87,14 +87,14 @@ impl Arguments {
     }
 }
 
-/// Places as they are called: `head_x` is `head-x`.
+/// Places by their usual names: `head_x` becomes `head-x`.
 pub(super) fn places(given: &[(String, String)]) -> Vec<(String, String)> {
     let each = given.iter();
     each.map(|(place, of)| (place.replace('_', "-"), of.clone()))
         .collect()
 }
 
-/// An error where a channel cannot be used, so that a criterion would be wrong.
+/// Fails if a channel cannot be used, because a criterion would then be wrong.
 fn usable(verdict: &Verdict) -> Result<(), Error> {
     let wrong = verdict.rows.iter().find_map(|row| match &row.value {
         Err(Missing::Unusable(why)) => Some((row.criterion.name, why)),

@@ -1,4 +1,4 @@
-//! `bryant effects`: what of a scene is in, what is out, why, and what each effect costs.
+//! `bryant effects`: which effects of a scene are in, which are out and why, and the cost of each.
 
 mod table;
 
@@ -35,7 +35,7 @@ Ctrl-C ends it: the table of what was computed is printed, what is missing is sa
 
   operations  of one evaluation of the accelerations, all less those without the effect; of a parameter, those that its
               default value folded in would save; of an output, those of the outputs. Effects share geometry, so
-              these do not add up. A sine, a cosine or a call of a curve or law is no operation and stands beside: +2
+              these do not add up. Sines, cosines and calls of curves or laws are counted apart and stand beside: +2
   with        time of one evaluation of the derivative with all effects; of outputs, of the outputs
   without     the same without this effect: medians of 101 rounds
   code        machine code that the effect adds, without the functions that it calls
@@ -54,15 +54,15 @@ pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,
 
-    /// Time nothing: operations only
+    /// Count operations only, and time nothing
     #[arg(long)]
     no_time: bool,
 
-    /// Only the effects whose names contain this; may be repeated
+    /// Show only the effects whose names contain this; may be repeated
     #[arg(long, value_name = "TEXT")]
     only: Vec<String>,
 
-    /// List also the terms of forces that the text does not mention
+    /// Also list the terms of forces that the text does not mention
     #[arg(long)]
     all: bool,
 
@@ -71,14 +71,14 @@ pub struct Arguments {
     json: bool,
 }
 
-/// A variant to be generated.
+/// A variant of the scene that is generated.
 struct Task {
     variant: Variant,
     method: Method,
 }
 
 impl Arguments {
-    /// Lists, derives, times.
+    /// Lists the effects, derives the equations without each, and times them.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         found.tell(terminal);
@@ -109,7 +109,7 @@ impl Arguments {
             .zip(&task_of)
             .map(|(entry, task)| (row(entry, *task, &costs), *task))
             .collect();
-        // the costliest first; what is out, and costs nothing, stays in the order of the scene behind them
+        // the costliest first; effects that are out cost nothing and follow in the order of the scene
         rows.sort_by_key(|(row, _)| std::cmp::Reverse(cost(row)));
         let mut total = Total {
             scene: (scene.accelerations.clone(), None),
@@ -168,12 +168,12 @@ impl Arguments {
     }
 }
 
-/// Places of the scene itself, of its outputs, and of the scene without anything left out among the tasks.
+/// Indices among the tasks: the scene itself, its outputs, and the scene with nothing left out.
 const SCENE: usize = 0;
 const OUTPUTS: usize = 1;
 const GENERAL: usize = 2;
 
-/// What is to be generated, and which of it is for each effect; none for what is out, or cannot be left out.
+/// The variants that are generated, and for each effect the index of its variant; `None` for an effect that is out or cannot be left out.
 fn tasks(model: &Model, written: &Model, entries: &[Entry]) -> (Vec<Task>, Vec<Option<usize>>) {
     let all = Variant::of(model);
     let of_accelerations = |variant: &Variant| Task {
@@ -198,7 +198,7 @@ fn tasks(model: &Model, written: &Model, entries: &[Entry]) -> (Vec<Task>, Vec<O
     (tasks, task_of)
 }
 
-/// An effect with its operations, where they are known.
+/// The row of an effect, with its operations if they are known.
 fn row<'a>(entry: &'a Entry, task: Option<usize>, costs: &[Option<Cost>]) -> Row<'a> {
     let method = method(entry.effect);
     let base = costs[base(method)].as_ref();
@@ -214,13 +214,13 @@ fn row<'a>(entry: &'a Entry, task: Option<usize>, costs: &[Option<Cost>]) -> Row
     }
 }
 
-/// By which effects are put in order.
+/// The cost by which effects are sorted.
 fn cost(row: &Row<'_>) -> i64 {
     row.operations
         .map_or(i64::MIN, |d| d.operations + CALL * d.calls)
 }
 
-/// The scene that an effect is left out of.
+/// The index of the scene that an effect is compared with.
 fn base(method: Method) -> usize {
     match method {
         Method::Accelerations => SCENE,
@@ -228,16 +228,16 @@ fn base(method: Method) -> usize {
     }
 }
 
-/// Effects that are timed in turn with each other and the scene, and then appear.
+/// Number of effects that are timed in turn with each other and the scene; their rows then appear together.
 const GROUP: usize = 8;
 
-/// Where variants are timed.
+/// The variants that are timed.
 struct Bench<'a> {
     lists: &'a mut [Option<Lists>],
     users: Option<Arc<UserForces>>,
     /// The scene and its outputs.
     bases: [Engine; 2],
-    /// Effects that were timed, and the scene with nothing left out.
+    /// Number of effects that were timed, with the scene with nothing left out.
     timed: usize,
 }
 
@@ -256,7 +256,8 @@ impl<'a> Bench<'a> {
         })
     }
 
-    /// Times a group of effects, the scene among them; in the first group twice, and with nothing left out.
+    /// Times a group of effects together with the scene. The first group also times the scene a second time, and the scene with nothing
+    /// left out.
     fn time(
         &mut self,
         group: &mut [(Row<'_>, Option<usize>)],
@@ -302,7 +303,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// How long it takes to time an effect \[s\], as that of the scene takes, with its share of what is timed with it.
+/// Time needed to time one effect \[s\], from the time of the scene, including its share of the scene that is timed with it.
 fn time_of_one(scene: &Task, users: Option<Arc<UserForces>>) -> Result<f64, Error> {
     let (_, lists) = effect::counted(&scene.variant);
     let begin = Instant::now();
@@ -312,7 +313,7 @@ fn time_of_one(scene: &Task, users: Option<Arc<UserForces>>) -> Result<f64, Erro
     Ok(begin.elapsed().as_secs_f64() * (1.0 + bases / GROUP as f64))
 }
 
-/// The equations of a task, once; `None` where they were not derived.
+/// The engine of a task, which may be taken once; `None` if its equations were not derived.
 fn engine(
     lists: &mut [Option<Lists>],
     index: usize,
@@ -324,7 +325,7 @@ fn engine(
     engine.transpose().map_err(Error::system)
 }
 
-/// What an interruption left out, in words.
+/// The sentence that says what an interruption left out.
 fn missing(rows: &[(Row<'_>, Option<usize>)], timed: bool) -> Option<String> {
     let tasks = || rows.iter().filter(|(_, task)| task.is_some());
     let all = tasks().count();
@@ -341,10 +342,10 @@ fn missing(rows: &[(Row<'_>, Option<usize>)], timed: bool) -> Option<String> {
     }
 }
 
-/// A sine, a cosine or a call costs about as much as so many operations, where effects are put in order.
+/// For sorting, a sine, a cosine or a call counts as this many operations.
 const CALL: i64 = 20;
 
-/// The method in which an effect shows.
+/// The method whose cost an effect changes.
 fn method(effect: Option<Effect>) -> Method {
     match effect {
         Some(Effect::Output(_)) => Method::Outputs,
@@ -352,7 +353,7 @@ fn method(effect: Option<Effect>) -> Method {
     }
 }
 
-/// What is to be generated for an effect; `None` for what is out, or cannot be left out.
+/// The variant without an effect; `None` for an effect that is out or cannot be left out.
 fn task(model: &Model, entry: &Entry) -> Option<Task> {
     let effect = entry.effect.filter(|_| entry.is_in)?;
     let variant = effect::without(model, effect)?;
@@ -368,7 +369,7 @@ fn task(model: &Model, entry: &Entry) -> Option<Task> {
     })
 }
 
-/// Costs and lists of variants, as far as there is time.
+/// The costs and lists of the variants that were derived before an interruption.
 fn generate(tasks: &[Task], progress: &mut dyn FnMut(usize)) -> Vec<Option<(Cost, Lists)>> {
     parallel::map(tasks, |task| effect::counted(&task.variant), progress)
 }

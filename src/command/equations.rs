@@ -1,4 +1,4 @@
-//! `bryant equations`: S, r_s and r_k to read, to compile, or at one state as numbers.
+//! `bryant equations`: S, r_s and r_k as text, as source code, or as numbers at one state.
 
 use super::Error;
 use super::model_argument::find;
@@ -60,7 +60,7 @@ pub struct Arguments {
     #[arg(long, short, value_name = "DIRECTORY", requires = "c")]
     output: Option<PathBuf>,
 
-    /// Describe orientation otherwise than the model says (in space)
+    /// Coordinates of orientations in space, instead of those of the model
     #[arg(long, value_enum)]
     coordinates: Option<CoordinatesName>,
 
@@ -86,9 +86,9 @@ enum CoordinatesName {
 }
 
 impl Arguments {
-    /// Derives and prints.
+    /// Derives the equations and prints them.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
-        // A state that cannot be read is found before the work begins.
+        // the state is read before the work begins, so that an error is found early
         let state = self.at.as_deref().map(read_state).transpose()?;
         let found = find(&self.model)?;
         let set = parse_parameters(&self.set, &found.scene)?;
@@ -127,7 +127,7 @@ impl Arguments {
         let users = users_of(&found, &model, terminal)?;
         let functions = users.as_deref().map(|users| users as &dyn UserFunctions);
         let values = evaluation::at(&model, &equations, &parameters, &state, functions);
-        // A function that panicked says more than the number that is missing for it.
+        // the message of a function that panicked says more than the missing number
         if let Some(failure) = users.as_deref().and_then(UserForces::failure) {
             return Err(Error::User(failure.problems.clone()));
         }
@@ -184,7 +184,7 @@ fn read_state(path: &Path) -> Result<State, Error> {
     })
 }
 
-/// The equations as people read them: what the symbols are, then S, r_s and r_k.
+/// The equations for people: first the meaning of the symbols, then S, r_s and r_k.
 fn listing(model: &Model, equations: &Equations, parameters: &[f64], as_latex: bool) -> String {
     let notation = Notation::new(model, equations);
     let symbol = |symbol| {
@@ -218,7 +218,7 @@ fn listing(model: &Model, equations: &Equations, parameters: &[f64], as_latex: b
     result
 }
 
-/// The upper triangle of S without its zeros, r_s and r_k.
+/// The upper triangle of S without zeros, r_s and r_k.
 fn roots(equations: &Equations, as_latex: bool) -> Vec<(String, NodeId)> {
     let mut roots = Vec::new();
     for (i, row) in equations.mass_matrix.iter().enumerate() {
@@ -297,7 +297,7 @@ fn heading(
     list(velocities, &equations.velocities, Symbol::Velocity);
     if equations.charts > 0 {
         lines.push(
-            "Bryant angles in chart 0: A = Rx(φ1) Ry(φ2) Rz(φ3), singular where φ2 = ±90 deg; a run goes over to others before."
+            "Bryant angles in chart 0: A = Rx(φ1) Ry(φ2) Rz(φ3), singular where φ2 = ±90 deg; a run changes to another chart before."
                 .to_owned(),
         );
     }
@@ -321,7 +321,7 @@ fn heading(
     lines
 }
 
-/// A curve by its points (SI), of a long one the first and the last.
+/// A curve by its points (SI); of a long curve, the first and the last.
 fn describe(curve: &Curve) -> String {
     let point = |[x, y]: &[f64; 2]| format!("({x}, {y})");
     let points = &curve.points;
@@ -332,9 +332,9 @@ fn describe(curve: &Curve) -> String {
         format!("{} … {}", first.join(" "), point(&points[points.len() - 1]))
     };
     let beyond = match curve.extrapolate {
-        Extrapolate::Linear => "its outermost lines go on",
-        Extrapolate::Hold => "its outermost values stay",
-        Extrapolate::Error => "not to be left",
+        Extrapolate::Linear => "outside of its points the outermost lines are extended",
+        Extrapolate::Hold => "outside of its points the outermost values are kept",
+        Extrapolate::Error => "not defined outside of its points",
     };
     let between = match curve.interpolate {
         Interpolate::Linear => "",
@@ -343,7 +343,7 @@ fn describe(curve: &Curve) -> String {
     format!("curve {}: {text}{between}; {beyond}", curve.name)
 }
 
-/// Points of a curve that are listed.
+/// At most this many points of a curve are listed.
 const POINTS_SHOWN: usize = 12;
 
 /// The state in which a run begins.
@@ -371,7 +371,7 @@ fn start(model: &Model, equations: &Equations, parameters: &[f64]) -> State {
     }
 }
 
-/// S as a grid, the vectors as columns beside the velocities they belong to.
+/// S as a grid; the vectors as columns beside their velocities.
 fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
     let mut text = format!("t = {} s\n\n", state.t);
     let width = |names: &[String]| {

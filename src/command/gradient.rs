@@ -1,4 +1,4 @@
-//! `bryant gradient`: what responses change by when parameters do, exactly.
+//! `bryant gradient`: exact derivatives of responses with respect to parameters.
 
 use super::Error;
 use super::model_argument::{find, nearest};
@@ -28,15 +28,15 @@ use std::time::{Duration, Instant};
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
 A response is WHAT of OUTPUT, as in a study: peak, minimum, magnitude, time of peak, time of minimum, range, mean, final, HIC15, HIC36,
-excursion, integral, value at TIME, clip TIME, contiguous clip TIME. Underscores stand for spaces, and of an output's name some words
-will do.
+excursion, integral, value at TIME, clip TIME, contiguous clip TIME. Underscores stand for spaces, and some words of an
+output's name suffice.
 
 Derivatives are those of the computed run, with its steps held: exact to the accuracy of the run. Where a switch fires or a belt
 locks, its time depends on the parameters, and the derivative jumps as it should (saltation). Where an output itself jumps there, an
 acceleration for one, responses are those of both sides of the jump, at its time: samples of a study know a jump to within their interval.
 
-Windows of HIC begin and end on samples and jumps, which its value hardly notices and its derivative does: 0.4 % in child-seat at a sample every
-0.1 ms, 0.02 to 0.1 % with `--sampling '10 us'`.
+Windows of HIC begin and end on samples and jumps. This hardly changes its value, but it changes its derivative: by 0.4 % in child-seat at a sample
+every 0.1 ms, by 0.02 to 0.1 % with `--sampling '10 us'`.
 
 Derivatives are compared with those of a run at ten times the tolerance. Where they are not as accurate as 0.1 %, sharper runs follow; what stays
 beyond 1 %, or beyond 10 % at a --tolerance of your own, ends with exit code 3.
@@ -72,15 +72,15 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     duration: Option<f64>,
 
-    /// Time between the samples that responses are read off [default: a twentieth of that between the model's rows]
+    /// Time between the samples that responses are read off [default: a twentieth of the time between the rows of the model]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     sampling: Option<f64>,
 
-    /// Relative tolerance of every step [default: 1e-8, and sharper where that is not enough]
+    /// Relative tolerance of every step [default: 1e-8, and smaller where that is not enough]
     #[arg(long, value_name = "NUMBER", value_parser = quantity::tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
 
-    /// Give up where computing a run takes longer than this, or would at its rate take ten times as long; a time, or off [default: 5 min]
+    /// Give up when the computation of a run takes longer than this, or would take ten times as long at its present rate; a time, or off [default: 5 min]
     #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
     time_limit: Option<f64>,
 
@@ -93,23 +93,23 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Tolerance unless another one is asked for.
+/// Tolerance if the user gives none.
 const TOLERANCE: f64 = 1e-8;
-/// Tolerance of the runs that differences are taken of, and the share of its size that a parameter is moved by either way: the error of a
-/// difference is of the square of the latter, and of the former over the latter.
+/// Tolerance of the runs for difference quotients, and the share of its size by which a parameter is changed to either side. The error of a
+/// difference quotient has two parts: the square of the second, and the first divided by the second.
 const SHARP: f64 = 1e-12;
 const MOVED: f64 = 1e-4;
-/// Steps of a run, at most.
+/// Largest number of steps of a run.
 const MOST_STEPS: u32 = 10_000_000;
-/// Differences further off than this share of the largest are said to disagree.
+/// Differences disagree if they are off by more than this share of the largest derivative.
 const AGREE: f64 = 1e-2;
-/// Slopes that are smaller than this share of their response are compared with it.
+/// Slopes that are smaller than this share of their response are measured by the response.
 const SMALL: f64 = 1e-2;
-/// What is less than this share of a response, differences do not tell from none.
+/// Differences cannot tell from 0 what is less than this share of a response.
 const NOISE: f64 = SHARP / MOVED / AGREE;
 
 impl Arguments {
-    /// Differentiates.
+    /// Differentiates and prints.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         found.tell(terminal);
@@ -126,7 +126,7 @@ impl Arguments {
             .collect::<Result<_, _>>()?;
         let usual = response::sampling(facts.run.sampling, &responses);
         let every = self.sampling.unwrap_or(usual);
-        // a value and its derivative, in each lane
+        // each lane has a value and its derivative
         let bytes = 2 * size_of::<f64>() * Width::widest().lanes();
         let samples = response::intervals(every, duration, &responses, bytes)? + 1;
         let varied: Vec<usize> = wrt.iter().map(|(index, _)| *index).collect();
@@ -232,13 +232,13 @@ impl Arguments {
         match error <= limit {
             true => Ok(()),
             false => Err(Error::failed(format!(
-                "the derivatives are not as accurate as {}: a run at ten times the tolerance has others\n  help: {help}",
+                "the derivatives are not as accurate as {}: a run at ten times the tolerance has other derivatives\n  help: {help}",
                 percent(limit)
             ))),
         }
     }
 
-    /// The parameters that are asked for, with their indices.
+    /// The requested parameters, with their indices.
     fn parameters<'m>(&self, model: &'m Model) -> Result<Vec<(usize, &'m Parameter)>, Error> {
         let names: Vec<&str> = model.parameters.iter().map(|p| p.name.as_str()).collect();
         if names.is_empty() {
@@ -255,7 +255,7 @@ impl Arguments {
             let Some(index) = names.iter().position(|known| *known == name) else {
                 let help = match nearest(name, &names) {
                     Some(near) => format!("did you mean \"{near}\"?"),
-                    None => format!("there is {}", names.join(", ")),
+                    None => format!("there are: {}", names.join(", ")),
                 };
                 return Err(Error::Input(format!(
                     "--wrt: \"{}\" has no parameter \"{}\"\n  help: {help}",
@@ -271,7 +271,7 @@ impl Arguments {
     }
 }
 
-/// What an interruption left out, in words: so many derivatives are there, and so many are compared.
+/// The sentence that says what an interruption left out: how many derivatives are done, and how many are compared.
 fn missing(wrt: &[(usize, &Parameter)], done: usize, compared: usize) -> Option<String> {
     let names = |from: usize| {
         let names: Vec<&str> = wrt[from..].iter().map(|(_, p)| p.name.as_str()).collect();
@@ -287,7 +287,7 @@ fn missing(wrt: &[(usize, &Parameter)], done: usize, compared: usize) -> Option<
     }
 }
 
-/// How far a parameter may be thought to go: the value itself, or a part of what its bounds leave.
+/// The size of a parameter's possible change: its value, or a share of the interval between its bounds.
 fn size(parameter: &Parameter, value: f64) -> f64 {
     match (parameter.min, parameter.max) {
         _ if value != 0.0 => value.abs(),
@@ -307,11 +307,11 @@ fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<
             Status::StepTooSmall => "the tolerance asks for steps below the smallest",
             Status::TooManySteps => "it takes too many steps",
             Status::Slow => {
-                "computing it takes longer than --time-limit, or would at its rate take ten times as long"
+                "the computation takes longer than --time-limit, or would take ten times as long at its present rate"
             }
             Status::Doubtful => {
                 let why = sweep::doubt(engine, row.doubt);
-                let why = why.unwrap_or_else(|| "its end is doubtful".to_owned());
+                let why = why.unwrap_or_else(|| "its result is doubtful".to_owned());
                 return Err(Error::failed(format!(
                     "the simulation cannot be trusted: {why}\n  help: `bryant run` with the same parameters says more"
                 )));
@@ -338,7 +338,7 @@ fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<
     Ok(gradients)
 }
 
-/// What is differentiated, where, and along which directions.
+/// The problem: model, job, parameters and directions.
 struct Asked<'a> {
     engine: &'a Engine,
     job: &'a Job,
@@ -346,18 +346,19 @@ struct Asked<'a> {
     directions: &'a [f64],
 }
 
-/// Responses and slopes, and what is known of them.
+/// Responses and slopes, with an estimate of their error.
 struct Accurate {
     gradients: Gradients,
-    /// Their estimated error, relative to the largest slope of a response, or to 1 % of the response: NaN where the run that they are compared with
-    /// failed, nothing where an interruption left it out.
+    /// Their estimated error, relative to the largest slope of a response, or to 1 % of the response. NaN if the run for comparison failed;
+    /// `None` if an interruption left it out.
     error: Option<f64>,
     tolerance: f64,
 }
 
-/// Errors fall like tolerances, at the worst like their root: two runs at tolerances of 1 to 10 differ by so many times the error of the sharper one.
+/// Errors fall like the tolerance, at worst like its root: two runs whose tolerances are as 10 to 1 then differ by this many times the
+/// error of the sharper one.
 const SURELY: f64 = 2.16;
-/// No sharper run is begun after so long \[s\], or so many times the first.
+/// No sharper run begins after this time \[s\], or after this many times the time of the first.
 const PATIENCE: [f64; 2] = [10.0, 5.0];
 
 impl Asked<'_> {
@@ -367,8 +368,8 @@ impl Asked<'_> {
         slopes(self.engine, &job, self.row, self.directions, progress)
     }
 
-    /// Slopes at a tolerance, compared with those at ten times as much, and at sharper ones where they are not as accurate as promised and nobody
-    /// gave a tolerance.
+    /// Slopes at a tolerance, compared with those at ten times the tolerance. If they are not as accurate as promised and the user gave no
+    /// tolerance, sharper runs follow.
     fn accurately(&self, given: Option<f64>, progress: &Progress) -> Result<Accurate, Error> {
         let begin = Instant::now();
         let mut tolerance = given.unwrap_or(TOLERANCE);
@@ -381,7 +382,7 @@ impl Asked<'_> {
                 tolerance,
             });
         }
-        // a tolerance is below 1
+        // a tolerance must be below 1
         let other = match tolerance < 0.1 {
             true => 10.0 * tolerance,
             false => 0.1 * tolerance,
@@ -411,8 +412,8 @@ impl Asked<'_> {
     }
 }
 
-/// How far the slopes and responses of two runs are apart, relative to the largest slope of each response, or to 1 % of the response where that is
-/// more.
+/// The difference of the slopes and responses of two runs, relative to the largest slope of each response, or to 1 % of the response if
+/// that is larger.
 fn apart(fine: &Gradients, coarse: &Gradients) -> f64 {
     let responses = fine.values.len();
     let mut worst = 0.0;
@@ -436,7 +437,7 @@ fn apart(fine: &Gradients, coarse: &Gradients) -> f64 {
         let of_value =
             (fine.values[k] - coarse.values[k]).abs() / value.max(largest).max(f64::MIN_POSITIVE);
         for difference in differences.chain([of_value]) {
-            // what is no number stays
+            // a NaN stays
             if difference.is_nan() || difference > worst {
                 worst = difference;
             }
@@ -445,7 +446,7 @@ fn apart(fine: &Gradients, coarse: &Gradients) -> f64 {
     worst
 }
 
-/// A direction for each parameter, along it alone, as long as its size.
+/// A direction for each parameter: along this parameter only, with its size as the length.
 fn each_alone(sizes: &[f64]) -> Vec<f64> {
     let mut directions = vec![0.0; sizes.len() * sizes.len()];
     for (i, size) in sizes.iter().enumerate() {
@@ -454,7 +455,7 @@ fn each_alone(sizes: &[f64]) -> Vec<f64> {
     directions
 }
 
-/// Responses, and slopes in as many of the directions as there is time for, so many side by side as a register holds.
+/// Responses, and slopes in as many of the directions as time allows; as many run side by side as a register holds.
 fn slopes(
     engine: &Engine,
     job: &Job,
@@ -480,8 +481,8 @@ fn slopes(
     Ok(all)
 }
 
-/// Derivatives by differences of sharper runs, direction by direction, as many as there is time for: central ones, at a bound one-sided ones of
-/// the same order.
+/// Derivatives by difference quotients of sharper runs, for as many parameters as time allows: central differences, or at a bound one-sided
+/// differences of the same order.
 fn differences(
     engine: &Engine,
     job: &Job,
@@ -509,7 +510,7 @@ fn differences(
     Ok(slopes)
 }
 
-/// The difference quotients of what is found `at` a distance from a value, of second order in the step, within its bounds.
+/// Difference quotients of the function `at` of a parameter's change, of second order in the step, within the bounds of the parameter.
 fn difference(
     at: impl Fn(f64) -> Result<Vec<f64>, Error>,
     value: f64,
@@ -534,7 +535,7 @@ fn difference(
         .collect())
 }
 
-/// Slopes along directions of these sizes as derivatives.
+/// Slopes along directions of these lengths, converted to derivatives.
 fn by_size(slopes: &[f64], sizes: &[f64], responses: usize) -> Vec<f64> {
     let of = slopes.chunks(responses).zip(sizes);
     of.flat_map(|(slopes, size)| slopes.iter().map(move |slope| slope / size))
@@ -546,7 +547,7 @@ struct Table<'a> {
     parameters: &'a [&'a Parameter],
     row: &'a [f64],
     values: &'a [f64],
-    /// Parameter by parameter.
+    /// One parameter after the other.
     slopes: &'a [f64],
     checked: Option<&'a [f64]>,
 }
@@ -579,7 +580,7 @@ impl Table<'_> {
                     number(self.row[i]) + &with_unit(&parameter.unit),
                     number(slope) + &with_unit(&quotient(&response.unit, &parameter.unit)),
                     match elasticity {
-                        // without the sign of a zero
+                        // a zero has no sign
                         0.0 => "0 %".into(),
                         _ if elasticity.is_finite() => format!("{elasticity:+.4} %"),
                         _ => "-".into(),
@@ -606,7 +607,7 @@ impl Table<'_> {
                 text += &match worst <= AGREE {
                     true => format!("  differences agree within {worst_of} of the largest\n"),
                     false => format!(
-                        "  differences disagree by {worst_of} of the largest: something bends or jumps near here\n"
+                        "  differences disagree by {worst_of} of the largest: a response has a kink or a jump near these values\n"
                     ),
                 };
             }
@@ -615,8 +616,8 @@ impl Table<'_> {
         text
     }
 
-    /// How far derivatives of a response are from differences, by the largest change that any parameter makes by either, or that differences
-    /// can tell.
+    /// How far the derivatives of a response are from the differences, relative to the largest change of the response that any parameter
+    /// makes by either of the two, or to the noise of the differences.
     fn disagreement(&self, response: usize) -> Option<f64> {
         self.checked?;
         let change = |i: usize, slope: f64| (slope * size(self.parameters[i], self.row[i])).abs();
@@ -664,7 +665,7 @@ impl Table<'_> {
     }
 }
 
-/// Seven digits.
+/// A number with seven digits.
 fn number(value: f64) -> String {
     let size = value.abs();
     match size {
@@ -699,7 +700,7 @@ mod tests {
 
     #[test]
     fn differences_are_of_second_order_and_keep_to_bounds() {
-        // of a parabola they are exact but for roundings: 4 ε of its size over the step
+        // they are exact for a parabola except for rounding: 4 ε of its size over the step
         let slope_at = |x: f64, bounds: [Option<f64>; 2]| {
             let at = |by: f64| {
                 let x = x + by;

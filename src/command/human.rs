@@ -20,24 +20,24 @@ Examples:
   bryant human --like male-50 --posture seated --name driver -o driver.yaml
   bryant human --like child-6 --posture seated --angle 'trunk=-20 deg' --angle 'thighs=-80 deg'")]
 pub struct Arguments {
-    /// The sex that the data are of
+    /// The sex that the data describe
     #[arg(long, value_enum, required_unless_present = "like")]
     sex: Option<SexName>,
 
-    /// From sole to vertex
+    /// Stature, from sole to vertex
     #[arg(long, value_name = "LENGTH", value_parser = length, required_unless_present_any = ["like", "percentile"], allow_hyphen_values = true)]
     stature: Option<f64>,
 
-    /// Of the whole body
+    /// Mass of the whole body
     #[arg(long, value_name = "MASS", value_parser = mass, required_unless_present_any = ["like", "percentile"], allow_hyphen_values = true)]
     mass: Option<f64>,
 
-    /// Of stature and of mass instead, from 1 to 99, of ANSUR II: soldiers of the US Army, 2012
+    /// Percentile of stature and of mass, in place of both: from 1 to 99, by ANSUR II (soldiers of the US Army, 2012)
     #[arg(long, value_name = "NUMBER", conflicts_with_all = ["stature", "mass"], requires = "sex")]
     percentile: Option<f64>,
 
-    /// A usual size instead: a man of 1.753 m and 77.7 kg, one of 1.877 m and 101.2 kg, a woman of 1.501 m and 49 kg; adults with the masses of the Hybrid III dummies; children of six and of three
-    /// years like the Hybrid III
+    /// A usual size, in place of sex, stature and mass: a man of 1.753 m and 77.7 kg, one of 1.877 m and 101.2 kg, a woman of 1.501 m and
+    /// 49 kg (adults with the masses of the Hybrid III dummies); children of six and of three years like the Hybrid III
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(NAMES), conflicts_with_all = ["sex", "stature", "mass", "percentile"])]
     like: Option<String>,
 
@@ -45,15 +45,15 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", default_value = "man")]
     name: String,
 
-    /// How the body is placed at the start
+    /// Posture at the start
     #[arg(long, value_enum, default_value_t = PostureName::Standing)]
     posture: PostureName,
 
-    /// Another angle than that of the posture, about y, of both sides: trunk, head, upper_arms, forearms, hands, thighs, shanks or feet
+    /// Angle about y, of both sides, that replaces that of the posture: trunk, head, upper_arms, forearms, hands, thighs, shanks or feet
     #[arg(long = "angle", value_name = "NAME=ANGLE", allow_hyphen_values = true)]
     angles: Vec<String>,
 
-    /// For a model in the plane: x forward, z up
+    /// Write a model in the plane: x forward, z up
     #[arg(long)]
     planar: bool,
 
@@ -89,7 +89,7 @@ fn mass(text: &str) -> Result<f64, quantity::QuantityError> {
 }
 
 impl Arguments {
-    /// Makes the body, and writes it.
+    /// Makes the body and writes it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let sex = match self.sex {
             Some(SexName::F) => Sex::Female,
@@ -144,7 +144,7 @@ impl Arguments {
     }
 }
 
-/// A posture with another angle, as "thighs=-80 deg".
+/// The posture with another angle, given as "thighs=-80 deg".
 fn with(posture: Posture, given: &str) -> Result<Posture, Error> {
     let (name, angle) = given.split_once('=').ok_or_else(|| {
         Error::Input(format!(

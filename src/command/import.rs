@@ -65,7 +65,7 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 impl Arguments {
-    /// Reads, and writes the model.
+    /// Reads the robot and writes the model.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let name = shown(&self.file);
         let text = read_file(&self.file).map_err(|error| {
@@ -82,7 +82,7 @@ impl Arguments {
             uncouple: self.uncouple,
         };
         let imported = ModelText::of_urdf(name, text, &options).map_err(Error::Model)?;
-        // what is written can be run: a body that no model can have is found here
+        // the written model can be run: a body that no model can have is found here
         model::read_str(&imported.name, &imported.text, &read_file)
             .map_err(|found| Error::Model(imported.in_file(found)))?;
         match &self.output {

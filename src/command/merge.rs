@@ -21,8 +21,8 @@ use std::path::PathBuf;
 /// Merge the shards of a study that `bryant sweep --shard` ran into tables, a summary and pictures.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
-Everything needed is in FOLDER. What is missing is said; merging twice gives the same bytes, and the bytes are those of a study run
-in one go.
+FOLDER has everything that is needed, and the command reports what is missing. Merging twice gives the same bytes, and these are the bytes
+of a study that was run in one go.
 
 Example:
   bryant merge study-results")]
@@ -31,11 +31,11 @@ pub struct Arguments {
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
 
-    /// In how many shards the study was run: what is missing is then said by shard
+    /// Number of shards that the study was run in; missing blocks are then reported by shard
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     shards: Option<u64>,
 
-    /// How the pictures are written
+    /// Format of the pictures
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 
@@ -60,19 +60,19 @@ impl Arguments {
     }
 }
 
-/// How results are presented.
+/// The settings for the presentation of results.
 pub(super) struct Finish {
-    /// In how many shards the study was run.
+    /// Number of shards that the study was run in.
     pub shards: Option<u64>,
-    /// How pictures are written.
+    /// Format of the pictures.
     pub pictures: Format,
     /// Whether the summary is printed as JSON.
     pub json: bool,
-    /// A page to be written, and what it says beside the results.
+    /// The file of a page, if one is to be written, and its additional texts.
     pub page: Option<(PathBuf, About)>,
 }
 
-/// Tables, summary and pictures of results that are complete.
+/// Writes the tables, the summary and the pictures of complete results.
 pub(super) fn finish(
     study: &Study,
     folder: &Folder,
@@ -122,7 +122,7 @@ pub(super) fn finish(
     }
 }
 
-/// Runs were given up because computing them took too long.
+/// The error for runs that were given up because their computation took too long.
 pub(super) fn given_up(count: u64, named: &[u64]) -> Error {
     let runs: Vec<String> = named.iter().map(u64::to_string).collect();
     let more = if count > named.len() as u64 {
@@ -147,7 +147,7 @@ pub(super) fn given_up(count: u64, named: &[u64]) -> Error {
     })
 }
 
-/// Blocks that are missing are a matter of input: their shards have to be run.
+/// Missing blocks are an error of the input: their shards have to be run first.
 fn results_error(error: ResultsError) -> Error {
     match error {
         ResultsError::Missing { .. } => Error::input(error),

@@ -66,9 +66,9 @@ Exit codes:
   0  done
   1  something around the model failed: a file, standard output, the compiler
   2  bad input: the model, an option, a state; every problem is reported with place and remedy
-  3  the simulation failed on the way, and what was computed up to there is written; or it cannot be trusted, since when and
-     because of what is said
-130  interrupted by Ctrl-C: what was computed is printed or written, and what is missing is said; a second Ctrl-C ends at once
+  3  the simulation failed on the way, and what was computed up to there is written; or it cannot be trusted, and a message says
+     since when and why
+130  interrupted by Ctrl-C: what was computed is printed or written, and a message says what is missing; a second Ctrl-C ends at once
 
 Environment:
   BRYANT_CACHE   where compiled user forces are kept (otherwise XDG_CACHE_HOME/bryant, ~/.cache/bryant)
@@ -99,37 +99,37 @@ enum Command {
     Import(import::Arguments),
 }
 
-/// Why a command did not succeed.
+/// The reasons why a command failed.
 #[derive(Debug)]
 enum Error {
     /// The description of a model is wrong.
     Model(Diagnostics),
-    /// A function of the user's failed in a run.
+    /// A user function failed in a run.
     User(Diagnostics),
-    /// An option, a state or a name is wrong; the message holds the remedy.
+    /// An option, a state or a name is wrong; the message has the remedy.
     Input(String),
     /// The simulation failed.
     Run(RunError),
-    /// Something around the model failed.
+    /// Something outside of the model failed.
     System(String),
-    /// Somebody pressed Ctrl-C; the message says what is missing.
+    /// The user pressed Ctrl-C; the message says what is missing.
     Interrupted(String),
-    /// Nobody reads any more, as in `bryant models | head -1`.
+    /// The reader of standard output is gone, as in `bryant models | head -1`.
     Closed,
 }
 
 impl Error {
-    /// An error of input, from anything that can say what it is.
+    /// An error of the input, with a message.
     fn input(error: impl std::fmt::Display) -> Self {
         Error::Input(error.to_string())
     }
 
-    /// An error of the surroundings.
+    /// An error of the system.
     fn system(error: impl std::fmt::Display) -> Self {
         Error::System(error.to_string())
     }
 
-    /// A simulation that cannot be used, for this reason.
+    /// A simulation that cannot be used, with the reason.
     fn failed(message: String) -> Self {
         Error::Run(RunError {
             kind: ErrorKind::Run,
@@ -189,7 +189,7 @@ pub fn main() -> ExitCode {
         Command::Human(arguments) => arguments.execute(&mut terminal),
         Command::Import(arguments) => arguments.execute(&mut terminal),
     };
-    // What was printed before belongs before the message.
+    // earlier output must come before the message
     let printed = terminal.flush();
     match terminal.end(printed, result) {
         Ok(()) => ExitCode::SUCCESS,
@@ -205,7 +205,7 @@ fn help(text: &clap::Error) -> ExitCode {
     let printed = text.print().and_then(|()| std::io::stdout().flush());
     let mut terminal = Terminal::new();
     let result = match printed {
-        // what is wrong goes to standard error, and where that is lost, there is nobody to tell
+        // errors go to standard error; if even that fails, nobody can be told
         _ if text.use_stderr() => return ExitCode::from(2),
         Ok(()) => terminal.write(|_| Ok(())),
         Err(error) => Err(terminal::unwritten(error)),
@@ -230,7 +230,7 @@ mod tests {
         Cli::command().debug_assert();
     }
 
-    /// The words of a line as a shell has them, up to what is piped, redirected, or remarked behind two spaces.
+    /// The words of a line as a shell splits it, up to a pipe, a redirection, or a remark after two spaces.
     fn words(line: &str) -> Vec<String> {
         let mut words = vec![String::new()];
         let (mut quoted, mut before) = (false, ' ');
@@ -249,7 +249,7 @@ mod tests {
         words
     }
 
-    /// Examples are understood, and of a bundled model, whose parameters and outputs they name, or of a file of the reader's.
+    /// All examples are valid. Their models are bundled, so that parameters and outputs are checked, or are files of the reader.
     #[test]
     fn examples_of_help_are_commands() {
         let whole = Cli::command();

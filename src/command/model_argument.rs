@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 
 /// A model that was found, read and resolved.
 pub struct Found {
-    /// What it says.
+    /// The model.
     pub model: Model,
-    /// And where it says so.
+    /// The places of its items in the text.
     pub scene: Scene,
-    /// The files that it was read from; none of a bundled model.
+    /// The files that it was read from; empty for a bundled model.
     pub files: Vec<PathBuf>,
 }
 
@@ -38,14 +38,14 @@ impl Found {
         }
     }
 
-    /// Says what to know of how a URDF file was imported.
+    /// Prints the notes about the import of a URDF file.
     pub fn tell(&self, terminal: &mut Terminal) {
         for note in &self.scene.notes {
             terminal.note(note);
         }
     }
 
-    /// Names, as shown, and texts of the functions of user forces; an error where one is in a crate that is not here.
+    /// Names, as shown to the user, and texts of the functions of user forces; an error if a function is in a crate that is not available.
     pub fn user_sources(&self) -> Result<Vec<(String, String)>, Error> {
         let mut sources = Vec::new();
         let model = self
@@ -59,7 +59,7 @@ impl Found {
             };
             let Some(source) = &user.function.source else {
                 return Err(Error::Input(format!(
-                    "the user force \"{}\" calls {}, which only the crate has that is built with this model\n  \
+                    "the user force \"{}\" calls {}, which exists only in the crate that is built with this model\n  \
                      help: run it there, or give the function in a file: `source: FILE.rs`",
                     force.name, user.function.name
                 )));
@@ -92,7 +92,7 @@ fn path_of(argument: &str) -> Result<&Path, Error> {
     Ok(path)
 }
 
-/// The bundled model of this name, or an error that says which there are.
+/// The bundled model of this name, or an error that lists the bundled models.
 pub fn find_bundled(name: &str) -> Result<&'static Bundled, Error> {
     bundled::find(name).ok_or_else(|| Error::Input(unknown(name)))
 }
@@ -115,7 +115,7 @@ fn unknown(name: &str) -> String {
     )
 }
 
-/// The candidate most like a word, if one is like it at all.
+/// The candidate that is most similar to a word, if one is similar at all.
 pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     let distance = |c: &str| strsim::damerau_levenshtein(&word.to_lowercase(), &c.to_lowercase());
     let allowed = word.chars().count().div_ceil(3).max(1);

@@ -1,4 +1,4 @@
-//! `bryant models`: what is bundled.
+//! `bryant models`: the bundled models.
 
 use super::Error;
 use super::model_argument::find_bundled;
@@ -59,7 +59,7 @@ impl Arguments {
     }
 }
 
-/// Writes every file of a model, unless one of them is there already.
+/// Writes every file of a model, unless one of them already exists.
 fn copy(bundled: &Bundled, directory: &Path, terminal: &mut Terminal) -> Result<(), Error> {
     let scene = bundled::scene(bundled).map_err(Error::Model)?;
     let files = scene.read.iter().filter_map(|path| {

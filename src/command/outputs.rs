@@ -1,4 +1,4 @@
-//! Where a command writes: no two results go to one place, and none to that of a file that it reads.
+//! The places that a command writes to: no two results go to one place, and none to a file that the command reads.
 
 use super::Error;
 use crate::files;
@@ -6,18 +6,18 @@ use crate::picture::Format;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
 
-/// The places that are taken.
+/// The places that are already taken.
 #[derive(Debug, Default)]
 pub struct Outputs {
     taken: Vec<(PathBuf, String)>,
     read: Vec<PathBuf>,
 }
 
-/// What takes everything and keeps nothing.
+/// The file that accepts everything and keeps nothing.
 const NOWHERE: &str = "/dev/null";
 
 impl Outputs {
-    /// None yet, of a command that reads these files.
+    /// No places taken yet, for a command that reads these files.
     pub fn of(read: &[PathBuf]) -> Self {
         Outputs {
             taken: Vec::new(),
@@ -25,10 +25,10 @@ impl Outputs {
         }
     }
 
-    /// Takes the place of a result, which an option names, or has as its usual one: to be called before anything is computed.
+    /// Reserves the place of a result, which an option names or has by default; to be called before anything is computed.
     ///
     /// # Errors
-    /// Another result goes there, or it is a file that is read.
+    /// Another result goes to this place, or the command reads this file.
     pub fn take(&mut self, option: &str, path: &Path) -> Result<(), Error> {
         let place = match is_standard(path) {
             true => PathBuf::from("-"),
@@ -59,19 +59,19 @@ impl Outputs {
 
 /// Whether a path stands for standard output.
 pub fn is_standard(path: &Path) -> bool {
-    // what these name otherwise is standard error: standard output is moved out of reach of user forces
+    // other names are standard error here: standard output is moved out of reach of user forces
     ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"]
         .iter()
         .any(|name| path == Path::new(name))
 }
 
-/// How pictures are written, by name.
+/// The format of pictures, by name.
 pub fn format() -> impl TypedValueParser<Value = Format> {
     PossibleValuesParser::new(Format::ALL.map(Format::ending))
         .map(|name| Format::named(&name).unwrap_or_default())
 }
 
-/// The file of a picture, whose ending says what it is.
+/// The file of a picture; its ending gives the format.
 pub fn picture(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match is_standard(&path) || Format::of(&path).is_some() {

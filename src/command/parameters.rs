@@ -20,7 +20,7 @@ pub fn parse_parameters(words: &[String], scene: &Scene) -> Result<Vec<(String, 
     Ok(set)
 }
 
-/// The values of all parameters of a model (SI), in its order: those set, and the defaults of the others.
+/// The values of all parameters of a model (SI), in its order: the given values, and the defaults of the others.
 pub fn values_of(model: &Model, set: &[(String, f64)]) -> Vec<f64> {
     let value = |name: &str| set.iter().find(|(n, _)| n == name).map(|(_, value)| *value);
     model
@@ -55,7 +55,7 @@ fn parameter(word: &str, scene: &Scene) -> Result<(String, f64), Error> {
                 "\"{}\" has no parameters; all its numbers are constants",
                 model.name
             ),
-            (None, false) => format!("there is {}", names.join(", ")),
+            (None, false) => format!("there are: {}", names.join(", ")),
         };
         return Err(Error::Input(format!(
             "there is no parameter \"{name}\"\n  help: {help}"
@@ -72,7 +72,7 @@ fn parameter(word: &str, scene: &Scene) -> Result<(String, f64), Error> {
     }
 }
 
-/// Which bounds a value of a parameter does not keep to.
+/// The bounds that a value of a parameter violates, if it does.
 fn out_of_bounds(parameter: &Parameter, value: f64) -> Option<String> {
     let (min, max) = (parameter.min, parameter.max);
     if min.is_none_or(|min| value >= min) && max.is_none_or(|max| value <= max) {

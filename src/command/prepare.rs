@@ -1,4 +1,4 @@
-//! The equations of a model, ready to be evaluated, with what takes time said meanwhile.
+//! Prepares the equations of a model for evaluation, and shows progress while this takes time.
 
 use super::Error;
 use super::model_argument::Found;
@@ -25,7 +25,7 @@ impl Deref for Prepared {
 }
 
 impl Prepared {
-    /// An error where a function of the user's did not do its work in one of the runs since.
+    /// An error if a user function failed in one of the runs since.
     pub fn check(&self) -> Result<(), Error> {
         let failure = self.users.as_ref().and_then(|users| users.failure());
         match failure {
@@ -35,12 +35,12 @@ impl Prepared {
     }
 }
 
-/// The equations of a model. Nothing is compiled but functions of user forces.
+/// The equations of a model. Only functions of user forces are compiled.
 pub fn prepare(found: &Found, terminal: &Terminal) -> Result<Prepared, Error> {
     prepare_model(found, &found.model, terminal)
 }
 
-/// The same for a model that differs from the one that was found in numbers, curves and effects alone.
+/// The same for a model that differs from the found one only in numbers, curves and effects.
 pub fn prepare_model(found: &Found, model: &Model, terminal: &Terminal) -> Result<Prepared, Error> {
     let users = users_of(found, model, terminal)?;
     let progress = Progress::deriving(terminal, &model.name);
@@ -52,7 +52,7 @@ pub fn prepare_model(found: &Found, model: &Model, terminal: &Terminal) -> Resul
     })
 }
 
-/// The functions of a model's user forces, compiled unless that is done; `None` where it has none.
+/// The functions of a model's user forces, compiled unless the cache has them; `None` if the model has none.
 pub fn users_of(
     found: &Found,
     model: &Model,
@@ -81,8 +81,8 @@ pub fn users_of(
     }
 }
 
-/// The generated Rust of the model that was found, compiled by rustc as a whole: to compare with its engine. With a Jacobian, which rodas5 needs,
-/// it takes three times as long.
+/// The generated Rust of the found model, compiled as a whole by rustc, for comparison with the engine. With a Jacobian, which rodas5
+/// needs, compilation takes three times as long.
 pub fn by_rustc(
     found: &Found,
     engine: &Engine,

@@ -1,7 +1,7 @@
-//! How far something is that takes long: a bar on a terminal, elsewhere a line every ten seconds.
+//! The progress of a long task: a bar on a terminal, otherwise a line every ten seconds.
 //!
-//! What is done is counted in simulated time or in things. Both ways to show it say the same: what, how much of how much, and about how long it
-//! still takes at the rate so far. Commands that take less than ten seconds print no line.
+//! Progress is counted in simulated time or in items. Bar and lines show the same: the task, the part that is done, the total, and about
+//! how much time is left at the present rate. Commands that take less than ten seconds print no line.
 
 use super::terminal::Terminal;
 use crate::accuracy::setting::time;
@@ -11,29 +11,29 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// What takes no longer than this shows no bar.
+/// Tasks shorter than this show no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// Between two lines where there is no terminal.
+/// Time between two lines if there is no terminal.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
-/// A rate is not told before it was watched so long.
+/// A rate is shown only after it was observed for this long.
 const WATCHED: Duration = Duration::from_secs(1);
-/// What a bar knows of time passes this often.
+/// The bar updates its time this often.
 const TICK: Duration = Duration::from_millis(250);
 
-/// What is counted.
+/// The quantity that is counted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Whole {
-    /// Simulated time, so much in all \[s\].
+    /// Simulated time, with its total \[s\].
     Time(f64),
-    /// So many of these in all: (216, "effects").
+    /// Items, with their total number: (216, "effects").
     Count(u64, &'static str),
-    /// Parts of something.
+    /// A share of the whole.
     Share,
-    /// Nothing: how long it takes is not known.
+    /// Nothing is counted, because the total time is not known.
     Unknown,
 }
 
-/// How far something is. Several threads may say so.
+/// The progress of a task. Several threads may report to it.
 pub struct Progress {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
@@ -41,7 +41,7 @@ pub struct Progress {
 
 struct Shared {
     state: Mutex<State>,
-    /// Told when it is over.
+    /// Signals the end of the task.
     over: Condvar,
     /// When the command began.
     command: Instant,
@@ -50,18 +50,18 @@ struct Shared {
 struct State {
     what: String,
     whole: Whole,
-    /// Since when this is counted, from which amount on, and how much is done.
+    /// When counting began, the amount that was done then, and the amount that is done now.
     since: Instant,
     from: f64,
     done: f64,
-    /// What follows when it is done, about \[s\].
+    /// Estimated time of the tasks that follow \[s\].
     later: f64,
     over: bool,
     bar: Option<ProgressBar>,
 }
 
 impl Progress {
-    /// Begins, at nothing: "running occupant".
+    /// Begins a task at zero, such as "running occupant".
     pub fn new(terminal: &Terminal, what: String, whole: Whole) -> Self {
         let shared = Arc::new(Shared {
             state: Mutex::new(State {
@@ -85,18 +85,19 @@ impl Progress {
         });
         Progress {
             shared,
-            // without a thread nothing is shown
+            // if no thread can be started, nothing is shown
             thread: thread.ok(),
         }
     }
 
-    /// Of the equations of a model, which takes moments.
+    /// The progress of deriving the equations of a model, which takes moments.
     pub fn deriving(terminal: &Terminal, model: &str) -> Self {
         let what = format!("deriving the equations of {model}");
         Progress::new(terminal, what, Whole::Unknown)
     }
 
-    /// So much is done: seconds of simulated time, things, or the share of the whole. Less than before: it began again.
+    /// Sets the amount that is done: seconds of simulated time, items, or the share of the whole. A smaller amount than before means that
+    /// the task began again.
     pub fn set(&self, done: f64) {
         let mut state = self.shared.lock();
         if done < state.done {
@@ -105,35 +106,35 @@ impl Progress {
         state.done = done;
     }
 
-    /// Something else is counted from now on, from nothing.
+    /// Begins another task at zero.
     pub fn next(&self, what: String, whole: Whole) {
         self.next_from(what, whole, 0.0);
     }
 
-    /// The same where so much was done already when it began.
+    /// The same with an amount that is already done at its beginning.
     pub fn next_from(&self, what: String, whole: Whole, done: f64) {
         let mut state = self.shared.lock();
         (state.what, state.whole, state.later) = (what, whole, 0.0);
         (state.since, state.from, state.done) = (Instant::now(), done, done);
     }
 
-    /// What follows this takes about so long \[s\].
+    /// Sets the estimated time of the tasks that follow this one \[s\].
     pub fn later(&self, seconds: f64) {
         self.shared.lock().later = seconds;
     }
 
-    /// Prints a line beside it.
+    /// Prints a line beside the bar.
     pub fn say(&self, text: &str) {
         self.shared.say(text);
     }
 
-    /// What prints lines beside it for others.
+    /// A function for others that prints lines beside the bar.
     pub fn teller(&self) -> impl Fn(&str) + Sync + use<> {
         let shared = Arc::clone(&self.shared);
         move |text| shared.say(text)
     }
 
-    /// Prints results beside it.
+    /// Prints results beside the bar.
     pub fn beside<R>(&self, print: impl FnOnce() -> R) -> R {
         let state = self.shared.lock();
         match &state.bar {
@@ -144,7 +145,7 @@ impl Progress {
 }
 
 impl Drop for Progress {
-    /// It is over, and leaves no bar.
+    /// Ends the task and removes the bar.
     fn drop(&mut self) {
         self.shared.lock().over = true;
         self.shared.over.notify_all();
@@ -170,7 +171,7 @@ impl Shared {
         }
     }
 
-    /// Waits so long, or until it is over; the state, unless it is over.
+    /// Waits for this time or until the end; returns the state unless the task is over.
     fn wait(&self, length: Duration) -> Option<MutexGuard<'_, State>> {
         let end = Instant::now() + length;
         let mut state = self.lock();
@@ -187,7 +188,7 @@ impl Shared {
         }
     }
 
-    /// A line at every ten seconds of the command.
+    /// Prints a line every ten seconds of the command.
     fn print_lines(&self) {
         loop {
             let into = self.command.elapsed().as_secs_f64() % BETWEEN_LINES.as_secs_f64();
@@ -204,7 +205,7 @@ impl Shared {
         }
         let bar = ProgressBar::new(1000);
         bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
-        // a template that cannot be read would be a mistake in this file; the usual bar then
+        // an invalid template would be a mistake in this file; the default bar is then used
         let style = |template| {
             let style = ProgressStyle::with_template(template);
             style.unwrap_or_else(|_| ProgressStyle::default_bar())
@@ -226,7 +227,7 @@ impl Shared {
 }
 
 impl State {
-    /// How much there is in all.
+    /// The total amount.
     fn all(&self) -> f64 {
         match self.whole {
             Whole::Time(all) => all,
@@ -257,7 +258,7 @@ impl State {
         format!("{}: {amount}{left}", self.what)
     }
 
-    /// How long it still takes \[s\] at the rate since it began; `None` where that is not known.
+    /// Estimated remaining time \[s\] at the rate since the beginning; `None` if it is not known.
     fn left(&self, watched: Duration) -> Option<f64> {
         let rate = (self.done - self.from) / watched.as_secs_f64();
         let known = watched >= WATCHED && rate > 0.0;
@@ -265,7 +266,7 @@ impl State {
     }
 }
 
-/// A span of time in two units at most: "40 s", "1 min 5 s", "2 h 1 min".
+/// A span of time in at most two units: "40 s", "1 min 5 s", "2 h 1 min".
 fn span(seconds: f64) -> String {
     let seconds = seconds.ceil().min(1e9) as u64;
     let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
@@ -315,7 +316,7 @@ mod tests {
         assert_eq!(line(Whole::Share, 0.34), "running seat: 34 %");
     }
 
-    /// What was there at the beginning says nothing of the rate.
+    /// An amount that was done at the beginning says nothing about the rate.
     #[test]
     fn the_time_left_is_that_of_the_rate() {
         let of = state(Whole::Count(100, "runs"), 40.0, 60.0);

@@ -1,4 +1,4 @@
-//! Responses that are asked for on the command line: what is read off a run, in words.
+//! Responses that are requested on the command line: numbers that are read off a run.
 //!
 //! `HIC15 of head acceleration`, `3 ms clip of chest acceleration`: WHAT of OUTPUT, as a study heads its columns.
 
@@ -12,25 +12,25 @@ use bryant_study::criteria::{self, Criterion};
 use bryant_study::facts::ModelFacts;
 use bryant_study::response::{self, NAMES, What, channel_of};
 
-/// A response as it was asked for.
+/// A requested response.
 pub struct Response {
-    /// What it is called, as a study calls it.
+    /// Its name, the same as in a study.
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
-    /// The window that it looks at \[s\], where it does.
+    /// The length of its window, if it has one \[s\].
     pub window: Option<f64>,
-    /// In the words of the runtime.
+    /// The response as a request to the runtime.
     pub asked: Asked,
 }
 
-/// Samples of a run at most, as in a study: they are kept until its end.
+/// A run has at most this many samples, as in a study: they are kept until its end.
 const MOST_SAMPLES: f64 = 1e6;
 
-/// How many intervals between samples a run has that is `duration` long \[s\]; `bytes` are what a sample of a response takes.
+/// The number of intervals between samples in a run of this `duration`; a sample of a response takes `bytes`.
 ///
 /// # Errors
-/// More than can be kept until its end; no sample within the run, or in a window that something looks at.
+/// There are more samples than can be kept until the end; there is no sample within the run, or within the window of a response.
 pub fn intervals(
     every: f64,
     duration: f64,
@@ -39,7 +39,7 @@ pub fn intervals(
 ) -> Result<usize, Error> {
     let fault = |what: &str, length: f64| {
         Error::Input(format!(
-            "there is a sample every {every} s, and {what} is {length} s long\n  help: give a shorter time by --sampling"
+            "there is a sample every {every} s, and {what} is {length} s long\n  help: give a shorter time with --sampling"
         ))
     };
     if every > duration {
@@ -60,45 +60,45 @@ pub fn intervals(
     }
     if intervals >= MOST_SAMPLES {
         return Err(Error::Input(format!(
-            "a sample every {every} s makes {intervals:.0} of a run of {duration} s, which would take some {:.1} GB, and at most \
-             {MOST_SAMPLES} are kept\n  help: give a longer time by --sampling, or a shorter --duration",
+            "a sample every {every} s makes {intervals:.0} of a run of {duration} s, which would take about {:.1} GB, and at most \
+             {MOST_SAMPLES} are kept\n  help: give a longer time with --sampling, or a shorter --duration",
             intervals * (bytes * responses.len()) as f64 / 1e9
         )));
     }
     Ok(intervals as usize)
 }
 
-/// A run is too short for a filter.
+/// The error for a run that is too short for a filter.
 pub fn too_short(duration: f64) -> Error {
     Error::Input(format!(
-        "a filter needs {MEAN} samples at least, and the run is {duration} s long\n  help: give a longer --duration, or a shorter time between samples by --sampling"
+        "a filter needs {MEAN} samples at least, and the run is {duration} s long\n  help: give a longer --duration, or a shorter time between samples with --sampling"
     ))
 }
 
-/// Samples are too far apart for a filter.
+/// The error for samples that are too far apart for a filter.
 pub fn too_coarse(class: Class, every: f64) -> Error {
     Error::Input(format!(
-        "{class} needs a sample every {} s at least, and there is one every {every} s\n  help: give a shorter time by --sampling, or leave it away",
+        "{class} needs a sample every {} s at least, and there is one every {every} s\n  help: give a shorter time with --sampling, or leave out --sampling",
         class.longest_interval()
     ))
 }
 
-/// The time between samples where nobody gives one \[s\]: `usual`, or what filters need.
+/// The time between samples if the user gives none \[s\]: `usual`, or less if filters need it.
 pub fn sampling(usual: f64, responses: &[Response]) -> f64 {
     let filters = responses.iter().filter_map(Response::filter);
     filters.map(Class::longest_interval).fold(usual, f64::min)
 }
 
-/// Kinds that look at a time, or for a time.
+/// Kinds of responses that need a time.
 const TIMED: [&str; 3] = ["value", "clip", "contiguous clip"];
 
 impl Response {
-    /// By what it is filtered, where it is.
+    /// Its filter, if it has one.
     pub fn filter(&self) -> Option<Class> {
         self.asked.channel.filter.map(|filter| filter.class)
     }
 
-    /// Of a study.
+    /// The response of a study.
     pub fn of_study(response: &response::Response) -> Response {
         Response {
             name: response.name.clone(),
@@ -111,12 +111,12 @@ impl Response {
         }
     }
 
-    /// Reads WHAT of OUTPUT, of a run from a time to another \[s\]: `3 ms clip of chest`, or `clip 3 ms of chest`. Underscores stand for spaces,
-    /// and of an output's name some words will do. Behind a comma stands a filter: `peak of chest x, CFC180`. The name of an injury criterion alone is that
-    /// criterion of a model with `criteria`. `option` is what messages name.
+    /// Reads WHAT of OUTPUT, for a run from one time to another \[s\]: `3 ms clip of chest`, or `clip 3 ms of chest`. Underscores stand for
+    /// spaces, and some words of an output's name suffice. A filter follows a comma: `peak of chest x, CFC180`. The name of an injury
+    /// criterion alone is that criterion of a model with `criteria`. `option` is the name of the option in messages.
     ///
     /// # Errors
-    /// No such response, no such output, a time outside of the run.
+    /// There is no such response or output, or a time is outside of the run.
     pub fn read(
         option: &str,
         text: &str,
@@ -150,7 +150,7 @@ impl Response {
             let near = nearest(said, &names).map(|near| format!("did you mean \"{near}\"? "));
             let near = near.unwrap_or_default();
             return Err(fault(
-                "it begins with no response".into(),
+                "it does not begin with a response".into(),
                 format!("{near}write WHAT of OUTPUT with one of {}", known()),
             ));
         };
@@ -194,7 +194,7 @@ impl Response {
                     "take an earlier time, or a longer run by --duration".into(),
                 ));
             }
-            // as a study heads its columns
+            // the same title as in a study
             let title = match what {
                 What::Value { .. } => format!("value at {written}"),
                 _ => format!("{written} {name}"),
@@ -214,7 +214,7 @@ impl Response {
         if what.is_injury_criterion() && of.unit != "m/s^2" {
             return Err(fault(
                 format!(
-                    "{name} is of accelerations, and \"{}\" is in {}",
+                    "{name} needs an acceleration, and \"{}\" is in {}",
                     of.name, of.unit
                 ),
                 "name an output in m/s^2".into(),
@@ -235,7 +235,7 @@ impl Response {
     }
 }
 
-/// The kind that a text begins with, by the longest name, and the rest of it.
+/// The kind of response that a text begins with (the longest name that fits), and the rest of the text.
 fn kind(text: &str) -> Option<(&'static str, What, &str)> {
     let begins = |name: &str| {
         let rest = text.get(name.len()..);
@@ -258,10 +258,10 @@ fn time_before(text: &str) -> Option<(&str, &str)> {
     })
 }
 
-/// The output of this name, or the only one whose name has all of these words.
+/// The output with this name, or the only output whose name has all of these words.
 fn output(text: &str, facts: &ModelFacts) -> Result<usize, String> {
     let names: Vec<&str> = facts.outputs.iter().map(|o| o.name.as_str()).collect();
-    // underscores stand for spaces, in names, too
+    // underscores stand for spaces, also in names
     let spaced = |name: &str| name.replace('_', " ").trim().to_owned();
     if let Some(index) = names.iter().position(|name| spaced(name) == text) {
         return Ok(index);
@@ -275,10 +275,13 @@ fn output(text: &str, facts: &ModelFacts) -> Result<usize, String> {
     match (alike.as_slice(), nearest(text, &names)) {
         ([one], _) => Ok(*one),
         ([], Some(near)) => Err(format!("did you mean \"{near}\"?")),
-        ([], None) => Err(format!("there is {}", names.join(", "))),
+        ([], None) => Err(format!("there are: {}", names.join(", "))),
         (several, _) => {
             let several: Vec<&str> = several.iter().map(|i| names[*i]).collect();
-            Err(format!("it may be {}", several.join(", ")))
+            Err(format!(
+                "several outputs have these words: {}",
+                several.join(", ")
+            ))
         }
     }
 }
@@ -386,9 +389,12 @@ mod tests {
     fn responses_that_are_none_are_told() {
         let model = seat();
         for (text, needle) in [
-            ("best of lap belt force", "begins with no response"),
+            ("best of lap belt force", "does not begin with a response"),
             ("peak of lap belt farce", "did you mean \"lap belt force\"?"),
-            ("peak_force", "it may be lap belt force"),
+            (
+                "peak_force",
+                "several outputs have these words: lap belt force",
+            ),
             ("peek of lap belt force", "did you mean \"peak\"?"),
             ("clip of chest accelerometer", "write `3 ms clip of OUTPUT`"),
             (
@@ -398,8 +404,8 @@ mod tests {
             ("300 ms clip of chest accelerometer", "beyond the run"),
             ("value at 300 ms of head excursion", "beyond the run"),
             ("value at 3 kg of head excursion", "kg"),
-            ("HIC15 of lap belt force", "of accelerations"),
-            ("peak", "there is lap belt force"),
+            ("HIC15 of lap belt force", "needs an acceleration"),
+            ("peak", "there are: lap belt force"),
         ] {
             match read(text, &model) {
                 Err(Error::Input(message)) => {

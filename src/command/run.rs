@@ -8,7 +8,7 @@ mod responses;
 
 use super::Error;
 use super::accuracy::accuracy;
-use super::caution;
+use super::caution::{self, singular::Near};
 use super::compare::{filter_standard, pair};
 use super::model_argument::find;
 use super::outputs;
@@ -69,48 +69,47 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Formula::ALL.map(Formula::name)))]
     method: Option<String>,
 
-    /// Fixed steps, of this length at most, a time [default of rk4 and semi-implicit-euler: 0.1 ms]
+    /// Fixed steps of at most this length; a time [default of rk4 and semi-implicit-euler: 0.1 ms]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     step: Option<f64>,
 
-    /// Error allowed in a step, relative; positions (m) and angles (rad) are held to a tenth of it whatever their size [default: 1e-7]
+    /// Relative error allowed in a step; positions (m) and angles (rad) may err by a tenth of it, whatever their size [default: 1e-7]
     #[arg(long, value_name = "NUMBER", value_parser = quantity::tolerance, allow_hyphen_values = true, conflicts_with = "step")]
     tolerance: Option<f64>,
 
-    /// Be as accurate as this in every output, relative to its largest magnitude (1%, 1e-3): method and tolerance are chosen and
-    /// sharpened until runs agree, and the estimated error is printed
+    /// Accuracy of every output, relative to its largest magnitude (1%, 1e-3): the program chooses the method, sharpens the tolerance until
+    /// runs agree, and prints the estimated error
     #[arg(long, value_name = "ERROR", value_parser = accuracy, allow_hyphen_values = true, conflicts_with_all = ["method", "step", "tolerance", "kinks"])]
     accuracy: Option<f64>,
 
-    /// Compare with a much sharper run by another method, however long that takes, and print how far they are apart
+    /// Compare with a much sharper run by another method, however long that takes, and print by how much they differ
     #[arg(long)]
     verify: bool,
 
-    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance, of at most 0.3 s or as
-    /// long as the first. Where outputs or responses differ by more than 0.1 %, the run is repeated sharper
+    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance. Where outputs or responses differ by more than 0.1 %, the run is repeated sharper
     #[arg(long, conflicts_with = "verify")]
     no_verify: bool,
 
-    /// Kinks of force laws, where a contact touches or a curve bends: located, so that steps end on them, or passed; locating
-    /// pays at tolerances below about 1e-8
+    /// What steps do at kinks of force laws, where a contact touches or a curve bends: `located` ends steps there, `passed` steps over
+    /// them; locating pays at tolerances below about 1e-8
     #[arg(long, value_name = "HOW", default_value = "passed", value_parser = PossibleValuesParser::new(["located", "passed"]))]
     kinks: String,
 
-    /// What evaluates the equations: built-in, machine code or an interpreter of this program; or rustc, which compiles the generated Rust of the whole
-    /// model first, and optimises it, in some seconds to minutes: to compare with
+    /// What evaluates the equations: built-in is machine code or an interpreter of this program; rustc compiles the generated Rust of the
+    /// whole model with optimisation, which takes seconds to minutes and is meant for comparisons
     #[arg(long, value_name = "NAME", default_value = BUILT_IN, value_parser = PossibleValuesParser::new([BUILT_IN, RUSTC]))]
     engine: String,
 
-    /// Time at which the run ends: its length, where it begins at 0 [default: as the model says]
+    /// Time at which the run ends; this is its length where it begins at 0 [default: as the model says]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     duration: Option<f64>,
 
-    /// Begin with the state in this file, which --final-state wrote, at its time; by name, so the model may be another one with the same
-    /// coordinates
+    /// Begin with the state in this file, which --final-state wrote, and at its time. Entries are found by name, so that the model may be
+    /// another one with the same coordinates
     #[arg(long, value_name = "STATE.json")]
     start: Option<PathBuf>,
 
-    /// Write the state of the last sample, by name, to begin another run with; - prints it instead of the readable table
+    /// Write the state of the last sample, by name, to begin another run with it; - prints it instead of the readable table
     #[arg(long, value_name = "STATE.json")]
     final_state: Option<PathBuf>,
 
@@ -122,7 +121,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
 
-    /// Give up where computing takes longer than this, or would at its rate take ten times as long; a time, or off [default: 5 min]
+    /// Give up when the computation takes longer than this, or would take ten times as long at its present rate; a time, or off [default: 5 min]
     #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
     time_limit: Option<f64>,
 
@@ -130,7 +129,7 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     max_steps: Option<u64>,
 
-    /// Share of the energy and of the momentum that may be missing in their balance before the run is not to be trusted, or off
+    /// Share of energy and momentum that may be missing in their balances; where more is missing, the run cannot be trusted; or off
     /// [default: 2%]
     #[arg(long, value_name = "SHARE", value_parser = energy_limit, allow_hyphen_values = true)]
     energy_limit: Option<f64>,
@@ -139,15 +138,16 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// File of the table, every digit; - prints it instead of the readable table [default: MODEL.csv]
+    /// File of the table with all digits; - prints it instead of the readable table [default: MODEL.csv]
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
-    /// File of the picture, SVG or PNG as its name ends; - prints SVG instead of the readable table [default: MODEL.svg, or .png as --pictures says]
+    /// File of the picture, SVG or PNG by the ending of its name; - prints SVG instead of the readable table [default: MODEL.svg, or
+    /// MODEL.png with --pictures png]
     #[arg(long, value_name = "FILE.svg|.png", value_parser = outputs::picture)]
     picture: Option<PathBuf>,
 
-    /// How the pictures are written whose files are not named: that of the motion, and plots
+    /// Format of the pictures whose files are not named: that of the motion, and plots
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 
@@ -155,8 +155,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
 
-    /// In the report, curves of a test or of another run beside those of the run: a CSV table of `bryant run`, or ISO-MME; channels of the same name or code, or as
-    /// --channel says
+    /// Recording whose curves the report shows beside those of the run: a test in ISO-MME, or a CSV table of `bryant run`. Its channels are
+    /// found by name or code, or by --channel
     #[arg(long, value_name = "RECORDING", requires = "report")]
     measured: Option<PathBuf>,
 
@@ -164,11 +164,12 @@ pub struct Arguments {
     #[arg(long, value_name = "OUTPUT=CHANNEL", value_parser = pair, requires = "measured")]
     channel: Vec<(String, String)>,
 
-    /// In the report, a second run with other parameters on top of the first, in grey and in dashes; may be repeated, for several parameters of that run
+    /// Parameter of a second run, which the report shows on top of the first, in grey and in dashes; may be repeated, for several
+    /// parameters of that run
     #[arg(long, value_name = "NAME=VALUE", requires = "report")]
     beside: Vec<String>,
 
-    /// Write the table as Apache Parquet too, with all digits
+    /// Also write the table as Apache Parquet, with all digits
     #[arg(long, value_name = "FILE.parquet")]
     parquet: Option<PathBuf>,
 
@@ -181,7 +182,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FOLDER")]
     mme: Option<PathBuf>,
 
-    /// Write no files but those named by --csv, --parquet, --picture, --report, --animation, --mme and --final-state
+    /// Write only the files that are named by --csv, --parquet, --picture, --report, --animation, --mme and --final-state
     #[arg(long)]
     no_files: bool,
 
@@ -189,8 +190,8 @@ pub struct Arguments {
     #[arg(long, value_name = "'NAMES over NAME'", allow_hyphen_values = true)]
     plot: Vec<String>,
 
-    /// Box that a curve of a plot over time is to go through, as 'rotation: 57 ms to 64 ms, 64 deg to 78 deg'; `any` leaves a side open; may
-    /// be repeated
+    /// Box that a curve of a plot over time should pass through, as 'rotation: 57 ms to 64 ms, 64 deg to 78 deg'; `any` leaves a side open;
+    /// may be repeated
     #[arg(
         long,
         value_name = "'NAME: TIME to TIME, VALUE to VALUE'",
@@ -199,7 +200,7 @@ pub struct Arguments {
     corridor: Vec<String>,
 
     /// Response that is read off the run, WHAT of OUTPUT, as a study heads its columns: 'HIC15 of head acceleration', '3 ms clip of chest
-    /// acceleration', 'time of peak of belt force', 'value at 80 ms of head excursion'. Of an output's name some words will do. May be
+    /// acceleration', 'time of peak of belt force', 'value at 80 ms of head excursion'. Some words of an output's name suffice. May be
     /// repeated
     #[arg(
         long,
@@ -209,7 +210,7 @@ pub struct Arguments {
     )]
     response: Vec<String>,
 
-    /// Read off the responses of a study, sampled as it says; the rest of the study does not count
+    /// Read off the responses of a study, sampled as it says; the rest of the study is ignored
     #[arg(long, value_name = "STUDY.yaml")]
     responses: Option<PathBuf>,
 
@@ -218,12 +219,13 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     sampling: Option<f64>,
 
-    /// Judge the run by the injury criteria of a regulation for a dummy: 'FMVSS 208, Hybrid III 50M'; `bryant criteria --list` has them. Outputs with a `code` of
-    /// ISO-MME are found by it, others are named by --place. The run is sampled at 10 kHz for it, whatever the table shows
+    /// Judge the run by the injury criteria of a regulation for a dummy: 'FMVSS 208, Hybrid III 50M'; `bryant criteria --list` lists them.
+    /// Outputs with a `code` of ISO-MME are found by it, others are named by --place. For this the run is sampled at 10 kHz, whatever the
+    /// table shows
     #[arg(long, value_name = "'REGULATION, DUMMY'", value_parser = standard_and_dummy)]
     criteria: Option<(String, String)>,
 
-    /// Whose coefficients the filters of criteria have [default: as the model says, or iso6487]
+    /// Standard whose coefficients the filters of criteria have [default: as the model says, or iso6487]
     #[arg(long, value_name = "NAME", value_parser = filter_standard())]
     filter_standard: Option<Standard>,
 
@@ -231,11 +233,12 @@ pub struct Arguments {
     #[arg(long, value_name = "PLACE=OUTPUT", value_parser = pair)]
     place: Vec<(String, String)>,
 
-    /// About how many stick figures the picture shows, at round times
+    /// About this many stick figures in the picture, at round times
     #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=100))]
     figures: u16,
 
-    /// From where the picture shows a model in space: side, from the right; front; top, from above; oblique, from the right, the front and above
+    /// Direction from which the picture shows a model in space: side, from the right; front; top, from above; oblique, from the right, the
+    /// front and above
     #[arg(long, value_name = "VIEW", default_value = "side", value_parser = view())]
     view: View,
 
@@ -243,7 +246,7 @@ pub struct Arguments {
     #[arg(long)]
     overlay: bool,
 
-    /// List the work of every effect in the balance of energy, however small
+    /// List the work of every effect in the balance of energy, also of small ones
     #[arg(long)]
     energy: bool,
 
@@ -256,7 +259,7 @@ pub struct Arguments {
     precision: Option<u8>,
 }
 
-/// `REGULATION, DUMMY`
+/// A regulation and a dummy from `REGULATION, DUMMY`.
 fn standard_and_dummy(text: &str) -> Result<(String, String), String> {
     match text.split_once(',') {
         Some((standard, dummy)) => Ok((standard.trim().to_owned(), dummy.trim().to_owned())),
@@ -264,19 +267,19 @@ fn standard_and_dummy(text: &str) -> Result<(String, String), String> {
     }
 }
 
-/// Engines.
+/// The names of the engines.
 const BUILT_IN: &str = "built-in";
 const RUSTC: &str = "rustc";
 
-/// Rows of a table at most, as in a model: all of them are kept until the end.
+/// A table has at most this many rows, as in a model: all of them are kept until the end.
 const MOST_ROWS: f64 = 1e6;
 
-/// How long computing a run may take where nothing else is asked for \[s\].
+/// Time that the computation of a run may take if the user gives none \[s\].
 pub(super) const TIME_LIMIT: f64 = 300.0;
-/// How long it may take at most to find out what makes a run slow \[s\].
+/// Time that the search for the cause of a slow run may take \[s\].
 const LOOKING: f64 = 10.0;
 
-/// Fixed step where none is given \[s\]: what crash simulations customarily take.
+/// Fixed step if the user gives none \[s\]: the customary step of crash simulations.
 const CUSTOMARY_STEP: f64 = 1e-4;
 
 impl Arguments {
@@ -312,8 +315,12 @@ impl Arguments {
                 error.cause = fastest.text();
             }
         }
-        if matches!(&recording.result, Err(error) if error.kind == ErrorKind::Run) {
-            look_for_singular_joint(&found.model, &job, &mut recording);
+        match &recording.result {
+            Ok(_) => doubt_singular_start(&found.model, &job, &mut recording),
+            Err(error) if error.kind == ErrorKind::Run => {
+                look_for_singular_joint(&found.model, &job, &mut recording);
+            }
+            Err(_) => {}
         }
         if let Some(failure) = compiled.as_ref().and_then(RustcModel::failure) {
             return Err(Error::failed(failure.to_owned()));
@@ -325,7 +332,7 @@ impl Arguments {
         }
 
         let verdict = responses.verdict(&recording);
-        // Files first: whoever closes the pipe after ten lines still has them.
+        // Files come first: a user who closes the pipe after ten lines still has them.
         let mut written = files.write(&self, &found.model, &job, &recording)?;
         if let Some(path) = &self.report {
             let of_run = (&recording, &trust);
@@ -378,7 +385,7 @@ impl Arguments {
         terminal.end(printed, outcome)
     }
 
-    /// Says what the run took and what it can be trusted for; an error where it cannot, or did not come to its end.
+    /// Prints the cost of the run and how far it can be trusted; an error if it cannot be trusted or did not reach its end.
     fn conclude(
         &self,
         recording: &Recording,
@@ -398,7 +405,7 @@ impl Arguments {
                 doubtful(recording)?;
                 if interrupt::asked() && (self.accuracy.is_some() || !self.no_verify) {
                     return Err(Error::Interrupted(
-                        "the table is that of a whole run, but not all runs were done that its error is known by".into(),
+                        "the table is complete, but not all of the runs that its error is estimated from were done".into(),
                     ));
                 }
                 trust.check()
@@ -447,12 +454,12 @@ impl Arguments {
         })
     }
 
-    /// Whether a method with a Jacobian is asked for, or may be chosen.
+    /// Whether a method with a Jacobian is requested, or may be chosen.
     fn may_be_stiff(&self) -> bool {
         self.accuracy.is_some() || self.method.as_deref() == Some(Formula::Rodas5.name())
     }
 
-    /// The integrator and its steps, where anything is said of them.
+    /// The integrator and its steps, if the user says anything about them.
     fn integrator(&self) -> Result<Option<Method>, Error> {
         let named = self.method.as_deref().and_then(Formula::named);
         Ok(match (named, self.step, self.tolerance) {
@@ -474,7 +481,7 @@ impl Arguments {
         })
     }
 
-    /// The run, and what is known of its error.
+    /// The run, and the knowledge about its error.
     fn record(
         &self,
         engine: &dyn Runs,
@@ -588,7 +595,7 @@ impl Arguments {
     }
 }
 
-/// A verdict for programs; null where the criteria are not judged.
+/// A verdict for programs; null if the criteria are not judged.
 fn judged_json(verdict: &Option<crate::criteria::Verdict>) -> serde_json::Value {
     verdict
         .as_ref()
@@ -601,7 +608,7 @@ fn view() -> impl TypedValueParser<Value = View> {
         .map(|name| View::named(&name).unwrap_or_default())
 }
 
-/// The share of a balance that may be missing: like an accuracy, or off.
+/// The share of a balance that may be missing: a number like an accuracy, or off.
 fn energy_limit(text: &str) -> Result<f64, String> {
     match text {
         "off" => Ok(f64::INFINITY),
@@ -617,7 +624,7 @@ pub(super) fn time_limit(text: &str) -> Result<f64, String> {
     }
 }
 
-/// An error where the run went to its end but cannot be trusted: since when, because of what, and what to do.
+/// An error if the run reached its end but cannot be trusted: since when, why, and what to do.
 fn doubtful(recording: &Recording) -> Result<(), Error> {
     let Some(first) = recording.doubts.first() else {
         return Ok(());
@@ -629,7 +636,7 @@ fn doubtful(recording: &Recording) -> Result<(), Error> {
             .iter()
             .map(|doubt| format!("  {}", doubt.message)),
     );
-    // what follows from a cause needs no remedy of its own
+    // only the first cause needs a remedy: the others follow from it
     lines.push(format!("  help: {}", first.remedy));
     Err(Error::Run(RunError {
         kind: ErrorKind::Run,
@@ -661,7 +668,7 @@ fn with_tolerances() -> String {
     estimating.map(Formula::name).collect::<Vec<_>>().join(", ")
 }
 
-/// What decided the length of a step, by the names of the model.
+/// The cause of the length of a step, with the names of the model.
 fn cause(cause: Cause, header: &Header) -> String {
     let named = |names: &[String], index: usize| names.get(index).cloned().unwrap_or_default();
     match cause {
@@ -692,7 +699,7 @@ fn cause(cause: Cause, header: &Header) -> String {
     }
 }
 
-/// The table of a run as Apache Parquet; units, model, digest and version stand in its metadata.
+/// The table of a run as Apache Parquet; its metadata have units, model, digest and version.
 fn parquet(
     out: &mut dyn std::io::Write,
     model: &str,
@@ -716,7 +723,7 @@ fn parquet(
     write_numbers(out, model, &numbers.collect::<Vec<_>>(), &metadata)
 }
 
-/// Names a joint in a singular position as the cause of a failure, where there is one.
+/// Names a joint in a singular position as the cause of a failure, if there is one.
 fn look_for_singular_joint(model: &Model, job: &Job, recording: &mut Recording) {
     let given = job.start.as_ref().map(|start| &start.state);
     let last = Some(&recording.last_state).filter(|state| !state.is_empty());
@@ -726,10 +733,34 @@ fn look_for_singular_joint(model: &Model, job: &Job, recording: &mut Recording) 
         let place = coordinates.iter().position(|one| one == name)?;
         state?.get(place).copied()
     };
-    let cause = caution::singular::at(model, &recording.parameters(job), value);
+    let parameters = recording.parameters(job);
+    let cause = caution::singular::at(model, &parameters, value, Near::CloseTo);
     if let (Some(cause), Err(error)) = (cause, &mut recording.result) {
-        error.cause = cause;
+        error.cause = cause.join("; ");
     }
+}
+
+/// Doubts a run that starts in a singular position of a joint: rounding alone says how it leaves that.
+fn doubt_singular_start(model: &Model, job: &Job, recording: &mut Recording) {
+    let coordinates = &recording.header.coordinates;
+    let value = |name: &str| {
+        let place = coordinates.iter().position(|one| one == name)?;
+        job.start.as_ref()?.state.get(place).copied()
+    };
+    let parameters = recording.parameters(job);
+    let Some([position, remedy]) = caution::singular::at(model, &parameters, value, Near::In)
+    else {
+        return;
+    };
+    let start = Finding {
+        since: recording.first_time(),
+        kind: "singular".to_owned(),
+        amount: 0.0,
+        coordinate: String::new(),
+        message: format!("at the start {position}"),
+        remedy,
+    };
+    recording.doubts.insert(0, start);
 }
 
 /// What the run took, in one line.
@@ -756,7 +787,7 @@ fn report(recording: &Recording) -> String {
     )
 }
 
-/// What stopped the run: time, element, cause, and how far the samples go.
+/// The failure of the run: time, element, cause, and how far the samples go.
 fn failure(error: &RunError, recording: &Recording) -> String {
     let what = error
         .message
@@ -792,13 +823,13 @@ fn failure(error: &RunError, recording: &Recording) -> String {
     lines.join("\n")
 }
 
-/// The element, or the reference joint, whose coordinate or velocity is at fault.
+/// The element or reference joint that has the failing coordinate or velocity.
 fn element(error: &RunError) -> Option<&str> {
     let (owner, _) = error.coordinate.as_deref()?.rsplit_once('.')?;
     Some(owner)
 }
 
-/// A length of time in the unit in which it is read most easily.
+/// A length of time in the unit that is easiest to read.
 fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s >= 1.0 => (s, "s"),
@@ -807,7 +838,7 @@ fn duration(seconds: f64) -> String {
         0.0 => return "0 s".into(),
         s => (s * 1e9, "ns"),
     };
-    // Three digits tell all that a length of time on a busy machine has to tell.
+    // Times on a busy machine are not more precise than three digits.
     let decimals = (2 - value.log10().floor() as i32).clamp(0, 3) as usize;
     let text = format!("{value:.decimals$}");
     match text.contains('.') {

@@ -23,12 +23,12 @@ use std::path::PathBuf;
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
 The model is let go from its start, and stopped wherever its kinetic energy has passed a maximum, until nothing moves any more. Time stands still: loads that depend
-on it are those of t = 0. Nothing is added to the equations. Damping and friction of speed have no part in a state of rest; friction that holds, permanent
-sets and the like are what the way to rest has made of them. Velocities of reference joints are kept, as of an occupant who moves along with a car, and nothing moves
-against them; angular velocities are left out.
+on it are those of t = 0. Nothing is added to the equations. Damping and friction by speed do not act at rest; friction that holds, permanent sets and other memory
+have the values that they took on the way to rest. Reference joints keep their velocities, as those of an occupant who moves along with a car, and nothing moves
+relative to them; angular velocities are not kept.
 
-A state of rest has accelerations of all centres of gravity of at most 0.001 g, or as --residual says, and is not left at a touch. Where there is none the exit code
-is 3, and nothing is written.
+In a state of rest every centre of gravity accelerates by at most 0.001 g, or as --residual says, and a slight push does not move the model away. If there is no such
+state, the exit code is 3 and nothing is written.
 
 Examples:
   bryant settle my.yaml -o rest.json
@@ -45,15 +45,15 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
 
-    /// Acceleration that may be left, in parts of the acceleration of gravity
+    /// Acceleration that may remain in a state of rest, in parts of the acceleration of gravity
     #[arg(long, value_name = "SHARE", default_value_t = 1e-3, value_parser = share, allow_hyphen_values = true)]
     residual: f64,
 
-    /// Evaluations of the equations at most
+    /// Largest number of evaluations of the equations
     #[arg(long, value_name = "COUNT", default_value_t = 5_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     evaluations: u64,
 
-    /// Print what it rests on as JSON
+    /// Print the forces that carry the model as JSON
     #[arg(long, requires = "output")]
     json: bool,
 }
@@ -69,7 +69,7 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 impl Arguments {
-    /// Settles, and writes.
+    /// Searches the state of rest and writes it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         found.tell(terminal);
@@ -127,7 +127,7 @@ impl Arguments {
         for line in text(&settled, worst, &rests).lines() {
             match &self.output {
                 Some(path) if !is_standard(path) => terminal.print(&format!("{line}\n"))?,
-                // the state is what is printed
+                // the state goes to standard output, so the line goes to standard error
                 _ => terminal.note(line),
             }
         }
@@ -155,10 +155,10 @@ impl Arguments {
     }
 }
 
-/// How long a run from the state is looked at \[s\].
+/// A run from the state is examined for this time \[s\].
 const LOOKED: f64 = 1e-4;
 
-/// Whether a run that starts there cannot be trusted: what is wrong with the place, such as a curve that is left.
+/// Fails if a run that starts there cannot be trusted, because something is wrong with the position, such as a curve that is exceeded.
 fn doubt(engine: &Prepared, set: &[(String, f64)], settled: &Settled) -> Result<(), Error> {
     let job = Job {
         duration: Some(LOOKED),
@@ -191,13 +191,13 @@ fn doubt(engine: &Prepared, set: &[(String, f64)], settled: &Settled) -> Result<
     }
 }
 
-/// Why there is no state of rest, if there is none.
+/// The reason why there is no state of rest, if there is none.
 fn refuse(settled: &Settled, worst: &str) -> Result<(), Error> {
     let g = settled.acceleration / G;
     match settled.end {
         End::Rest => Ok(()),
         End::Unstable => Err(Error::failed(
-            "the model is in balance, but leaves that place at a touch\n  help: let it start beside that place, or give it something that holds it".to_owned(),
+            "the model is in balance, but the balance is unstable: a slight push moves it away\n  help: let it start beside that place, or add something that holds it".to_owned(),
         )),
         End::Moving => Err(Error::failed(format!(
             "the model does not come to rest: after {} stops the centre of gravity of \"{worst}\" still has {g:.3} g\n  \
@@ -205,14 +205,14 @@ fn refuse(settled: &Settled, worst: &str) -> Result<(), Error> {
             settled.stops
         ))),
         End::NotFinite => Err(Error::failed(
-            "the model goes where its numbers are not finite any more\n  help: `bryant run` shows where it goes, and what is left too far".to_owned(),
+            "the numbers of the model are no longer finite on its way to rest\n  help: `bryant run` shows where it goes".to_owned(),
         )),
     }
 }
 
 fn text(settled: &Settled, worst: &str, rests: &[(String, f64)]) -> String {
     let mut text = format!(
-        "rests after {} stops; the largest acceleration left is {:.1e} g, of \"{worst}\"\n",
+        "rests after {} stops; the largest remaining acceleration is {:.1e} g, that of \"{worst}\"\n",
         settled.stops,
         settled.acceleration / G
     );
@@ -230,12 +230,12 @@ fn text(settled: &Settled, worst: &str, rests: &[(String, f64)]) -> String {
     text
 }
 
-/// The model with outputs for what is watched, and what they are.
+/// The model with outputs for the quantities of interest.
 struct Watched {
     model: Model,
-    /// Contacts, belts and springs by name, and the first of three outputs of each.
+    /// Contacts, belts and springs by name, and the index of the first of three outputs of each.
     forces: Vec<(String, usize)>,
-    /// Elements by name; an output of each, from here on.
+    /// Elements by name, and the index of the output of the first.
     elements: (usize, Vec<String>),
 }
 
@@ -302,12 +302,12 @@ impl Watched {
         outputs
     }
 
-    /// The largest acceleration of a centre of gravity \[m/s²\], and of which element.
+    /// The largest acceleration of a centre of gravity \[m/s²\], and the name of its element.
     fn acceleration(&self, outputs: &[f64]) -> (f64, &str) {
         let (first, names) = &self.elements;
         let mut worst = (0.0, names.first().map_or("", String::as_str));
         for (value, name) in outputs[*first..].iter().zip(names) {
-            // a number that is none is no rest
+            // NaN is not rest
             if value.is_nan() || *value > worst.0 {
                 worst = (
                     if value.is_nan() {
@@ -322,7 +322,7 @@ impl Watched {
         worst
     }
 
-    /// Contacts, belts and springs that carry something, with their forces \[N\].
+    /// Contacts, belts and springs that carry load, with their forces \[N\].
     fn rests_on(&self, outputs: &[f64]) -> Vec<(String, f64)> {
         let force = |first: usize| {
             outputs[first..first + 3]

@@ -20,15 +20,15 @@ Examples:
 
 Exit code 3 where a bound is missed. Ctrl-C ends it with the table of the cases that are done, and exit code 130.")]
 pub struct Arguments {
-    /// Words: only cases whose group or name contains one of them
+    /// Run only cases whose group or name contains one of these words
     #[arg(value_name = "WORD")]
     words: Vec<String>,
 
-    /// Harder and larger variants too, which take minutes
+    /// Also run harder and larger variants, which take minutes
     #[arg(long)]
     full: bool,
 
-    /// Say of every case what law it must obey, and of every bound where it comes from
+    /// Print the law that each case must obey, and the source of each bound
     #[arg(long)]
     laws: bool,
 
@@ -78,7 +78,7 @@ impl Arguments {
         drop(progress);
 
         let missing = cases.len() - outcomes.len();
-        // a page of some of the cases would look like one of all
+        // a page with some of the cases would look like a page with all of them
         let page = self.markdown.as_ref().filter(|_| missing == 0);
         let command = match self.full {
             true => "bryant stability --full --markdown FILE.md",

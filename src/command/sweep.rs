@@ -1,4 +1,4 @@
-//! `bryant sweep`: many runs of one model, as a study says, in lanes and on all processors.
+//! `bryant sweep`: runs one model many times as a study says, in lanes and on all processors.
 
 use super::Error;
 use super::merge;
@@ -61,7 +61,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
 
-    /// Run shard I of N alone, counted from 0, or, with N alone, that of this task of a job array
+    /// Run only shard I of N, counted from 0; with N alone, the shard of this task of a job array
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
 
@@ -69,25 +69,25 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 
-    /// Scenarios side by side in a register: 8 (AVX-512), 4 (AVX2), 1, or plain, without fused multiply-adds, of single precision twice
-    /// as many in the first two; all but plain give the same results [default: as many as the processor has]
+    /// Runs side by side in a register: 8 (AVX-512), 4 (AVX2), 1, or plain, without fused multiply-adds; in single precision twice as many
+    /// in the first two. All but plain give the same results [default: as many as the processor has]
     #[arg(long, value_name = "LANES", value_parser = lanes)]
     lanes: Option<Width>,
 
-    /// Only say what would be run: how many runs, and the first rows
+    /// Print only what would be run: how many runs, and the first rows
     #[arg(long)]
     plan: bool,
 
-    /// Do not estimate errors by a second, coarser run of each row: saves some two fifths of the time
+    /// Do not estimate errors by a second, coarser run of each row: this saves about two fifths of the time
     #[arg(long)]
     no_estimate: bool,
 
-    /// Give a run up where computing it takes longer than this, or would at its rate take ten times as long: it ends as `slow`, and the study goes
-    /// on; a time, or off [default: 5 min]
+    /// Give a run up when its computation takes longer than this, or would take ten times as long at its present rate: it ends as `slow`,
+    /// and the study goes on; a time, or off [default: 5 min]
     #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
     time_limit: Option<f64>,
 
-    /// How the pictures are written
+    /// Format of the pictures
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 
@@ -100,7 +100,7 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Rows that --plan shows.
+/// Number of rows that --plan shows.
 const SHOWN: u64 = 8;
 
 impl Arguments {
@@ -178,7 +178,7 @@ impl Arguments {
     }
 }
 
-/// The limits of the criteria of a model, in SI, by their names.
+/// The limits of the criteria of a model, in SI, by the names of the criteria.
 fn limits(facts: &ModelFacts) -> Result<Vec<(String, f64)>, Error> {
     let Some(asked) = &facts.criteria else {
         return Ok(Vec::new());
@@ -191,7 +191,7 @@ fn limits(facts: &ModelFacts) -> Result<Vec<(String, f64)>, Error> {
     Ok(limits.collect())
 }
 
-/// Runs what is missing; a line about it.
+/// Runs the missing rows; returns a line about it.
 fn run_all(
     study: &Study,
     engine: &dyn Engine,
@@ -237,7 +237,7 @@ fn run_all(
     ))
 }
 
-/// Of another study, or of something else: the input is wrong; what cannot be read or written is the system's.
+/// A folder of another study or of something else is an error of the input; failures to read or write are errors of the system.
 pub(super) fn folder_error(error: FolderError) -> Error {
     match error {
         FolderError::Other { .. } | FolderError::Foreign(_) => Error::input(error),
@@ -245,7 +245,7 @@ pub(super) fn folder_error(error: FolderError) -> Error {
     }
 }
 
-/// What is wrong with the study is input; what cannot be read or written is the system's.
+/// An invalid study is an error of the input; failures to read or write are errors of the system.
 pub(super) fn kept_error(error: KeptError) -> Error {
     match error {
         KeptError::NoResults(_) | KeptError::Lost(_) | KeptError::Outside(_) => Error::input(error),
@@ -253,7 +253,7 @@ pub(super) fn kept_error(error: KeptError) -> Error {
     }
 }
 
-/// Results that were computed otherwise must not be mixed.
+/// The arithmetic of the results: results of different arithmetic must not be mixed.
 fn arithmetic(precision: Precision, width: Width, estimate: bool) -> String {
     let rounding = match (precision, width.fuses()) {
         (Precision::Double, true) => "f64, fused",
@@ -278,12 +278,12 @@ pub(super) fn read(path: &Path) -> Result<(StudyFile, String), Error> {
     Ok((file, text))
 }
 
-/// The model of a study: a bundled one, or a file relative to the study's.
+/// The model of a study: a bundled one, or a file relative to the study file.
 fn model_of(file: &StudyFile, directory: &Path) -> Result<Found, Error> {
     model_argument::find(&model_path(file, directory))
 }
 
-/// How a command is given the model of a study.
+/// The model of a study as an argument of a command.
 fn model_path(file: &StudyFile, directory: &Path) -> String {
     let beside = directory.join(&file.model);
     match beside.is_file() {
@@ -306,10 +306,10 @@ fn lanes(text: &str) -> Result<Width, String> {
     }
 }
 
-/// Variables by which a job array tells a task which it is.
+/// Environment variables that tell a task of a job array its index.
 const TASKS: [&str; 3] = ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "JOB_COMPLETION_INDEX"];
 
-/// The shard that is asked for, or that is this task's.
+/// The requested shard, or the shard of this task.
 fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Result<Shard, Error> {
     let number = |name: &str| -> Result<Option<u64>, Error> {
         let Some(text) = variable(name) else {
@@ -333,7 +333,7 @@ fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Resu
     };
     let of = |index, count| Shard::new(index, count).map_err(Error::input);
     match asked.map(|text| (text, text.parse::<u64>())) {
-        // N alone: the task says which
+        // N alone: the index comes from the job array
         Some((_, Ok(count))) => match task()? {
             Some(("SLURM_ARRAY_TASK_ID", index)) => {
                 let first = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
@@ -360,7 +360,7 @@ fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Resu
     }
 }
 
-/// What would be run.
+/// Prints what would be run.
 fn plan(study: &Study, found: &Found, terminal: &mut Terminal) -> Result<(), Error> {
     let sampler = Sampler::new(study).map_err(Error::input)?;
     let duration = study.run.duration.unwrap_or(found.model.run.duration);

@@ -1,4 +1,4 @@
-//! Standard output and standard error: what is a terminal, how wide, in colour or not; no panic when nobody reads.
+//! Standard output and standard error: whether they are terminals, their width, their colours. There is no panic when nobody reads.
 
 use super::Error;
 use crate::build_on_demand::guard::{self, Output};
@@ -9,15 +9,15 @@ use std::time::Instant;
 /// Where results and messages go.
 pub struct Terminal {
     output: BufWriter<Box<dyn Output>>,
-    /// Whether there is no standard output: what is printed is lost.
+    /// Whether standard output is closed: printed text is then lost.
     closed: bool,
-    /// Whether somebody was told that something could not be printed.
+    /// Whether the user has been told that something could not be printed.
     told: bool,
     begin: Instant,
 }
 
 impl Terminal {
-    /// Of this process. What a function of the user's prints goes to standard error from now on, so that it stands in no result.
+    /// The terminal of this process. From now on, output of user functions goes to standard error, so that it does not mix with results.
     pub fn new() -> Self {
         Self {
             output: BufWriter::new(guard::stdout_for_results()),
@@ -43,7 +43,7 @@ impl Terminal {
         self.print("\n")
     }
 
-    /// Lets something write to standard output.
+    /// Lets a function write to standard output.
     pub fn write(
         &mut self,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -56,7 +56,7 @@ impl Terminal {
         written
     }
 
-    /// Sends off what was printed. What failed once is not told again.
+    /// Sends the printed text off. A failure is reported only once.
     pub fn flush(&mut self) -> Result<(), Error> {
         if self.told {
             return Ok(());
@@ -66,8 +66,8 @@ impl Terminal {
         sent
     }
 
-    /// The end of a command whose results were `printed`, or could not be, and that ends in an `outcome` of its own. The outcome counts more:
-    /// whoever stopped reading, as in `bryant run MODEL | head -1`, is told that a run cannot be trusted as anybody else is.
+    /// The end of a command: `printed` tells whether its results could be printed, `outcome` how it ended. The outcome counts more: a user
+    /// who stops reading, as in `bryant run MODEL | head -1`, is told as well that a run cannot be trusted.
     pub fn end(&self, printed: Result<(), Error>, outcome: Result<(), Error>) -> Result<(), Error> {
         if let (Err(lost), Err(_)) = (&printed, &outcome) {
             lost.report(self);
@@ -75,9 +75,9 @@ impl Terminal {
         outcome.and(printed)
     }
 
-    /// A line about what was done, beside the results.
+    /// Prints a line beside the results about what was done.
     pub fn note(&mut self, text: &str) {
-        // Where both go to one terminal, the order is that of the calls.
+        // if both go to one terminal, the text appears in the order of the calls
         let _ = self.output.flush();
         let _ = writeln!(io::stderr(), "{text}");
     }
@@ -93,7 +93,7 @@ impl Terminal {
         let _ = writeln!(io::stderr(), "{red}error:{reset} {message}");
     }
 
-    /// An error that is drawn already.
+    /// Prints an error that is already formatted.
     pub fn error_text(&self, text: &str) {
         let _ = writeln!(io::stderr(), "{text}");
     }
@@ -114,13 +114,13 @@ impl Terminal {
         output.width().map(|width| width.max(40))
     }
 
-    /// When the command began.
+    /// The time when the command began.
     pub fn begin(&self) -> Instant {
         self.begin
     }
 }
 
-/// What could not be printed, as an error; none where nobody reads any more.
+/// The error of output that could not be printed; no error if nobody reads any more.
 pub fn unwritten(error: io::Error) -> Error {
     match error.kind() {
         io::ErrorKind::BrokenPipe => Error::Closed,

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `recording` | the criteria of a recording: a test, or a table of a run |
 //!
-//! What the criteria are is [`bryant_study::criteria`].
+//! [`bryant_study::criteria`] defines the criteria.
 
 mod recording;
 
@@ -26,13 +26,13 @@ pub struct Verdict {
 
 /// A criterion with its value.
 pub struct Row {
-    /// Which.
+    /// The criterion.
     pub criterion: &'static Criterion,
-    /// Its limit, in the criterion's unit; none of one that is not limited.
+    /// Its limit, in the criterion's unit; `None` if it has no limit.
     pub limit: Option<f64>,
     /// Its value, in the criterion's unit; or why there is none.
     pub value: Result<f64, Missing>,
-    /// More about the value, such as the mode of Nij.
+    /// A remark on the value, such as the mode of Nij.
     pub detail: String,
 }
 
@@ -74,7 +74,7 @@ impl Verdict {
         if !missing.is_empty() {
             let _ = write!(
                 text,
-                "\nnot judged, for there is no channel of: {}\n",
+                "\nnot judged, because there is no channel of: {}\n",
                 missing.join(", ")
             );
         }
@@ -133,8 +133,8 @@ fn verdict_of(value: f64, limit: f64) -> String {
     }
 }
 
-/// Which of the four modes makes Nij, of filtered signals of the shear force, the axial force and the moment of the cell, and when: `interval` \[s\] lies between
-/// samples, of which the first is at `first` \[s\].
+/// The mode of Nij at its maximum, with its time. The filtered signals are the shear force, the axial force and the moment of the neck's
+/// load cell; their samples are `interval` \[s\] apart, and the first is at `first` \[s\].
 pub fn mode([fx, fz, my]: [&[f64]; 3], critical: &Neck, [first, interval]: [f64; 2]) -> String {
     let mut worst = (0.0, String::new());
     for (index, ((fx, fz), my)) in fx.iter().zip(fz).zip(my).enumerate() {

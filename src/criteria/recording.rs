@@ -10,22 +10,23 @@ use bryant_signal::{Channel, Recording, Signal, unit};
 use bryant_study::criteria::limits::Limits;
 use bryant_study::criteria::{CRITERIA, Criterion, Formed, Missing, PLACES, Place, fits};
 
-/// The places of a recording.
+/// The places that a recording has channels for.
 pub struct Recorded<'a> {
     recording: &'a Recording,
-    /// Channels that were named for places.
+    /// Channels that the user named for places.
     named: Vec<(String, String)>,
-    /// What is across the plane is 0.
+    /// The motion is planar: quantities across the plane are 0.
     planar: bool,
-    /// Whose coefficients filters have.
+    /// The standard whose coefficients the filters have.
     standard: Standard,
 }
 
 impl<'a> Recorded<'a> {
-    /// The places of a recording: by the channels that are named for them, else by their codes. `planar` says that nothing moves along y.
+    /// The places of a recording: their channels are found by the names that the user gives, else by their codes. `planar` says that
+    /// nothing moves along y.
     ///
     /// # Errors
-    /// A name is that of no place, or of no channel.
+    /// There is no such place, or no such channel.
     pub fn new(
         recording: &'a Recording,
         named: &[(String, String)],
@@ -68,7 +69,7 @@ impl<'a> Recorded<'a> {
         }
     }
 
-    /// The signal of a place \[SI\], filtered where there is a class.
+    /// The signal of a place \[SI\], filtered if a class is given.
     fn filtered(&self, place: &str, class: Option<Class>) -> Result<Signal, Missing> {
         let missing = || Missing::Place(place.to_owned());
         let place = PLACES.iter().find(|known| known.name == place);
@@ -94,7 +95,7 @@ impl<'a> Recorded<'a> {
                 None => Ok(signal),
             };
         };
-        // what a filter has taken away is not there for a wider one
+        // frequencies that a filter has removed cannot be restored for a wider filter
         let before = class_of_code(&channel.name);
         if let Some(before) = before.filter(|before| before.frequency() < class.frequency()) {
             return Err(wrong(format!(
@@ -107,7 +108,7 @@ impl<'a> Recorded<'a> {
         filtered(&signal, class, self.standard).map_err(|error| wrong(error.to_string()))
     }
 
-    /// What a criterion is read off.
+    /// The signals of a criterion, and how they are combined.
     fn formed(&self, criterion: &Criterion, limits: &Limits) -> Result<Formed, Missing> {
         let has = |place: &str| {
             let place = PLACES.iter().find(|known| known.name == place);
@@ -116,7 +117,7 @@ impl<'a> Recorded<'a> {
         criterion.formed(limits, &has, self.planar)
     }
 
-    /// The value \[SI\] of a criterion, with what is to be said of it.
+    /// The value of a criterion \[SI\], with a remark on it.
     fn value(&self, criterion: &Criterion, limits: &Limits) -> Result<(f64, String), Missing> {
         let formed = self.formed(criterion, limits)?;
         let signals = formed.places.iter();
@@ -142,7 +143,7 @@ impl<'a> Recorded<'a> {
     }
 }
 
-/// All criteria that a regulation limits, and those of places that none of them is of, of a recording.
+/// The verdict on a recording: all criteria that the regulation limits, and the criteria at places for which it limits none.
 pub fn verdict(limits: &Limits, recorded: &Recorded<'_>) -> Verdict {
     let limit = |criterion: &Criterion| limits.limits.get(criterion.name).copied();
     let places = |criterion: &Criterion| {
@@ -176,7 +177,7 @@ pub fn verdict(limits: &Limits, recorded: &Recorded<'_>) -> Verdict {
     }
 }
 
-/// Signals of one time: with the same samples.
+/// The signals, if they have the same times.
 fn together(signals: Vec<Signal>) -> Result<Vec<Signal>, Missing> {
     let first = &signals[0];
     let same = |other: &Signal| {

@@ -1,5 +1,5 @@
-//! The functions that the graph of a model calls, at plain numbers: what evaluates equations without compiling them needs both
-//! the generator and the runtime, which do not know each other.
+//! The functions that the graph of a model calls, over plain numbers. Evaluation without compilation needs both the generator and the
+//! runtime, which do not know each other.
 
 use bryant_engine::UserFunctions;
 use bryant_generator::expression::{ApproachCall, Function, UserCall};
@@ -9,12 +9,12 @@ use bryant_runtime::curve as runtime;
 use bryant_runtime::force::approach::{plane, space};
 use bryant_runtime::force::{belt, contact, ellipsoid, friction, power, switch};
 
-/// The functions of a model that are not algebra, at plain numbers; those of the user's are unknown here: NaN.
+/// The functions of a model that are not algebra, over plain numbers; a user function gives NaN.
 pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
     functions_with(model, None)
 }
 
-/// The same, and `users` for the functions of the user's; NaN where there are none.
+/// The same with `users` for user functions, which give NaN without it.
 pub fn functions_with<'a>(
     model: &'a Model,
     users: Option<&'a dyn UserFunctions>,
@@ -41,7 +41,7 @@ pub fn functions_with<'a>(
     }
 }
 
-/// The first x > 0 at which velocity + factor · ∫₀ˣ of a curve reaches 0, 0 where it never does: the search is the runtime's.
+/// The first x > 0 at which velocity + factor · ∫₀ˣ of a curve reaches 0, or 0 if it never does; the runtime does the search.
 pub(crate) fn stop(curve: &Curve, velocity: f64, factor: f64) -> f64 {
     let beyond = match curve.extrapolate {
         Extrapolate::Linear => runtime::Extrapolate::Linear,
@@ -61,7 +61,7 @@ pub(crate) fn stop(curve: &Curve, velocity: f64, factor: f64) -> f64 {
     table.stop(velocity, factor)
 }
 
-/// One result of a function of the user's.
+/// One result of a user function.
 fn user(users: &dyn UserFunctions, call: UserCall, a: &[f64]) -> f64 {
     let mut results = vec![f64::NAN; usize::from(call.parts)];
     if let Some(form) = f64::FORM {

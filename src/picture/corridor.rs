@@ -1,4 +1,4 @@
-//! Boxes in plots over time that a curve is to go through: the corridors of a regulation.
+//! Corridors of a regulation: boxes in plots over time that a curve should pass through.
 
 use crate::quantity::quantity;
 
@@ -7,15 +7,16 @@ use crate::quantity::quantity;
 pub struct Corridor {
     /// Name of the column.
     pub of: String,
-    /// From and to, of time \[s\] and of the column in its unit; infinite where it is open.
+    /// From and to, of time \[s\] and of the column in its unit; infinite on an open side.
     pub bounds: [[f64; 2]; 2],
 }
 
 impl Corridor {
-    /// Reads 'rotation: 57 ms to 64 ms, 64 deg to 78 deg' of a table with these columns, given as (name, unit); `any` leaves a side open.
+    /// Reads 'rotation: 57 ms to 64 ms, 64 deg to 78 deg' for a table with these columns, each given as (name, unit); `any` leaves a side
+    /// open.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// A message that says what is wrong.
     pub fn read(text: &str, columns: &[(&str, &str)]) -> Result<Corridor, String> {
         let usage = "write 'NAME: TIME to TIME, VALUE to VALUE', such as 'rotation: 57 ms to 64 ms, 64 deg to 78 deg'; `any` leaves a side open";
         let malformed = || format!("--corridor '{text}' is not understood\n  help: {usage}");

@@ -1,4 +1,4 @@
-//! What is to be seen of a model at one time, as shapes in the plane of the picture \[m\].
+//! The visible parts of a model at one time, as shapes in the plane of the picture \[m\].
 
 use super::view::View;
 use crate::pose::{Numbers, Pose, Vec3, bryant_rotation, dot};
@@ -7,7 +7,7 @@ use bryant_generator::model::{
     Number,
 };
 
-/// A point of the plane of the picture: to the right, upwards \[m\].
+/// A point in the plane of the picture: to the right, upwards \[m\].
 pub type Point = [f64; 2];
 
 /// One stick figure.
@@ -23,9 +23,9 @@ pub struct Figure {
     pub masses: Vec<(usize, Point)>,
     /// Contact ellipsoids.
     pub ellipses: Vec<Ellipse>,
-    /// Contact planes that are seen edge on.
+    /// Contact planes that are seen edge-on.
     pub planes: Vec<Plane>,
-    /// Contact planes that are not: their corners.
+    /// Contact planes that are not seen edge-on: their corners.
     pub faces: Vec<[Point; 4]>,
     /// Belts.
     pub belts: Vec<Belt>,
@@ -53,7 +53,7 @@ pub struct Plane {
     pub from: Point,
     /// The other end.
     pub to: Point,
-    /// Unit vector to the side where the ellipsoid belongs.
+    /// Unit vector to the side of the ellipsoid.
     pub normal: Point,
 }
 
@@ -127,7 +127,7 @@ fn distance([a, b]: [Vec3; 2]) -> f64 {
     dot(d, d).sqrt()
 }
 
-/// Length of the way along points.
+/// Length of the line through these points.
 fn way(points: &[Vec3]) -> f64 {
     let pairs = points.windows(2);
     pairs.map(|ends| distance([ends[0], ends[1]])).sum()
@@ -149,10 +149,10 @@ pub fn springs(model: &Model) -> impl Iterator<Item = &bryant_generator::model::
     })
 }
 
-/// An ellipsoid of a model: its centre, its semi-axes, their angles, its degree.
+/// An ellipsoid of a model: its centre, its semi-axes, the angles of these, its degree.
 type Shape<'a> = (&'a Attachment, &'a [Number; 3], &'a [Number; 3], u32);
 
-/// The ellipsoids of a model: of its contacts, then of its airbags.
+/// The ellipsoids of a model: those of its contacts, then those of its airbags.
 pub fn ellipsoids(model: &Model) -> impl Iterator<Item = Shape<'_>> {
     let contacts = contacts(model).flat_map(|contact| {
         let first = (
@@ -185,7 +185,7 @@ pub fn contacts(model: &Model) -> impl Iterator<Item = &Contact> {
     })
 }
 
-/// Untensioned lengths of the belts, from where they are in the first pose \[m\].
+/// Untensioned lengths of the belts, from their positions in the first pose \[m\].
 pub fn belt_lengths(numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<f64> {
     let Some((_, start)) = poses.first() else {
         return Vec::new();
@@ -208,7 +208,7 @@ pub fn belt_lengths(numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<f64> {
     belts(numbers.model).map(length).collect()
 }
 
-/// Lines from the joint of an element to the joints that it carries; one that carries none is drawn to its end.
+/// Lines from the joint of an element to the joints that it carries; an element that carries none is drawn to its end.
 fn add_element(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, id: ElementId, view: View) {
     let side = |point: Vec3| view.seen(point);
     let elements = &numbers.model.systems[id.system].elements;
@@ -222,7 +222,7 @@ fn add_element(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, id: Eleme
     let children = elements.iter().enumerate();
     let children = children.filter(|(_, child)| child.parent == Some(id.element));
     let mut tip = true;
-    // from the places of joints on it to what has slid away from them
+    // from the places of joints on it to the parts that have slid away from them
     let mut slides = Vec::new();
     for (index, child) in children {
         let at = numbers.vector(&child.at);
@@ -249,8 +249,8 @@ fn add_element(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, id: Eleme
     figure.joints.push((id.system, origin));
 }
 
-/// Ends of an element that carries no other, local frame: that of the uniform rod with its mass and largest moment about
-/// the joint; of an element that turns about its centre of gravity, those along its axes.
+/// Ends of an element that carries no other element, in its local frame: the ends of the uniform rod with the same mass and the same
+/// largest moment about the joint; for an element that turns about its centre of gravity, the ends along its axes.
 pub fn ends(numbers: Numbers<'_>, element: &Element) -> Vec<Vec3> {
     let value = |number: &Number| number.value(numbers.parameters);
     let cg = numbers.vector(&element.cg);
@@ -282,7 +282,7 @@ pub fn ends(numbers: Numbers<'_>, element: &Element) -> Vec<Vec3> {
     (0..3).map(|axis| along(axis, semi[axis])).collect()
 }
 
-/// Every ellipsoid once, even where it touches several planes.
+/// Draws every ellipsoid once, even if it touches several planes.
 fn add_ellipses(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, view: View) {
     for (center, semi_axes, axes, _) in ellipsoids(numbers.model) {
         let ellipse = outline(numbers, pose, center, [semi_axes, axes], view);
@@ -292,8 +292,8 @@ fn add_ellipses(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, view: Vi
     }
 }
 
-/// Outline of an ellipsoid with axes B and semi-axes a: with Q = B diag(a²) Bᵀ, it is seen as the ellipse of the block of Q in the directions of
-/// the picture.
+/// Outline of an ellipsoid with axes B and semi-axes a: with Q = B diag(a²) Bᵀ, the outline is the ellipse of the block of Q in the
+/// directions of the picture.
 fn outline(
     numbers: Numbers<'_>,
     pose: &Pose,
@@ -331,21 +331,21 @@ fn system_of(body: Body) -> Option<usize> {
     }
 }
 
-/// A plane, as far as it extends; one without an end with the piece of it that the ellipsoids come near during the motion.
+/// A plane with its extent; of a plane without end, the piece near which the ellipsoids come during the motion.
 pub struct Surface {
-    /// What carries it.
+    /// The body that carries it.
     pub on: Body,
     /// A point, local frame.
     point: Vec3,
-    /// To the side where ellipsoids belong, local frame.
+    /// Normal to the side of the ellipsoids, local frame.
     pub normal: Vec3,
-    /// Directions in the plane, local frame; of a planar model the second does not count.
+    /// Directions in the plane, local frame; the second is not used in a planar model.
     along: [Vec3; 2],
-    /// How far the piece reaches from the point, along these directions.
+    /// Extent of the piece from the point, along these directions.
     reach: [[f64; 2]; 2],
 }
 
-/// How a plane is seen.
+/// The appearance of a plane.
 enum Seen {
     /// Its edge.
     Edge(Plane),
@@ -353,7 +353,7 @@ enum Seen {
     Face([Point; 4]),
 }
 
-/// A plane whose normal is out of the plane of the picture by no more than this sine is seen edge on.
+/// A plane is seen edge-on if its normal leaves the plane of the picture by at most this sine.
 const EDGE_ON: f64 = 0.02;
 
 /// The planes of a model, each once.
@@ -414,19 +414,19 @@ pub fn surfaces(model: &Model, numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> V
     surfaces
 }
 
-/// A vector of length 1 in this direction; `None` where there is none.
+/// The unit vector in this direction; `None` if there is no direction.
 fn unit(vector: Vec3) -> Option<Vec3> {
     let length = dot(vector, vector).sqrt();
     (length > 1e-12).then(|| vector.map(|a| a / length))
 }
 
-/// Two directions in a plane: the tangent, or where there is none one in x–z, and normal × that.
+/// Two directions in a plane: the tangent, or without a tangent one in x–z, and normal × this.
 fn directions(normal: Vec3, tangent: Vec3) -> [Vec3; 2] {
     let within = |vector: Vec3| {
         let out = dot(vector, normal);
         unit(std::array::from_fn(|i| vector[i] - out * normal[i]))
     };
-    // a plane that faces y has x and z in it
+    // a plane whose normal is along y contains x and z
     let first = within(tangent)
         .or_else(|| unit([-normal[2], 0.0, normal[0]]))
         .unwrap_or([1.0, 0.0, 0.0]);
@@ -439,7 +439,7 @@ fn directions(normal: Vec3, tangent: Vec3) -> [Vec3; 2] {
 }
 
 impl Surface {
-    /// The corners of the piece, one after the other around it, local frame.
+    /// The corners of the piece, in order around it, local frame.
     pub fn corners(&self) -> [Vec3; 4] {
         let corner = |a: f64, b: f64| {
             std::array::from_fn(|i| self.point[i] + a * self.along[0][i] + b * self.along[1][i])
@@ -448,7 +448,7 @@ impl Surface {
         [corner(a, c), corner(b, c), corner(b, d), corner(a, d)]
     }
 
-    /// The piece at one pose.
+    /// The piece in one pose.
     fn seen(&self, pose: &Pose, view: View) -> Seen {
         let body = pose.body(self.on);
         let corners = self.corners().map(|local| view.seen(body.point(local)));
@@ -458,7 +458,7 @@ impl Surface {
             return Seen::Face(corners);
         }
         let normal = normal.map(|n| n / length);
-        // the corners are on a line: its ends
+        // the corners are on one line: its ends
         let place = |corner: &Point| corner[1] * normal[0] - corner[0] * normal[1];
         let ends = |from: Point, to: &Point| match place(to) > place(&from) {
             true => [from, *to],

@@ -1,8 +1,8 @@
 //! Stick figures of a motion as a self-contained SVG or as PNG, like figure 6 of the paper.
 //!
-//! Space is seen from the side, unless another [`View`] is asked for: x to the right, z upwards, y towards the page. An element is a line from
-//! its joint to the joints that it carries, a belt a line between its attachments, a contact ellipsoid its outline, a plane its edge or its
-//! corners, as far as it extends; one that does not end is drawn where it is needed. Every figure has the same scale.
+//! A model in space is seen from the side unless another [`View`] is requested: x to the right, z upwards, y into the page. An element is a
+//! line from its joint to the joints that it carries, a belt a line between its attachments, a contact ellipsoid its outline, a plane its
+//! edge or its corners within its extent; a plane without end is drawn where it is needed. All figures have the same scale.
 
 pub mod corridor;
 pub(crate) mod figure;
@@ -27,14 +27,14 @@ use bryant_generator::model::Model;
 pub struct Instant {
     /// \[s\]
     pub time: f64,
-    /// q, in the order of the names handed over with it.
+    /// q, in the order of the names given with it.
     pub coordinates: Vec<f64>,
 }
 
 /// Draws a model at several times.
 ///
-/// `coordinates` are the names of q, `parameters` the values of the run (SI, in the model's order). Instants with
-/// coordinates that are not finite are left out: a failed run is drawn up to its failure.
+/// `coordinates` are the names of q, `parameters` the values of the run (SI, in the model's order). Instants with coordinates that are not
+/// finite are left out: a failed run is drawn up to its failure.
 pub fn draw(
     model: &Model,
     coordinates: &[String],
@@ -68,8 +68,8 @@ pub fn draw(
     .drawing())
 }
 
-/// Times for about `count` figures between `first` and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and both ends;
-/// of these steps those that are multiples of `every`, the time between samples, where there is such a one.
+/// Times for about `count` figures between `first` and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and both ends. If some of
+/// these steps are multiples of `every`, the time between samples, only those are used.
 pub fn times([first, last]: [f64; 2], count: usize, every: f64) -> Vec<f64> {
     if !(last.is_finite() && last > first) || count < 2 {
         return vec![first];
@@ -81,7 +81,7 @@ pub fn times([first, last]: [f64; 2], count: usize, every: f64) -> Vec<f64> {
         samples > 0.5 && (samples - samples.round()).abs() < 1e-6 * samples
     };
     let any = steps.iter().any(sampled);
-    // Of two equally good steps the larger: fewer figures are larger figures.
+    // Of two equally good steps the larger is taken: fewer figures are larger figures.
     let steps = steps.into_iter().rev().filter(|step| !any || sampled(step));
     let choices = steps.map(|step| multiples([first, last], step));
     choices
@@ -89,7 +89,7 @@ pub fn times([first, last]: [f64; 2], count: usize, every: f64) -> Vec<f64> {
         .unwrap_or_default()
 }
 
-/// The multiples of a step between `first` and `last`, and these themselves unless they are close to one of them.
+/// The multiples of a step between `first` and `last`, and these two unless a multiple is close to them.
 fn multiples([first, last]: [f64; 2], step: f64) -> Vec<f64> {
     let before = (first / step * (1.0 - 1e-9)).ceil();
     let whole = (last / step * (1.0 + 1e-9)).floor();

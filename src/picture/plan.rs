@@ -1,4 +1,4 @@
-//! Where the panels of a sheet stand and how large a metre is.
+//! The positions of the panels on a sheet, and the scale.
 
 use super::figure::{Figure, Point};
 use super::nice_above;
@@ -29,7 +29,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// What holds everything in the figures, with a margin.
+    /// A window around all figures, with a margin.
     pub fn around(figures: &[Figure]) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let mut include = |point: Point, margin: f64| {
@@ -71,7 +71,7 @@ impl Window {
             };
         }
         let size = (high[0] - low[0]).max(high[1] - low[1]).max(1e-6);
-        // A motion along a line still gets a panel of some width.
+        // the panel of a motion along a line still has some width
         for axis in 0..2 {
             let lacking = (0.25 * size - (high[axis] - low[axis])).max(0.0) / 2.0;
             low[axis] -= lacking + 0.06 * size;
@@ -86,9 +86,9 @@ impl Window {
     }
 }
 
-/// Where the panels are and how large a metre is.
+/// The positions of the panels, and the scale.
 pub struct Plan {
-    /// What every panel shows.
+    /// The part of the plane that every panel shows.
     pub window: Window,
     /// Panels side by side.
     pub columns: usize,
@@ -96,14 +96,14 @@ pub struct Plan {
     pub rows: usize,
     /// px per metre.
     pub scale: f64,
-    /// Distance of the ticks, across and upwards \[m\].
+    /// Distance between ticks, across and upwards \[m\].
     pub steps: [f64; 2],
     /// Lines of the title.
     pub title: Vec<String>,
 }
 
 impl Plan {
-    /// Panels in columns and rows, as large as fits.
+    /// Panels in columns and rows, as large as possible.
     pub fn new(window: &Window, (columns, rows): (usize, usize)) -> Self {
         let [width, height] = window.size();
         let room = (WIDTH - LEFT - RIGHT - GAP * (columns - 1) as f64) / columns as f64;
@@ -137,7 +137,7 @@ impl Plan {
         }
     }
 
-    /// True where elements are so short that lines and joints of the usual thickness would run together.
+    /// True if elements are so short that lines and joints of the usual thickness would touch each other.
     pub fn fine(&self, figures: &[Figure]) -> bool {
         let Some(figure) = figures.first() else {
             return false;
@@ -172,7 +172,7 @@ impl Plan {
         ]
     }
 
-    /// px of a point in the panel with this corner.
+    /// The place of a point in the panel with this corner \[px\].
     pub fn place(&self, corner: Point, point: Point) -> Point {
         let [width, height] = self.panel_size();
         let extra = width - self.window.size()[0] * self.scale;
@@ -210,7 +210,7 @@ impl Plan {
     }
 }
 
-/// Labelled ticks that an axis has at least, where they fit.
+/// An axis has at least this many labelled ticks, if they fit.
 const TICKED: usize = 3;
 
 /// A step no larger than `step` with which an axis has enough ticks, or as many as fit.
@@ -249,7 +249,7 @@ mod tests {
     fn an_axis_has_three_ticks_where_they_fit() {
         let ends = [-0.07, 0.3];
         assert_eq!(enough(0.05, ends, |_| true), 0.05);
-        // 0 and 0.2 are two; 0, 0.1, 0.2, 0.3 enough
+        // 0 and 0.2 are only two; 0, 0.1, 0.2, 0.3 are enough
         assert!((enough(0.2, ends, |_| true) - 0.1).abs() < 1e-12);
         assert!((enough(0.5, ends, |_| true) - 0.1).abs() < 1e-12);
         assert_eq!(enough(0.5, ends, |step| step > 0.1), 0.2);

@@ -1,14 +1,14 @@
-//! Lines in a frame with axes: columns of a table over one of them.
+//! Lines in a frame with axes: columns of a table over one of its columns.
 //!
-//! What is plotted over time are curves of time; a force over what it depends on is its law as the run went through it,
-//! loops of hysteresis included.
+//! Columns over time are curves of time. A force over the quantity that it depends on shows its law along the run, including loops of
+//! hysteresis.
 
 use super::corridor::Corridor;
 use crate::table::{Column, Table};
 use bryant_picture::Drawing;
 use bryant_picture::chart::{self, Axes, COLOURS, range};
 
-/// Which columns over which.
+/// The columns that are drawn, and the column that they are drawn over.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Request {
     /// Names of the columns drawn, at least one.
@@ -60,11 +60,11 @@ const CORRIDOR: &str = ".corridor{fill:#1a9850;fill-opacity:0.14;stroke:#1a9850;
 const MARGIN: f64 = 0.03;
 
 impl Request {
-    /// Reads "force", "force, friction" or "force over penetration" of a table with these columns, given as (name, unit); without `over`, over
-    /// time. Names may have commas and the word `over` in them: what is the name of a column is not taken apart.
+    /// Reads "force", "force, friction" or "force over penetration" for a table with these columns, each given as (name, unit); without
+    /// `over`, they are drawn over time. Names may contain commas and the word `over`: the name of a column is not split.
     ///
     /// # Errors
-    /// Nothing is named, a column that is not there, columns that do not fit one axis.
+    /// Nothing is named, a column does not exist, or columns do not fit one axis.
     pub fn read(text: &str, columns: &[(&str, &str)]) -> Result<Request, PlotError> {
         let known = |name: &str| columns.iter().any(|(column, _)| *column == name);
         let list = |of: &str| {
@@ -80,7 +80,7 @@ impl Request {
             }
             names
         };
-        // ways to read it: as a whole, or apart at each `over`, the last one first
+        // ways to read the text: as a whole, or split at each `over`, the last one first
         let splits = text.rmatch_indices(" over ");
         let splits = splits.map(|(at, word)| (&text[..at], text[at + word.len()..].trim()));
         let fits =
@@ -100,12 +100,12 @@ impl Request {
         Ok(request)
     }
 
-    /// What is asked for, as [`Request::read`] reads it.
+    /// The request in the form that [`Request::read`] reads.
     pub fn text(&self) -> String {
         format!("{} over {}", self.of.join(", "), self.over)
     }
 
-    /// Words for the name of a file: "belt-force-over-elongation". A name without letters and digits is told by the numbers of its
+    /// Words for the name of a file: "belt-force-over-elongation". A name without letters and digits is replaced by the numbers of its
     /// characters.
     pub fn slug(&self) -> String {
         let plain = |name: &String| match name.contains(char::is_alphanumeric) {
@@ -158,7 +158,7 @@ impl Request {
     /// Draws columns of a table, and the corridors that lie in it.
     ///
     /// # Errors
-    /// A column that is not there, columns of different units.
+    /// A column does not exist, or columns have different units.
     pub fn draw(
         &self,
         title: &str,
@@ -232,7 +232,7 @@ fn draw(title: &str, over: &Column, of: &[&Column], corridors: &[&Corridor]) -> 
     }
     for (index, column) in of.iter().enumerate() {
         let class = format!("curve c{}", index % COLOURS.len());
-        // what is not finite interrupts the line
+        // a value that is not finite interrupts the line
         let points: Vec<[f64; 2]> = over
             .values
             .iter()
@@ -347,7 +347,7 @@ mod tests {
             assert!(svg.contains(word), "{word}: {svg}");
         }
         assert!(drawing.png().is_ok());
-        // lines begin at their numbers, and at no whole pixel: 0 is 3 % of the range of 0.05 to the right of the frame's left side
+        // lines begin at their numbers, not at whole pixels: 0 is 3 % of the range of 0.05 to the right of the frame's left side
         let [left, across] = [LEFT, WIDTH - LEFT - RIGHT];
         let x = left + across * 0.03 / 1.06;
         assert!(svg.contains(&format!("points=\"{:.2},", x)), "{x}: {svg}");

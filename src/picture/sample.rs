@@ -1,4 +1,4 @@
-//! A child in a child seat, simplified, and motions of it: what the pictures are tested with.
+//! A simplified child in a child seat, and motions of it, for the tests of the pictures.
 
 use super::{Arrangement, Instant, View, draw};
 use bryant_generator::model::*;
@@ -91,7 +91,7 @@ fn belt(from: Attachment, to: Attachment) -> Force {
     }
 }
 
-/// Pelvis and trunk, head, thigh, shank; seat and back, lap belt and shoulder strap.
+/// A child with pelvis and trunk, head, thigh and shank on a seat with a back, with a lap belt and a shoulder strap.
 pub fn child() -> Model {
     Model {
         name: "child-seat".into(),
@@ -166,7 +166,7 @@ pub fn names() -> Vec<String> {
         .collect()
 }
 
-/// A forward lurch of the child, drawn by hand.
+/// A forward motion of the child, made by hand.
 pub fn lurch(count: usize) -> Vec<Instant> {
     let instant = |k: usize| {
         let s = k as f64 / (count - 1).max(1) as f64;
@@ -186,7 +186,7 @@ pub fn lurch(count: usize) -> Vec<Instant> {
 }
 
 fn written(name: &str, svg: &str) {
-    // A person who wants to look: BRYANT_PICTURES names a directory.
+    // To look at the pictures, name a directory by BRYANT_PICTURES.
     if let Some(directory) = std::env::var_os("BRYANT_PICTURES") {
         std::fs::write(std::path::Path::new(&directory).join(name), svg).unwrap();
     }
@@ -211,7 +211,7 @@ fn every_time_has_a_panel_with_everything_in_it() {
     written("row.svg", &svg);
     assert_eq!(count(&svg, "class=\"panel\""), 7);
     assert!(svg.contains(">0 ms<") && svg.contains(">20 ms<") && svg.contains(">120 ms<"));
-    // Torso, thigh and the two ends; and one line of the legend.
+    // torso, thigh with its two ends, and one line of the legend
     assert_eq!(count(&svg, "class=\"bone s0\""), 7 * 4 + 1);
     assert_eq!(count(&svg, "class=\"ellipse s0\""), 7 * 3);
     assert_eq!(count(&svg, "class=\"plane\""), 7 * 2 + 1);
@@ -304,7 +304,7 @@ fn titles_are_escaped() {
     assert!(svg.contains("a &lt; b &amp; &quot;c&quot;"));
 }
 
-/// Nothing that our pictures are made of is left out in points.
+/// The raster format draws all parts of these pictures.
 #[test]
 fn every_picture_of_ours_can_be_had_as_png() {
     let stick =
@@ -318,7 +318,7 @@ fn every_picture_of_ours_can_be_had_as_png() {
     for (name, drawing) in pictures {
         let png = drawing.png().unwrap();
         assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n", "{name}");
-        // A person who wants to look: BRYANT_PICTURES names a directory.
+        // To look at the pictures, name a directory by BRYANT_PICTURES.
         if let Some(directory) = std::env::var_os("BRYANT_PICTURES") {
             let path = std::path::Path::new(&directory);
             std::fs::write(path.join(format!("{name}.png")), &png).unwrap();
@@ -327,7 +327,7 @@ fn every_picture_of_ours_can_be_had_as_png() {
     }
 }
 
-/// A ball over a shelf that ends: it is drawn as far as it goes, and not to where the ball flies.
+/// A ball over a shelf with an end: the shelf is drawn up to its end, not up to the place where the ball flies.
 #[test]
 fn a_plane_is_drawn_as_far_as_it_extends() {
     let widths = |extent: Option<f64>| {
@@ -363,7 +363,7 @@ fn a_plane_is_drawn_as_far_as_it_extends() {
     for width in widths(Some(0.45)) {
         assert!((width.abs() - 0.9).abs() < 1e-12, "{width}");
     }
-    // one without an end reaches as far as it is needed
+    // a shelf without end reaches as far as needed
     for width in widths(None) {
         assert!(width.abs() > 4.0 && width.abs() < 4.5, "{width}");
     }

@@ -1,4 +1,4 @@
-//! The sheet on which figures stand: panels of one scale, ticks in metres, times, a bar of known length, a legend.
+//! The sheet with the figures: panels of one scale, ticks in metres, times, a bar of known length, a legend.
 
 use super::figure::{Figure, Point};
 use super::nice_above;
@@ -6,22 +6,22 @@ use super::plan::{LEFT, Plan, RIGHT, TICKS, TIME, TITLE_LETTER, TITLE_LINE, Wind
 use bryant_picture::text::wrap;
 use bryant_picture::{Anchor, Drawing};
 
-/// How several figures share a sheet.
+/// The arrangement of several figures on a sheet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Arrangement {
-    /// Side by side, a panel for every time.
+    /// Side by side, one panel for each time.
     #[default]
     Row,
-    /// On top of each other, early ones pale.
+    /// On top of each other, early figures pale.
     Overlay,
 }
 
 /// Everything that is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
-    /// Above the panels.
+    /// The title above the panels.
     pub title: String,
-    /// From where the motion is seen, where that is a question.
+    /// The direction of the view, if it needs to be said.
     pub view: Option<String>,
     /// Names of the axes, across and upwards.
     pub axes: [&'static str; 2],
@@ -29,7 +29,7 @@ pub struct Sheet {
     pub systems: Vec<String>,
     /// In the order of time.
     pub figures: Vec<Figure>,
-    /// How they stand.
+    /// Their arrangement.
     pub arrangement: Arrangement,
 }
 
@@ -118,7 +118,7 @@ impl Sheet {
         0.25 + 0.75 * index as f64 / last
     }
 
-    /// Columns and rows of panels: the arrangement whose panels are largest, then the one with the fewest empty places.
+    /// Columns and rows of panels: the arrangement with the largest panels, then the one with the fewest empty places.
     fn grid(&self, window: &Window) -> (usize, usize) {
         if self.arrangement == Arrangement::Overlay || self.figures.len() < 2 {
             return (1, 1);
@@ -127,7 +127,7 @@ impl Sheet {
         let score = |columns: usize| {
             let rows = count.div_ceil(columns);
             let scale = Plan::new(window, (columns, rows)).scale;
-            // A motion is read along a row: height beyond two thirds of a screen counts against size, as empty places do.
+            // A motion is read along a row: a height beyond two thirds of a screen counts against the size, as empty places do.
             let height = rows as f64 * (window.size()[1] * scale + TIME + TICKS);
             let full = count as f64 / (columns * rows) as f64;
             scale * full / (height / 600.0).max(1.0)
@@ -143,7 +143,7 @@ impl Sheet {
         (columns, count.div_ceil(columns))
     }
 
-    /// Frame, grid, ticks and heading of a panel; leaves a clipped group open for what is in it.
+    /// Frame, grid, ticks and heading of a panel; the clipped group for its content stays open.
     fn panel(
         &self,
         drawing: &mut Drawing,
@@ -187,7 +187,7 @@ impl Sheet {
         }
     }
 
-    /// One stick figure: what lies behind first.
+    /// One stick figure; parts behind are drawn first.
     fn figure(&self, drawing: &mut Drawing, plan: &Plan, origin: Point, figure: &Figure) {
         let place = |point: Point| plan.place(origin, point);
         let colour = |system: usize| format!("s{}", system % COLOURS.len());
@@ -437,7 +437,7 @@ fn hatch(from: Point, to: Point, back: Point) -> Vec<(Point, Point)> {
     (0..count as usize).map(stroke).collect()
 }
 
-/// A time in the unit in which it is read most easily.
+/// A time in the unit that is easiest to read.
 fn time(seconds: f64) -> String {
     if seconds.abs() < 10.0 {
         let milliseconds = (seconds * 1e6).round() / 1e3;

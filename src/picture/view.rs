@@ -1,10 +1,11 @@
-//! From where a model is seen: directions of space that are to the right and upwards in a picture. It has no perspective.
+//! The directions from which a model is seen: the directions of space that are to the right and upwards in a picture. There is no
+//! perspective.
 
 use super::figure::Point;
 use crate::pose::{Vec3, dot};
 use bryant_generator::model::Dimension;
 
-/// From where a model is seen.
+/// The direction from which a model is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
     /// From the right, along +y: x to the right, z upwards. The view of planar models.
@@ -18,7 +19,7 @@ pub enum View {
     Oblique,
 }
 
-/// Of the oblique view: how far it is turned to the front, and lifted, sine and cosine of 30° and of 20°.
+/// The oblique view: how far it is turned to the front and lifted, as sine and cosine of 30° and of 20°.
 const TURNED: [f64; 2] = [0.5, 0.866_025_403_784_438_6];
 const LIFTED: [f64; 2] = [0.342_020_143_325_668_8, 0.939_692_620_785_908_4];
 
@@ -52,12 +53,12 @@ impl View {
         }
     }
 
-    /// Where a point, or a direction, is seen.
+    /// The place of a point or a direction in the picture.
     pub(super) fn seen(self, point: Vec3) -> Point {
         self.axes().map(|axis| dot(axis, point))
     }
 
-    /// What the axes of the picture are.
+    /// The names of the axes of the picture.
     pub(super) fn names(self) -> [&'static str; 2] {
         match self {
             View::Side => ["x [m]", "z [m]"],
@@ -67,7 +68,7 @@ impl View {
         }
     }
 
-    /// In words, where that is a question.
+    /// The view in words, if it needs to be said.
     pub(super) fn words(self, dimension: Dimension) -> Option<String> {
         let words = match self {
             _ if dimension == Dimension::Plane => return None,

@@ -1,5 +1,5 @@
-//! The work–precision diagram: error across, time up, both logarithmic; a line per way to compute, the Pareto front behind
-//! them, the legend beside, what it says below.
+//! The work–precision diagram: error across, time upwards, both logarithmic. Each way to compute is a line, the Pareto front lies behind
+//! the lines, the legend is beside, and a sentence below.
 
 use bryant_picture::text::wrap;
 use bryant_picture::{Anchor, Drawing};
@@ -7,25 +7,25 @@ use bryant_picture::{Anchor, Drawing};
 /// What is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagram {
-    /// Above the frame.
+    /// The title above the frame.
     pub title: String,
-    /// What the error is of.
+    /// The quantity whose error is shown.
     pub error: String,
-    /// Names of the methods, a colour each.
+    /// Names of the methods; each has a colour.
     pub methods: Vec<String>,
-    /// Names of the variants, a kind of line each.
+    /// Names of the variants; each has a kind of line.
     pub variants: Vec<String>,
-    /// What is drawn, from coarse to fine.
+    /// The lines, each from coarse to fine.
     pub lines: Vec<Line>,
-    /// The front, by falling error: error, time \[s\].
+    /// The front as pairs of error and time \[s\]; the error falls.
     pub front: Vec<[f64; 2]>,
     /// Errors below this are not known.
     pub own: f64,
-    /// Below the frame.
+    /// The sentence below the frame.
     pub sentence: String,
 }
 
-/// Points that differ in their step or tolerance alone.
+/// Points that differ only in their step or tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// Index of the method.
@@ -34,7 +34,7 @@ pub struct Line {
     pub variant: usize,
     /// Steps are fixed; otherwise the error is controlled.
     pub fixed: bool,
-    /// Error, time \[s\].
+    /// Pairs of error and time \[s\].
     pub points: Vec<[f64; 2]>,
 }
 
@@ -62,7 +62,7 @@ text{font-family:'DejaVu Sans',Verdana,sans-serif;font-size:12px;fill:#222}
 .faint{fill-opacity:.6}
 ";
 
-/// Of the frame: left, top, width, height.
+/// The frame: left, top, width, height.
 const FRAME: [f64; 4] = [64.0, 58.0, 620.0, 440.0];
 const WIDTH: f64 = 960.0;
 const LEGEND: f64 = FRAME[0] + FRAME[2] + 24.0;
@@ -70,7 +70,7 @@ const LINE_HEIGHT: f64 = 18.0;
 /// Characters of a line of text below the frame.
 const CHARACTERS: usize = 120;
 
-/// Errors beyond are no accuracy at all.
+/// Larger errors are no accuracy at all and are not drawn.
 const LARGEST_ERROR: f64 = 1.0;
 
 impl Diagram {
@@ -104,7 +104,7 @@ impl Diagram {
         if front.len() > 1 {
             drawing.polyline("front", &front);
         }
-        // What is usual lies above what is not.
+        // usual variants are drawn above the others
         let mut order: Vec<&Line> = self.lines.iter().collect();
         order.sort_by_key(|line| std::cmp::Reverse(line.variant));
         for line in order {
@@ -143,7 +143,7 @@ impl Diagram {
         style
     }
 
-    /// Powers of ten, and what the reference cannot tell.
+    /// Powers of ten, and the range of errors that the reference cannot resolve.
     fn grid(&self, axes: &Axes, drawing: &mut Drawing) {
         let [left, top, width, height] = FRAME;
         let [own, _] = axes.place([self.own.max(axes.low[0]), axes.low[1]]);
@@ -223,7 +223,7 @@ impl Diagram {
     }
 }
 
-/// A point: a square where steps are fixed, a disc where the error is controlled.
+/// A point: a square for fixed steps, a disc for controlled errors.
 fn mark(drawing: &mut Drawing, class: &str, fixed: bool, [x, y]: [f64; 2], size: f64) {
     if fixed {
         drawing.rectangle(class, [x - size, y - size, 2.0 * size, 2.0 * size]);
@@ -232,9 +232,9 @@ fn mark(drawing: &mut Drawing, class: &str, fixed: bool, [x, y]: [f64; 2], size:
     }
 }
 
-/// Logarithmic axes around all points, whose ends are half decades.
+/// Logarithmic axes around all points; their ends are half decades.
 struct Axes {
-    /// Least error, least time.
+    /// Least error and least time.
     low: [f64; 2],
     /// Their decimal logarithms.
     from: [f64; 2],
@@ -267,7 +267,7 @@ impl Axes {
         }
     }
 
-    /// Where a point lies on the sheet.
+    /// The place of a point on the sheet.
     fn place(&self, point: [f64; 2]) -> [f64; 2] {
         let [left, top, width, height] = FRAME;
         let part = |axis: usize| {
@@ -277,7 +277,7 @@ impl Axes {
         [left + part(0) * width, top + (1.0 - part(1)) * height]
     }
 
-    /// Powers of ten along an axis, no more than fit, with their places.
+    /// Powers of ten along an axis, as many as fit, with their places.
     fn ticks(&self, axis: usize) -> Vec<(i32, f64)> {
         let span = self.to[axis] - self.from[axis];
         let step = if span > 14.0 { 2 } else { 1 };

@@ -6,14 +6,14 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const norm = (a) => Math.sqrt(dot(a, a));
 
-// The vector v turned by the unit quaternion q = (w, x, y, z).
+// The vector v rotated by the unit quaternion q = (w, x, y, z).
 function turned(q, v) {
   const u = [q[1], q[2], q[3]];
   const t = scale(cross(u, v), 2);
   return add(add(v, scale(t, q[0])), cross(u, t));
 }
 
-// Parallel projection: what is seen from where. `yaw` and `pitch` [rad] turn the view from the right, along y; `half` is half the height
+// Parallel projection. `yaw` and `pitch` [rad] turn the view from the right, along y; `half` is half the height
 // that is seen [m].
 class Camera {
   constructor() {

@@ -1,4 +1,4 @@
-// What pages of runs and of studies share: numbers, elements, tables.
+// Shared by the pages of runs and of studies: numbers, elements, tables.
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
 
@@ -10,7 +10,7 @@ function element(name, text, attributes) {
   return made;
 }
 
-// A number of four digits, as people write it. Beside numbers of size `most`, rounding counts as 0.
+// A number with four digits, as people write it. A number that is only rounding beside numbers of size `most` is 0.
 function readable(value, most = 0) {
   if (value === null || !Number.isFinite(value)) return "–";
   if (Math.abs(value) <= 1e-12 * most || value === 0) return "0";
@@ -19,12 +19,12 @@ function readable(value, most = 0) {
   return text.replace("-", "−");
 }
 
-// Colours of systems and curves, told apart by all eyes (Okabe and Ito 2008).
+// Colours of systems and curves, also for the colour-blind (Okabe and Ito 2008).
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a7a00", "#6b6b6b"];
 const rgb = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16) / 255);
 const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-// A canvas made as fine as the screen, with the colour of panels: what draws on it, and its size; nothing while it is not shown.
+// A canvas with the resolution of the screen and the colour of panels: returns its context and its size, or nothing while it is not shown.
 function blank(canvas) {
   const ratio = Math.min(3, window.devicePixelRatio || 1), c = canvas.getContext("2d");
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
@@ -37,7 +37,7 @@ function blank(canvas) {
   return { c, width, height };
 }
 
-// Round numbers between two, so many at most.
+// Round numbers between two numbers, at most this many.
 function ticks(low, high, count) {
   const span = high - low || 1, power = 10 ** Math.floor(Math.log10(span / count));
   const step = [1, 2, 5, 10].map((f) => f * power).find((s) => span / s <= count) || 10 * power;

@@ -1,10 +1,10 @@
-// Outputs over time, a plot for each unit, with one cursor for all and for the motion.
+// Outputs over time: a plot for each unit, and one cursor for all plots and the motion.
 const columns = data.columns || [];
 const clock = columns.length ? columns[0].values : [];
 const plots = [];
 let zoomed = null;
 
-// Curves over those of the run, at times of their own: measured ones, and those of a second run.
+// Curves on top of those of the run, with times of their own: measured curves, and those of a second run.
 const overlays = [...(data.overlays || []), ...(data.beside ? data.beside.curves : [])];
 
 class Plot {
@@ -12,7 +12,7 @@ class Plot {
     this.unit = unit;
     const own = members.filter((column) => !column.times);
     const place = (column, k) => {
-      // an overlay has the colour of what it lies over
+      // an overlay has the colour of the curve below
       const over = own.findIndex((one) => column.times && (column.name.startsWith(`${one.name} measured`) || column.name.startsWith(`${one.name} with `)));
       return over < 0 ? k : over;
     };
@@ -128,7 +128,7 @@ class Plot {
   }
 }
 
-// Between the rows before and behind.
+// Interpolates between two rows.
 function valueAt(values, t, clock) {
   if (values.length === 0 || t < clock[0] - 1e-9 || t > clock[clock.length - 1] + 1e-9) return null;
   let k = clock.findIndex((time) => time > t);
@@ -139,7 +139,7 @@ function valueAt(values, t, clock) {
   const u = Math.max(0, Math.min(1, (t - clock[k - 1]) / (clock[k] - clock[k - 1] || 1)));
   return a + (b - a) * u;
 }
-// The reader points at a time in a plot.
+// Called when the reader points at a time in a plot.
 function pick(t) {
   if (times.length) { play(false); setTime(t); return; }
   now = Math.max(clock[0], Math.min(clock[clock.length - 1], t));

@@ -93,11 +93,11 @@ class WebGl {
   }
   draw(camera, shapes) {
     const gl = this.gl, aspect = this.canvas.width / this.canvas.height;
-    // what is within this many heights before and behind the centre is seen
+    // the visible depth: this many heights in front of the centre and behind it
     const far = 40;
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     gl.clearColor(0, 0, 0, 0);
-    // a mask that is left off would keep the depths of the picture before
+    // with the mask off, the depths of the picture before would stay
     gl.depthMask(true);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
@@ -126,7 +126,7 @@ class WebGl {
     gl.disable(gl.DEPTH_TEST);
     this.triangles(camera, aspect, far, shapes.strokes.filter((s) => s.above).flatMap((s) => this.stroke(camera, aspect, s)));
   }
-  // A stroke as two triangles that face the camera.
+  // Draws a stroke as two triangles that face the camera.
   stroke(camera, aspect, { from, to, colour, width, head }) {
     const along = sub(to, from), across = cross(along, camera.forward), size = norm(across);
     if (size < 1e-9) return [];
@@ -154,7 +154,7 @@ class WebGl {
   }
 }
 
-// The same on a plain canvas, from back to front.
+// Draws the same on a plain canvas, from back to front.
 class Plain {
   constructor(canvas) {
     this.canvas = canvas;

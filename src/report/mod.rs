@@ -1,16 +1,17 @@
-//! A run, or a study, as one page of HTML: the motion, the curves, the verdict; distributions and rows. It needs no other file and asks no host.
+//! A run or a study as one page of HTML. The page of a run has the motion, the curves and the verdict, that of a study distributions and
+//! rows. A page needs no other file and no network.
 //!
 //! | file | what |
 //! |---|---|
 //! | `scene` | bodies, shapes and forces at every sample, as data |
 //! | `common.js`, `style.css` | what both pages share |
 //! | `page.html` | the page of a run |
-//! | `camera.js`, `draw.js`, `motion.js` | the motion: where it is seen from, WebGL or canvas, playing |
+//! | `camera.js`, `draw.js`, `motion.js` | the motion: the direction of the view, WebGL or canvas, playback |
 //! | `curves.js` | outputs over time |
-//! | `tables.js` | what the run says in words and numbers |
+//! | `tables.js` | the messages and numbers of the run |
 //! | `study`, `study.html`, `study.js` | the page of a study |
 //!
-//! All that comes from a model is data of type JSON, which the page puts into the document as text, never as HTML.
+//! All data from a model is JSON, which the page puts into the document as text, never as HTML.
 
 mod scene;
 pub mod study;
@@ -19,7 +20,7 @@ pub use scene::{Scene, short, with_forces};
 
 use serde_json::Value;
 
-/// The page of a run. `title` heads it; `data` is what its scripts read.
+/// The page of a run. `title` is its heading; its scripts read `data`.
 pub fn page(title: &str, data: &Value) -> String {
     let scripts = [
         include_str!("common.js"),
@@ -34,16 +35,16 @@ pub fn page(title: &str, data: &Value) -> String {
 
 /// A page with its title, its scripts and its data in their places.
 fn filled(page: &str, title: &str, data: &Value, scripts: &[&str]) -> String {
-    // nothing in a string can end the element that holds it
+    // no string can end the element that contains it
     let data = data.to_string().replace('<', "\\u003c");
     page.replace("{{title}}", &escaped(title))
         .replace("{{style}}", include_str!("style.css"))
         .replace("{{scripts}}", &scripts.join("\n"))
-        // last, so that nothing is looked for in it
+        // the data comes last, so that no placeholder is searched in it
         .replace("{{data}}", &data)
 }
 
-/// Text as it stands in HTML.
+/// Text escaped for HTML.
 fn escaped(text: &str) -> String {
     let mut result = String::with_capacity(text.len());
     for c in text.chars() {
@@ -52,7 +53,7 @@ fn escaped(text: &str) -> String {
             '<' => result.push_str("&lt;"),
             '>' => result.push_str("&gt;"),
             '"' => result.push_str("&quot;"),
-            // no name may look like a place of the page
+            // no name may look like a placeholder of the page
             '{' => result.push_str("&#123;"),
             c => result.push(c),
         }
@@ -72,7 +73,7 @@ mod tests {
         let data = json!({ "name": hostile, hostile: [hostile] });
         let text = page(hostile, &data);
         assert!(!text.contains("alert(1)</script>") && !text.contains("<img"));
-        // the two elements of the page itself
+        // these are the two elements of the page itself
         assert_eq!(text.matches("</script>").count(), 2);
         let inside = text.split("id=\"data\">").nth(1).unwrap();
         let inside = inside.split("</script>").next().unwrap();

@@ -1,4 +1,4 @@
-// The motion: bodies at a time between samples, playing, and the hand of the reader.
+// The motion: bodies between samples, playback, and input of the reader.
 const scene = data.scene;
 const times = scene ? scene.times : [];
 const camera = new Camera();
@@ -6,7 +6,7 @@ const listeners = [];
 let now = times.length ? times[0] : 0;
 let playing = false;
 
-// Frames of all bodies at a time: places and quaternions in between of the samples before and behind.
+// Frames of all bodies at a time: positions and quaternions, interpolated between two samples.
 function framesAt(t, scene = data.scene) {
   const { times } = scene;
   let k = times.findIndex((time) => time > t) - 1;
@@ -34,10 +34,10 @@ const pointOf = (frames, body, local) => {
 
 const colourOf = (body) => {
   const system = body < 0 ? -1 : scene.bodies[body].system;
-  // neighbours differ a little
+  // neighbouring quaternions differ little
   return system < 0 ? rgb("#8a929c") : mixed(rgb(COLOURS[system % COLOURS.length]), [1, 1, 1], 0.14 * (body % 3));
 };
-// Slack is grey; then from orange to dark red as the force grows.
+// Slack is grey; otherwise the colour goes from orange to dark red as the force grows.
 const tensionColour = (force, most) => (force > 0 && most > 0 ? mixed(rgb("#e69f00"), rgb("#b00020"), Math.min(1, force / most)) : rgb("#9aa4b0"));
 
 // The second run, in grey, under the first.
@@ -55,7 +55,7 @@ function ghost(t, shapes) {
   for (const line of scene.lines) shapes.strokes.push({ from: pointOf(frames, ...line.from), to: pointOf(frames, ...line.to), colour: grey, width: 2, above: scene.planar });
 }
 
-// What can be traced: the origin of each body, and the points that outputs look at.
+// The points that can be traced: the origin of each body, and the points of outputs.
 const traceable = scene ? [...scene.bodies.map((body, index) => ({ name: body.name, body: index, at: [0, 0, 0] })), ...scene.points] : [];
 
 function shapesAt(t) {
@@ -110,7 +110,7 @@ function shapesAt(t) {
   return { shapes, frames };
 }
 
-// What all of the motion needs to be seen.
+// The box that contains the whole motion.
 const home = { center: [0, 0, 0], half: 1 };
 function frameAll() {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -131,7 +131,7 @@ function frameAll() {
   home.low = low;
   home.high = high;
 }
-// The height that shows the box of the motion from here, for a picture of this shape.
+// The height of the view that shows the box of the motion, for a picture of this shape.
 function fit() {
   if (!home.low) return;
   const size = sub(home.high, home.low), aspect = byId("scene").clientWidth / Math.max(1, byId("scene").clientHeight);
@@ -270,7 +270,7 @@ function startMotion() {
   }
   try { renderer = WebGl.of(byId("scene")); } catch (error) { console.warn(error); renderer = null; }
   if (!renderer) {
-    // a canvas that was asked for WebGL gives no other context
+    // after a request for WebGL, a canvas gives no other context
     const fresh = byId("scene").cloneNode(true);
     byId("scene").replaceWith(fresh);
     renderer = new Plain(fresh);
@@ -280,7 +280,7 @@ function startMotion() {
   slider.max = times[times.length - 1];
   slider.addEventListener("input", () => { play(false); setTime(Number(slider.value)); });
   byId("play").addEventListener("click", () => play(!playing));
-  // about four seconds, whatever the length of the run
+  // playback takes about four seconds for any run
   const natural = (times[times.length - 1] - times[0]) / 4;
   const speeds = [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
   const usual = speeds.reduce((best, s) => (Math.abs(Math.log(s / natural)) < Math.abs(Math.log(best / natural)) ? s : best));

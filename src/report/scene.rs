@@ -1,4 +1,4 @@
-//! What moves in a report: bodies, their shapes, and the forces between them, at every sample.
+//! The moving parts of a report: bodies, their shapes, and the forces between them, at every sample.
 
 use crate::picture::Instant;
 use crate::picture::figure::{belt_lengths, ellipsoids, ends, surfaces};
@@ -10,8 +10,8 @@ use bryant_generator::model::{
 };
 use serde_json::{Value, json};
 
-/// The model with outputs, behind its own, for the force of every contact, spring and segment of a belt on the first of its two bodies, along
-/// x, y and z.
+/// The model with additional outputs after its own: the force of every contact, spring and belt segment on the first of its two bodies,
+/// along x, y and z.
 pub fn with_forces(model: &Model) -> Model {
     let mut model = model.clone();
     for (index, force) in model.forces.iter().enumerate() {
@@ -19,7 +19,7 @@ pub fn with_forces(model: &Model) -> Model {
             for component in [Component::X, Component::Y, Component::Z] {
                 let projection = Projection::absolute(component);
                 let quantity = match &force.kind {
-                    // the segment pulls with what acts on all points before it
+                    // the segment pulls with the force that acts on all points before it
                     ForceKind::Belt(belt) if !belt.rings.is_empty() => Quantity::ForceOnPoints {
                         force: index,
                         points: (0..=line).collect(),
@@ -44,7 +44,7 @@ pub fn with_forces(model: &Model) -> Model {
     model
 }
 
-/// Along how many lines a force acts between bodies: a belt along each of its segments.
+/// The number of lines along which a force acts between bodies: a belt acts along each of its segments.
 pub fn lines(kind: &ForceKind) -> usize {
     match kind {
         ForceKind::Contact(_) | ForceKind::Spring(_) => 1,
@@ -53,11 +53,11 @@ pub fn lines(kind: &ForceKind) -> usize {
     }
 }
 
-/// A number of six digits.
+/// A number with six digits.
 pub fn short(value: f64) -> Value {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(f64::NAN);
     match rounded {
-        // -0 is two letters more than 0
+        // -0 would take two letters more than 0
         0.0 => json!(0),
         _ => json!(rounded),
     }
@@ -70,7 +70,7 @@ fn vector(vector: Vec3) -> Value {
 /// The unit quaternion (w, x, y, z) of a rotation by rows.
 fn quaternion(rows: [Vec3; 3]) -> [f64; 4] {
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = rows;
-    // four times each component squared; the largest is divided by
+    // four times the square of each component; the code divides by the largest
     let squares = [
         1.0 + xx + yy + zz,
         1.0 + xx - yy - zz,
@@ -96,7 +96,7 @@ pub struct Scene<'a> {
     model: &'a Model,
     numbers: Numbers<'a>,
     poses: Vec<(f64, Pose)>,
-    /// First body of each system; vehicles stand behind all elements.
+    /// Index of the first body of each system; vehicles follow after all elements.
     first: Vec<usize>,
 }
 
@@ -104,7 +104,7 @@ impl<'a> Scene<'a> {
     /// A scene at these instants. `coordinates` are the names of q, `parameters` the values of the run.
     ///
     /// # Errors
-    /// The coordinates are not those of the model.
+    /// The coordinates do not belong to the model.
     pub fn new(
         model: &'a Model,
         coordinates: &[String],
@@ -131,7 +131,7 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// All of it. `forces` has a column for each output that [`with_forces`] adds, with a value at each instant.
+    /// The whole scene. `forces` has a column for each output that [`with_forces`] adds, with a value for each instant.
     pub fn json(&self, forces: &[Vec<f64>]) -> Value {
         json!({
             "planar": self.model.dimension == Dimension::Plane,
@@ -175,7 +175,7 @@ impl<'a> Scene<'a> {
         elements.chain(vehicles).collect()
     }
 
-    /// The points that outputs look at, by the first output of each: body and place.
+    /// The points that outputs refer to: body and position, by the first output of each point.
     fn points(&self) -> Value {
         let mut found: Vec<(Value, Value)> = Vec::new();
         let mut points = Vec::new();
@@ -193,7 +193,7 @@ impl<'a> Scene<'a> {
         points.into()
     }
 
-    /// At each time, for each body: position, quaternion.
+    /// Position and quaternion of each body at each time.
     fn frames(&self) -> Value {
         let of_pose = |(_, pose): &(f64, Pose)| -> Value {
             let vehicles = (0..self.model.vehicles.len()).map(Body::Vehicle);
@@ -208,7 +208,7 @@ impl<'a> Scene<'a> {
         self.poses.iter().map(of_pose).collect()
     }
 
-    /// Lines from joint to joint: body and place of both ends.
+    /// Lines from joint to joint: body and position of both ends.
     fn bones(&self) -> Value {
         let mut bones = Vec::new();
         for id in self.ids() {
@@ -296,7 +296,7 @@ impl<'a> Scene<'a> {
                     continue;
                 }
             };
-            // a segment of several has no length of its own: webbing slips
+            // a segment of a belt with several has no length of its own, because webbing slips
             let length = match kind {
                 "belt" => {
                     belts += 1;
@@ -327,7 +327,7 @@ impl<'a> Scene<'a> {
         all.into()
     }
 
-    /// At each time, the contacts that push: which, where, and the force on the first body.
+    /// The contacts that act at each time: index, point, and the force on the first body.
     fn pushes(&self, forces: &[Vec<f64>]) -> Value {
         let mut columns = Columns::new(self.model, forces);
         let mut at_times: Vec<Vec<Value>> = vec![Vec::new(); self.poses.len()];
@@ -343,7 +343,7 @@ impl<'a> Scene<'a> {
                 if dot(push, push) == 0.0 || !push.iter().all(|f| f.is_finite()) {
                     continue;
                 }
-                // from the plane, or against the force
+                // the normal of the plane, or the direction against the force
                 let normal = match &contact.against {
                     Against::Ellipsoid(_) => push,
                     against => match against.plane() {
@@ -363,7 +363,7 @@ impl<'a> Scene<'a> {
         at_times.into()
     }
 
-    /// The point of an ellipsoid that lies furthest against a direction: c − Q n/√(nᵀQ n).
+    /// The point of an ellipsoid that is farthest in the direction −n: c − Q n/√(nᵀQ n).
     fn deepest(
         &self,
         pose: &Pose,
@@ -394,7 +394,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// The columns of forces, taken one after the other.
+/// The columns of forces, read one after the other.
 struct Columns<'a> {
     forces: &'a [Vec<f64>],
     next: usize,
@@ -410,14 +410,14 @@ impl<'a> Columns<'a> {
         Columns { forces, next: 0 }
     }
 
-    /// Those of the next line.
+    /// The columns of the next line.
     fn next(&mut self) -> Column<'a> {
         let first = self.next;
         self.next += 3;
         Column(self.forces.get(first..first + 3).unwrap_or(&[]))
     }
 
-    /// Passes those of a force over.
+    /// Skips the columns of a force.
     fn skip(&mut self, kind: &ForceKind) {
         self.next += 3 * lines(kind);
     }

@@ -1,4 +1,4 @@
-// A study: distributions, what they depend on, points of runs with brushing, and the runs as rows.
+// A study: distributions, sensitivities, points of runs that can be selected, and the runs as rows.
 const names = [...data.parameters, ...data.responses];
 const runs = data.rows.map(([index, status, error, ...values]) => ({ index, status, error, values }));
 const SHOWN = 200;
@@ -21,7 +21,7 @@ function extent(values) {
   return [low - margin, high + margin];
 }
 
-// A canvas with axes: what is drawn gets places of numbers.
+// A canvas with axes: drawing functions get a function from numbers to positions.
 function draw(canvas, [a, b], [low, high], titles, paint) {
   const made = blank(canvas);
   if (!made) return;

@@ -1,24 +1,24 @@
-//! A study as one page of HTML: distributions, what they depend on, points of runs with brushing, and the runs as rows.
+//! A study as one page of HTML: distributions, sensitivities, points of runs that can be selected, and the runs as rows.
 
 use super::filled;
 use bryant_study::results::{Results, ResultsError};
 use bryant_study::summary::Summary;
 use serde_json::{Value, json};
 
-/// Runs in a page at most; of more, every second one and so on is shown.
+/// A page shows at most this many runs; of more runs, every second one and so on is shown.
 const MOST_RUNS: u64 = 5000;
 
-/// What a page says of a study beside its results.
+/// The texts of a page that are not results.
 pub struct About {
-    /// The file of the study, as it was given.
+    /// The path of the study file, as it was given.
     pub study: String,
-    /// The model as a command is given it from there.
+    /// The model as an argument of a command, relative to the study.
     pub model: String,
     /// Digest of the model.
     pub digest: String,
     /// Limits of responses \[SI\], by their names.
     pub limits: Vec<(String, f64)>,
-    /// The command line that makes the page again.
+    /// The command line that makes this page.
     pub command: String,
 }
 
@@ -54,7 +54,7 @@ pub fn page(
                 continue;
             }
             let mut cells = vec![json!(row), json!(run.status.word()), json!(run.error)];
-            // every digit, so that a row can be run again
+            // all digits, so that a row can be run again
             cells.extend(batch.values[k * d..][..d].iter().map(|x| json!(x)));
             cells.extend(responses.iter().map(|y| json!(y)));
             rows.push(cells.into());
@@ -105,7 +105,7 @@ pub fn page(
     Ok(filled(include_str!("study.html"), &title, &data, &scripts))
 }
 
-/// A word of a command line.
+/// A word quoted for a command line.
 pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:%+@,".contains(c);
     match !word.is_empty() && word.chars().all(plain) {

@@ -1,4 +1,4 @@
-// What the run says in words and numbers.
+// The messages and numbers of the run.
 function peaks() {
   return columns.slice(1).map((column) => {
     let [low, high] = [0, 0];
@@ -20,7 +20,7 @@ function criteria() {
   const verdict = (one) => one.limit === null ? "no limit" : element("span", one.met ? `met by ${Math.round(-share(one))} %` : `missed by ${Math.round(share(one))} %`, { class: one.met ? "met" : "missed" });
   const rows = judged.map((one) => [one.criterion, readable(one.value), one.limit === null ? "–" : readable(one.limit), one.unit, verdict(one), one.filter || "none", one.detail]);
   const made = [table([["criterion", false], ["value", true], ["limit", true], ["unit", false], ["verdict", false], ["filter", false], ["", false]], rows)];
-  if (missing.length) made.push(element("p", `Not judged, for there is no channel of: ${missing.map((one) => `${one.criterion} (${one.missing})`).join(", ")}.`));
+  if (missing.length) made.push(element("p", `Not judged, because there is no channel of: ${missing.map((one) => `${one.criterion} (${one.missing})`).join(", ")}.`));
   made.push(element("p", `Limits: ${source}.`));
   return made;
 }
@@ -40,7 +40,7 @@ function energy() {
   return table([["work of", false], ["J", true], ["", false]], rows);
 }
 
-// Where the energy is, over time: kinetic energy, and above it what effects have taken, the largest first.
+// Energy over time: kinetic energy, and above it the energy that effects have taken, the largest first.
 class EnergyPlot {
   constructor(parent) {
     const { times, effects } = data.works, start = data.energy.kinetic_at_start;
@@ -149,5 +149,5 @@ function startTables() {
 startTables();
 startMotion();
 startCurves();
-// for whoever opens the page by a program: all of it was made
+// for programs that open the page: all of it was made
 document.documentElement.dataset.made = "yes";

@@ -1,4 +1,4 @@
-//! Runs the scenes of hard cases as a user's model is run.
+//! Runs the scenes of hard cases in the same way as a user's model.
 
 use crate::accuracy::run;
 use crate::equations;
@@ -14,12 +14,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Runs scenes; the equations of each are derived once.
 #[derive(Default)]
 pub struct Scenes {
-    /// By digest.
+    /// The equations by the digest of the model.
     equations: Mutex<BTreeMap<String, Arc<Equations>>>,
 }
 
 impl Scenes {
-    /// None yet.
+    /// An engine without any equations yet.
     pub fn new() -> Scenes {
         Scenes::default()
     }
@@ -37,7 +37,7 @@ impl Scenes {
         if let Some(found) = known().get(&model.digest) {
             return Ok(Arc::clone(found));
         }
-        // Two threads may derive the same equations; they do not wait for each other.
+        // Two threads may derive the same equations at the same time; neither waits for the other.
         let made = equations::of(&model).map_err(|error| Trouble::System(error.to_string()))?;
         let made = Arc::new(made);
         known().insert(model.digest.clone(), Arc::clone(&made));

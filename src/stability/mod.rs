@@ -1,6 +1,6 @@
-//! Hard cases, run: what each measured, and whether it kept its bounds.
+//! Runs of the hard cases: their measurements, and whether they keep their bounds.
 //!
-//! The cases are those of the crate `bryant-hard`; each runs its scenes as a user's model is run.
+//! The crate `bryant-hard` has the cases; each runs its scenes in the same way as a user's model.
 
 mod engine;
 pub mod report;
@@ -12,25 +12,25 @@ use bryant_hard::{Bench, Case, Check, Engine, Trouble};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What came out of a case.
+/// The outcome of a case.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Which.
+    /// The case.
     pub case: Case,
-    /// What it found, up to where it broke off.
+    /// Its checks, up to the point where it broke off.
     pub checks: Vec<Check>,
     /// Why it broke off.
     pub trouble: Option<Trouble>,
 }
 
 impl Outcome {
-    /// Whether all that the case asks for holds, and it asks for something.
+    /// Whether there is at least one check, and all checks hold.
     pub fn holds(&self) -> bool {
         self.trouble.is_none() && !self.checks.is_empty() && self.checks.iter().all(Check::holds)
     }
 }
 
-/// Cases whose group or name contains one of the words, whatever its case; all where there are none.
+/// Cases whose group or name contains one of the words, in upper or lower case; all cases if there are no words.
 pub fn select(words: &[String]) -> Vec<Case> {
     let wanted = |case: &Case| {
         let text = format!("{}: {}", case.group.title(), case.name).to_lowercase();
@@ -39,10 +39,10 @@ pub fn select(words: &[String]) -> Vec<Case> {
     bryant_hard::cases().into_iter().filter(wanted).collect()
 }
 
-/// One case. A panic in it is one of its findings, and of no concern to others.
+/// Runs one case. A panic in it is reported as its trouble and does not affect other cases.
 pub fn run_case(case: &Case, engine: &dyn Engine, full: bool) -> Outcome {
     let mut bench = Bench::new(engine, full);
-    // checks are noted as a whole, so that those of before a panic are what they say
+    // each check is added as a whole, so that the checks before a panic are valid
     let trouble = match catch_unwind(AssertUnwindSafe(|| (case.run)(&mut bench))) {
         Ok(result) => result.err(),
         Err(payload) => Some(Trouble::Panicked(message(payload.as_ref()))),
@@ -54,7 +54,7 @@ pub fn run_case(case: &Case, engine: &dyn Engine, full: bool) -> Outcome {
     }
 }
 
-/// What a panic says; a payload that is no text says nothing.
+/// The message of a panic; empty if its payload is not text.
 fn message(payload: &(dyn Any + Send)) -> String {
     let plain = payload
         .downcast_ref::<&str>()
@@ -63,8 +63,8 @@ fn message(payload: &(dyn Any + Send)) -> String {
     text.unwrap_or_else(|| "without a message".into())
 }
 
-/// Cases on all processors; what came out is in their order, without those that an interruption left out. `progress` hears how many are
-/// done.
+/// Runs the cases on all processors and returns the outcomes in the order of the cases, without those that an interruption left out.
+/// `progress` is called with the number of finished cases.
 pub fn run(
     cases: &[Case],
     engine: &dyn Engine,

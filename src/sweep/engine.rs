@@ -1,4 +1,4 @@
-//! What runs the rows of a study: a model in lanes, in this process, on as many threads as ask.
+//! Runs the rows of a study: a model in lanes, in this process, on any number of threads.
 
 use crate::accuracy::fastest::fastest;
 use crate::accuracy::finding::percent;
@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Runs that came to a standstill whose fastest motion is looked for, and how long each may take at most \[s\].
+/// The fastest motion is searched for this many runs that came to a standstill, for at most this time each \[s\].
 const LOOKED_INTO: usize = 3;
 const LOOKING: f64 = 3.0;
 
@@ -27,18 +27,18 @@ pub struct Lanes<'a> {
     job: Job,
     precision: Precision,
     refused: Mutex<BTreeMap<String, u64>>,
-    /// Who is told of rows whose computation takes long.
+    /// Is called with messages about rows whose computation takes long.
     tell: Option<&'a (dyn Fn(&str) + Sync)>,
-    /// How many rows were given up because computing them took too long.
+    /// Number of rows that were given up because their computation took too long.
     slow: AtomicU64,
     /// Outputs with a filter of their own, by their index.
     filtered: Vec<(usize, Channel)>,
-    /// Some rows whose steps became too many or too small, and how they ended.
+    /// Some rows whose steps became too many or too small, with their ends.
     stalled: Mutex<Vec<(Vec<f64>, Row)>>,
 }
 
 impl<'a> Lanes<'a> {
-    /// Rows of a job, in this precision, of a model with these outputs.
+    /// The rows of a job, in this precision, for a model with these outputs.
     pub fn new(
         equations: &'a Equations,
         job: Job,
@@ -61,12 +61,12 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// How many rows were given up because computing them took too long.
+    /// Number of rows that were given up because their computation took too long.
     pub fn given_up(&self) -> u64 {
         self.slow.load(Ordering::Relaxed)
     }
 
-    /// The same; somebody is told of rows whose computation takes long, in a line every ten seconds of each.
+    /// The same with `tell`, which gets a line about each row whose computation takes long, every ten seconds.
     pub fn telling(self, tell: &'a (dyn Fn(&str) + Sync)) -> Self {
         Lanes {
             tell: Some(tell),
@@ -74,7 +74,7 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// "the run with friction = 0.3": a row by what is varied.
+    /// "the run with friction = 0.3": a row, by its varied parameters.
     fn named(&self, given: &[f64]) -> String {
         let info = self.equations.info();
         let varied = self.job.varied.iter().zip(given);
@@ -90,7 +90,7 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// Tells of a row whose computation takes long.
+    /// Reports a row whose computation takes long.
     fn linger(&self, given: &[f64], lingers: Lingers) {
         if let Some(tell) = self.tell {
             tell(&format!(
@@ -103,13 +103,13 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// Why rows that it was given are refused: what they do not keep, and how many.
+    /// The reasons why rows were refused, with the number of rows for each.
     pub fn refused(&self) -> BTreeMap<String, u64> {
         let refused = self.refused.lock();
         refused.unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Why a row is refused, which is remembered.
+    /// The reason why a row is refused; it is recorded.
     fn refuse(&self, row: &[f64]) -> Option<String> {
         let reason = super::refusal(self.equations, &self.job, row)?;
         let refused = self.refused.lock();
@@ -118,8 +118,8 @@ impl<'a> Lanes<'a> {
         Some(reason)
     }
 
-    /// Why a row came to a standstill, which is remembered. Only the order of the step, so that like rows have like reasons; when it was the
-    /// table says.
+    /// The reason why a row came to a standstill; it is recorded. The text has only the order of magnitude of the step, so that similar
+    /// rows have equal reasons; the table has the time.
     fn stall(&self, row: &Row, given: &[f64]) -> String {
         let stalled = self.stalled.lock();
         let mut stalled = stalled.unwrap_or_else(PoisonError::into_inner);
@@ -138,10 +138,10 @@ impl<'a> Lanes<'a> {
             ),
             Ended::Slow => match self.job.settings.time_limit {
                 Some(limit) => format!(
-                    "computing it takes longer than {}, or would at its rate take ten times as long",
+                    "its computation takes longer than {}, or would take ten times as long at its present rate",
                     time(limit.as_secs_f64())
                 ),
-                None => "computing it takes too long".to_owned(),
+                None => "its computation takes too long".to_owned(),
             },
             _ => format!(
                 "steps below {} are asked for at the time reached",
@@ -150,8 +150,8 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// What bounds the steps of the first few rows that came to a standstill, a line each. Each is run again, alone, for some seconds at
-    /// most.
+    /// A line for each of the first few rows that came to a standstill, with the motion that bounds its steps. Each is run again, alone,
+    /// for some seconds at most.
     pub fn standstills(&self) -> Vec<String> {
         let stalled = self.stalled.lock();
         let stalled = stalled.unwrap_or_else(PoisonError::into_inner);
@@ -160,7 +160,7 @@ impl<'a> Lanes<'a> {
             let values = super::refusal::parameters(self.equations, &self.job, given);
             let names = info.parameters.iter().map(|parameter| parameter.name);
             let single = Single {
-                // no further than it came
+                // no further than the row came
                 duration: (row.t > 0.0).then_some(row.t),
                 parameters: names
                     .zip(&values)
@@ -183,26 +183,26 @@ impl<'a> Lanes<'a> {
         stalled.iter().map(line).collect()
     }
 
-    /// What is to be said of the error of a row that went to its end.
+    /// A remark on the error of a row that reached its end.
     fn remark(&self, row: &Row) -> Option<String> {
         let wanted = percent(self.job.wanted);
         let often = row.sharpened;
         match (row.error <= self.job.wanted, often) {
             (true, 0) => None,
             (true, _) => Some(format!(
-                "its estimated error was above {wanted}: this is a run at 1e-{often} of the tolerance"
+                "its estimated error was above {wanted}: this is the result at 1e-{often} of the tolerance"
             )),
             (false, _) if row.error.is_nan() => Some(
-                "its error is not known: the run that it is to be compared with failed or had lost its way".to_owned(),
+                "its error is not known: the run that it is compared with failed or cannot be trusted".to_owned(),
             ),
             (false, 0) => Some(format!("its estimated error is above {wanted}")),
             (false, _) => Some(format!(
-                "its estimated error is above {wanted}, at 1e-{often} of the tolerance, too"
+                "its estimated error is above {wanted}, even at 1e-{often} of the tolerance"
             )),
         }
     }
 
-    /// Why a row has no result, or none to be trusted, where its status does not say all; or why its result is that of another run.
+    /// The reason why a row has no result or cannot be trusted, if its status does not say it; or why its result comes from another run.
     fn reason(&self, row: &Row, given: &[f64]) -> Option<String> {
         match row.status {
             Ended::Refused => self.refuse(given),
@@ -240,7 +240,7 @@ fn outcome(row: &Row) -> Outcome {
     }
 }
 
-/// Times and outputs of a run: samples output by output.
+/// Times and outputs of a run, from samples that are in the order of the outputs.
 fn series(job: &Job, samples: &[f64]) -> Series {
     let count = job.settings.samples;
     let every = job.settings.duration / (count - 1) as f64;
@@ -281,7 +281,7 @@ impl Worker for &Lanes<'_> {
         let mut series = series(&self.job, &samples);
         let every = self.job.settings.duration / (self.job.settings.samples - 1) as f64;
         for (index, output) in self.filtered.iter() {
-            // where samples are too far apart, the study keeps no such series
+            // if samples are too far apart, the study keeps no such series
             let formed = output.form(|output| series.outputs[output].clone(), every);
             if let Some(samples) = formed {
                 series.outputs[*index] = samples;

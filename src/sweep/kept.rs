@@ -1,5 +1,5 @@
-//! What a folder of results needs to be merged without anything else: the study as it was given, the table of its rows if that is a
-//! file, and what the study knew of its model.
+//! The data in a folder of results that makes merging independent of other files: the study as it was given, the table of its rows if that
+//! is a file, and the facts about its model.
 
 use bryant_generator::description::load::read_bytes;
 use bryant_generator::diagnostic::Diagnostics;
@@ -12,44 +12,44 @@ use bryant_study::study::Study;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-/// A study, as a folder of its results has it.
+/// A study as a folder of its results has it.
 #[derive(Debug)]
 pub struct Kept {
     /// The study.
     pub study: Study,
-    /// What computed the results.
+    /// The program that computed the results.
     pub program: Program,
 }
 
-/// Why there is no study in a folder, or none can be put there.
+/// Why a folder has no study, or cannot be given one.
 #[derive(Debug, thiserror::Error)]
 pub enum KeptError {
-    /// Nothing ran here.
+    /// Nothing was run here.
     #[error("{} is not a folder of results: it has no study.json\n  help: name the folder that `bryant sweep` was given by --out", .0.display())]
     NoResults(PathBuf),
-    /// Whoever began was ended before the study was put here.
-    #[error("{} is missing: what began here was ended before it was written\n  help: run the study on this folder again; what is done stays", .0.display())]
+    /// The process that began here ended before the study was written.
+    #[error("{} is missing: the command that began here ended before it wrote the file\n  help: run the study on this folder again; what is done stays", .0.display())]
     Lost(PathBuf),
     /// A file cannot be read.
     #[error("cannot read {}: {source}", .path.display())]
     Read {
-        /// Which.
+        /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         source: io::Error,
     },
     /// A file is not what it should be.
     #[error("{} cannot be understood: {reason}\n  help: run the study again into another folder", .path.display())]
     Damaged {
-        /// Which.
+        /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         reason: String,
     },
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The rows are somewhere else.
+    /// The rows are in a file outside of the folder of the study.
     #[error(
         "the rows of the study are in {0}, outside of its folder, so that its results could not be merged without it\n  help: put that file beside the study, and name it without .."
     )]
@@ -62,15 +62,15 @@ pub enum KeptError {
 const STUDY: &str = "study.yaml";
 const FACTS: &str = "facts.json";
 
-/// Where in a folder of results it is kept.
+/// The place in a folder of results where the study is kept.
 fn place(folder: &Path) -> PathBuf {
     folder.join("study")
 }
 
-/// Keeps a study with its results, unless it is there.
+/// Keeps a study with its results, unless it is already there.
 ///
 /// # Errors
-/// A file cannot be read or written; rows in a file above the study.
+/// A file cannot be read or written, or the rows are in a file outside of the folder of the study.
 pub fn keep(
     folder: &Path,
     file: &StudyFile,
@@ -102,7 +102,7 @@ pub fn keep(
     Ok(())
 }
 
-/// Writes a file, unless it is there with these bytes: a study goes on where nothing but what is missing can be written.
+/// Writes a file unless it exists with the same bytes, so that a study can continue where only missing files can be written.
 fn put(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     if read_bytes(path, bytes.len() as u64).is_ok_and(|there| there == bytes) {
         return Ok(());
@@ -117,7 +117,7 @@ impl Kept {
     /// The study whose results are in a folder.
     ///
     /// # Errors
-    /// There are none, or the files are not sound.
+    /// There are no results, or a file is damaged.
     pub fn read(folder: &Path) -> Result<Kept, KeptError> {
         let identity_path = folder.join("study.json");
         if !identity_path.is_file() {

@@ -1,11 +1,11 @@
-//! Studies of a model: what `bryant-study` asks to be run, run in lanes.
+//! Studies of a model: runs the rows of `bryant-study` in lanes.
 //!
 //! | file | what |
 //! |---|---|
-//! | `plan` | a study in the words of the runtime: how long, how accurate, which responses |
-//! | `engine` | a model as what runs rows |
-//! | `refusal` | why a row of parameters is refused, or its run not to be trusted |
-//! | `kept` | what a folder of results needs to be merged without anything else |
+//! | `plan` | the settings of a study for the runtime: duration, accuracy, responses |
+//! | `engine` | runs rows of a model |
+//! | `refusal` | why a row of parameters is refused, or why its run cannot be trusted |
+//! | `kept` | the data that a folder of results needs for merging |
 
 mod engine;
 mod kept;

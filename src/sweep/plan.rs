@@ -1,4 +1,4 @@
-//! A study in the words of the runtime.
+//! The settings of a study for the runtime.
 
 use crate::accuracy::check::FAR;
 use bryant_generator::model::Model;
@@ -11,27 +11,29 @@ use bryant_study::facts::ModelFacts;
 use bryant_study::response::What;
 use bryant_study::study::{self, FixedSteps, Precision, RunSettings, Study};
 
-/// Tolerance for an accuracy of the responses. At 10⁻⁶ peaks, HIC and 3 ms values of child-seat are within 2·10⁻⁵ in half of the rows
-/// of a study of six parameters, and within 10⁻⁴ in 999 of 1 000; what they are in another scene, the estimates of a study show.
+/// The tolerance of a step is this share of the accuracy of the responses. With a tolerance of 10⁻⁶, peaks, HIC and 3 ms values of
+/// child-seat err by less than 2·10⁻⁵ in half of the rows of a study with six parameters, and by less than 10⁻⁴ in 999 of 1 000 rows. For
+/// other scenes, the estimates of a study show the errors.
 const TOLERANCE: f64 = 1e-3;
-/// Steps of a run, at most: a scene that needs more is stiff, and would hold up its lane for long.
+/// Largest number of steps of a run: a scene that needs more is stiff, and would block its lane for long.
 const MOST_STEPS: u32 = 1_000_000;
-/// Samples of a run at most: they are kept until its end, for each lane.
+/// Largest number of samples of a run: they are kept until its end, for each lane.
 const MOST_SAMPLES: f64 = 1e6;
 
-/// What 1 and the next single differ by.
+/// The difference between 1 and the next number in single precision.
 const OF_SINGLES: f64 = f32::EPSILON as f64;
-/// Steps of so many units in the last place of the time at the end, at least: of shorter ones the times are mostly rounding.
+/// Steps in single precision are at least this many units in the last place of the end time: the times of shorter steps are mostly
+/// rounding.
 const COARSEST: f64 = 16.0;
 
-/// How long steps are.
+/// The length of steps.
 ///
 /// # Errors
-/// More steps than a run may have; what singles cannot tell apart.
+/// A run would have too many steps, or steps or accuracies that single precision cannot resolve.
 fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
     let single = run.precision == Precision::Single;
     if let Some(FixedSteps { length, method }) = run.step {
-        // rounding may leave a hair more than a whole number of steps
+        // rounding may add a little to a whole number of steps
         let steps = (duration / length - 1e-9).ceil();
         if steps > f64::from(MOST_STEPS) {
             return Err(format!(
@@ -42,7 +44,7 @@ fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
         let shortest = COARSEST * OF_SINGLES * duration;
         if single && length < shortest {
             return Err(format!(
-                "singles tell times apart by {:.1e} s at the end of a run of {duration} s, and steps of {length} s are hardly longer\n  \
+                "single precision resolves times to {:.1e} s at the end of a run of {duration} s, and steps of {length} s are hardly longer\n  \
                  help: give steps of {shortest:.1e} s at least, or `precision: double`",
                 OF_SINGLES * duration
             ));
@@ -61,18 +63,18 @@ fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
     if single && tolerance < OF_SINGLES {
         let finest = OF_SINGLES / TOLERANCE;
         return Err(format!(
-            "an accuracy of {accuracy} cannot be had in single precision: a step may err by {tolerance:.1e} of what it leads to, \
-             and singles tell no less than {OF_SINGLES:.1e} apart\n  \
+            "an accuracy of {accuracy} is not possible in single precision: a step may err by {tolerance:.1e} of its result, \
+             and single precision resolves {OF_SINGLES:.1e}\n  \
              help: aim at {finest:.1e} or more, `run: {{ accuracy: … }}`, or give `precision: double`"
         ));
     }
     Ok(Pace::Adaptive(Tolerances::of(tolerance)))
 }
 
-/// What to run of each row of a study.
+/// The job for each row of a study.
 ///
 /// # Errors
-/// More samples than can be kept, more steps than a run may have, what singles cannot tell apart; in words with a remedy.
+/// Too many samples or steps, or numbers that single precision cannot resolve; the message has a remedy.
 pub fn job(study: &Study, model: &Model, facts: &ModelFacts, width: Width) -> Result<Job, String> {
     let index = |name: &str| model.parameters.iter().position(|p| p.name == name);
     let duration = study.run.duration.unwrap_or(facts.run.duration);
@@ -136,7 +138,7 @@ pub fn job(study: &Study, model: &Model, facts: &ModelFacts, width: Width) -> Re
     })
 }
 
-/// What is read off a run, as the runtime calls it.
+/// The response of the runtime for a response of a study.
 pub fn response_of(what: What) -> Response {
     match what {
         What::Peak => Response::Peak,
@@ -187,7 +189,7 @@ mod tests {
     #[test]
     fn singles_are_asked_for_no_more_than_they_hold() {
         let adaptive = |accuracy, precision| pace(&run(None, Some(accuracy), precision), 0.1);
-        // 10⁻³ of it is the tolerance of a step, and 2⁻²³ what singles tell apart: 1.19·10⁻⁴
+        // the tolerance of a step is 10⁻³ of the accuracy, and single precision resolves 2⁻²³: 1.19·10⁻⁴
         assert!(adaptive(1.2e-4, Precision::Single).is_ok());
         let said = adaptive(1.19e-4, Precision::Single).unwrap_err();
         assert!(said.contains("aim at 1.2e-4 or more"), "{said}");

@@ -1,4 +1,4 @@
-//! Why a row of parameters is refused, and why its run is not to be trusted.
+//! The reasons why a row of parameters is refused, and why its run cannot be trusted.
 
 use crate::equations::Engine;
 use bryant_runtime::CurveKind;
@@ -18,7 +18,7 @@ pub fn parameters(engine: &Engine, job: &Job, row: &[f64]) -> Vec<f64> {
     values
 }
 
-/// What the parameters of a row do not keep, in the words of the model; `None` where they keep everything.
+/// The condition of the model that the parameters of a row violate; `None` if they violate none.
 pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
     let info = engine.info();
     let values = parameters(engine, job, row);
@@ -35,7 +35,7 @@ pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
     Some((*condition).to_owned())
 }
 
-/// Why a run that reached its end is not to be trusted, in words; `None` where it is.
+/// The reason why a run that reached its end cannot be trusted; `None` if it can.
 pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
     let info = engine.info();
     Some(match doubt? {
@@ -48,32 +48,32 @@ pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
             info.curves.get(contact)?.name
         ),
         Doubt::Missed(onset) => format!(
-            "a step went over what begins and ends within: \"{}\"",
+            "a step passed over an event that begins and ends within the step: \"{}\"",
             info.onsets.get(onset)?
         ),
         Doubt::Unstable(index) => format!(
-            "the fixed steps are above the limit of stability, most in \"{}\"",
+            "the fixed steps are above the stability limit; the unstable motion is largest in \"{}\"",
             info.state_name(index)?
         ),
         Doubt::Energy(effect) => match effect.and_then(|effect| info.powers.get(effect)) {
             Some(effect) => format!(
-                "the balance of energy has a gap: the fixed steps are too long; the largest power when it began is of \"{effect}\""
+                "the balance of energy has a gap: the fixed steps are too long; when the gap began, the largest power was that of \"{effect}\""
             ),
             None => "the balance of energy has a gap: the fixed steps are too long".to_owned(),
         },
         Doubt::Momentum => {
-            "the momentum of what moves freely has a gap: the fixed steps are too long".to_owned()
+            "the balance of momentum of freely moving bodies has a gap: the fixed steps are too long".to_owned()
         }
-        Doubt::Unexplained(index) => format!(
-            "\"{}\" is not what its rate within the fixed steps makes of it",
+        Doubt::Error(index) => format!(
+            "\"{}\" errs by too much, as estimated from the rates within the fixed steps",
             info.state_name(index)?
         ),
         Doubt::Left(curve) if info.curves.get(curve)?.kind == CurveKind::Volume => format!(
-            "the {} is pressed to less of its volume than its law knows",
+            "the {} is compressed so far that its law is no longer valid",
             info.curves.get(curve)?.name
         ),
         Doubt::Left(curve) => format!(
-            "the curve \"{}\" is left so far that what it gives is made up",
+            "the argument of the curve \"{}\" is so far outside of its points that the value of the curve is arbitrary",
             info.curves.get(curve)?.name
         ),
     })

@@ -1,4 +1,4 @@
-//! A study of a formula, from its file to its pictures: what a program around this crate does.
+//! A study of a formula, from its file to its pictures: an example of a program that uses this crate.
 //!
 //! ```text
 //! cargo run --release -p bryant-study --example ishigami -- study/examples/ishigami.yaml FOLDER [SHARD] [THREADS]

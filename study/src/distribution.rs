@@ -3,31 +3,31 @@
 use crate::normal;
 use serde::Serialize;
 
-/// How the values of a parameter are distributed.
+/// The distribution of a parameter's values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Distribution {
-    /// All values of an interval alike.
+    /// All values of an interval are equally probable.
     Uniform {
         /// Least value.
         from: f64,
         /// Largest value.
         to: f64,
     },
-    /// Normal, cut off where ends are given.
+    /// Normal, truncated at the given ends.
     Normal {
-        /// Mean before anything is cut off.
+        /// Mean before truncation.
         mean: f64,
-        /// Standard deviation before anything is cut off, positive.
+        /// Standard deviation before truncation, positive.
         deviation: f64,
         /// Least value.
         min: Option<f64>,
         /// Largest value.
         max: Option<f64>,
     },
-    /// Its logarithm is normal; cut off where ends are given.
+    /// The logarithm is normal; truncated at the given ends.
     Lognormal {
-        /// Half of the values lie below, before anything is cut off; positive.
+        /// Median before truncation, positive.
         median: f64,
         /// Standard deviation of the natural logarithm, positive.
         deviation: f64,
@@ -45,21 +45,21 @@ pub enum Distribution {
         /// Largest value.
         to: f64,
     },
-    /// Some values alone.
+    /// A finite set of values.
     Discrete {
         /// The values.
         values: Vec<f64>,
-        /// Probabilities, with the sum 1.
+        /// Probabilities; their sum is 1.
         weights: Vec<f64>,
     },
 }
 
 impl Distribution {
-    /// The value below which lies the probability u.
+    /// The value x with the probability u of smaller values.
     pub fn quantile(&self, u: f64) -> f64 {
         match self {
             Distribution::Uniform { from, to } => {
-                // the weighted mean keeps to the ends where `to − from` rounds
+                // the weighted mean stays within the ends even if `to − from` is rounded
                 (from * (1.0 - u) + to * u).clamp(*from, *to)
             }
             Distribution::Normal {
@@ -97,7 +97,7 @@ impl Distribution {
         }
     }
 
-    /// Of a normal or lognormal distribution: where it is cut off, in deviations from its middle.
+    /// For a normal or lognormal distribution: its ends, in standard deviations from its middle.
     pub fn ends(&self) -> [f64; 2] {
         let infinite = [f64::NEG_INFINITY, f64::INFINITY];
         match self {
@@ -124,7 +124,7 @@ impl Distribution {
         }
     }
 
-    /// Least and largest value that can come; infinite where a tail is not cut off.
+    /// Least and largest possible value; infinite if a tail is not truncated.
     pub fn support(&self) -> [f64; 2] {
         let (min, max) = match self {
             Distribution::Uniform { from, to } | Distribution::Triangular { from, to, .. } => {
@@ -146,14 +146,14 @@ impl Distribution {
     }
 }
 
-/// Which of values with these weights u falls to.
+/// The index of the value that u selects among values with these weights.
 pub fn level(weights: &[f64], u: f64) -> usize {
     let mut sum = 0.0;
     let found = weights.iter().position(|weight| {
         sum += weight;
         u < sum
     });
-    // weights that sum to a little less than 1
+    // if the weights sum to slightly less than 1
     found.unwrap_or(weights.len().saturating_sub(1))
 }
 
@@ -166,7 +166,7 @@ fn limited(x: f64, min: Option<f64>, max: Option<f64>) -> f64 {
 mod tests {
     use super::*;
 
-    /// Mean and variance of a distribution from its quantiles at the middles of n parts: the midpoint rule.
+    /// Mean and variance of a distribution from its quantiles at the midpoints of n parts: the midpoint rule.
     fn moments(of: &Distribution) -> [f64; 2] {
         let n = 200_000;
         let values = || (0..n).map(|k| of.quantile((f64::from(k) + 0.5) / f64::from(n)));
@@ -177,7 +177,7 @@ mod tests {
 
     fn assert_moments(of: Distribution, mean: f64, variance: f64) {
         let found = moments(&of);
-        // what the midpoint rule leaves out of a Gaussian tail, beyond u = 1/2n: below 1e-3 of a variance
+        // the midpoint rule neglects the part of a Gaussian tail beyond u = 1/2n: less than 1e-3 of a variance
         assert!(
             (found[0] - mean).abs() < 1e-4 * (1.0 + mean.abs()),
             "{of:?}: mean {found:?}"
@@ -236,7 +236,7 @@ mod tests {
 
     #[test]
     fn a_half_normal_has_its_closed_moments() {
-        // cut off at the mean: mean √(2/π), variance 1 − 2/π
+        // truncated at the mean: mean √(2/π), variance 1 − 2/π
         let half = Distribution::Normal {
             mean: 0.0,
             deviation: 1.0,

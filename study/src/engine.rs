@@ -1,40 +1,40 @@
-//! What runs: a model, whoever made it, behind two traits. The study knows no equations and no integrator.
+//! The engine behind two traits: a model, whoever made it. The study knows no equations and no integrator.
 
 use serde::Serialize;
 use std::sync::Arc;
 
-/// Something that runs rows, on as many threads as ask for a worker.
+/// Runs rows, on as many threads as ask for a worker.
 pub trait Engine: Sync {
     /// A worker for one thread.
     ///
     /// # Errors
-    /// What keeps it from working.
+    /// The engine cannot work.
     fn worker(&self) -> Result<Box<dyn Worker + '_>, EngineError>;
 
-    /// Rows that a worker should be given at once to be fast, where it can have so many: it gets whole blocks, at least one. With
-    /// more than one block, what becomes of a row must depend on that row alone.
+    /// The number of rows that a worker should get at once to be fast, if so many are available: it gets whole blocks, at least one. If it
+    /// gets more than one block, the result of a row must depend on that row alone.
     fn rows_at_once(&self) -> u64 {
         1
     }
 
-    /// Whether no further block of rows is to begin: somebody asked the program to end.
+    /// Whether no further block of rows should begin, because the user asked the program to end.
     fn stops(&self) -> bool {
         false
     }
 }
 
-/// Runs rows on one thread. What it answers depends on the rows it is given alone, in their order.
+/// Runs rows on one thread. Its results depend only on the given rows, in their order.
 pub trait Worker {
-    /// Runs rows: row-major, as many numbers each as parameters are varied, SI. One outcome per row is pushed, in their order.
+    /// Runs rows, given row-major in SI, with one number for each varied parameter. One outcome for each row is pushed, in their order.
     ///
     /// # Errors
-    /// What keeps all of them from running; a row that fails is an outcome.
+    /// No row can be run; a row that fails is an outcome.
     fn run(&mut self, rows: &[f64], outcomes: &mut Outcomes) -> Result<(), EngineError>;
 
-    /// Runs one row, for its time series of all outputs.
+    /// Runs one row and returns the time series of all outputs.
     ///
     /// # Errors
-    /// What keeps it from running.
+    /// The row cannot be run.
     fn series(&mut self, row: &[f64]) -> Result<Series, EngineError>;
 }
 
@@ -48,24 +48,24 @@ pub struct EngineError(pub String);
 #[serde(rename_all = "kebab-case")]
 #[repr(u8)]
 pub enum Status {
-    /// As asked for.
+    /// The run ended as requested.
     Done = 0,
     /// A number was no longer finite.
     NonFinite = 1,
-    /// The accuracy would have needed a step below what time can tell apart.
+    /// The accuracy would need steps that are too short for the resolution of time.
     StepTooSmall = 2,
-    /// It took more steps than are allowed.
+    /// The run took more steps than allowed.
     TooManySteps = 3,
-    /// To its end, but the numbers are not to be trusted.
+    /// The run reached its end, but its numbers cannot be trusted.
     Doubtful = 4,
-    /// The parameters make no sense to the model.
+    /// The model refuses the parameters.
     Refused = 5,
-    /// Computing it took too long. This alone may be otherwise on another machine: a study that goes on runs such a row again.
+    /// The computation took too long. Only this status may differ on another machine: a study that continues runs such a row again.
     Slow = 6,
 }
 
 impl Status {
-    /// All, in the order of their numbers.
+    /// All statuses, in the order of their numbers.
     pub const ALL: [Status; 7] = [
         Status::Done,
         Status::NonFinite,
@@ -76,7 +76,7 @@ impl Status {
         Status::Slow,
     ];
 
-    /// The word for it in tables.
+    /// Its word in tables.
     pub fn word(self) -> &'static str {
         match self {
             Status::Done => "done",
@@ -89,40 +89,40 @@ impl Status {
         }
     }
 
-    /// By its number.
+    /// The status with this number.
     pub fn of(number: u8) -> Option<Status> {
         Status::ALL.get(usize::from(number)).copied()
     }
 }
 
-/// How one run went.
+/// The outcome of one run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// How it ended.
     pub status: Status,
-    /// When it ended \[s\].
+    /// The time reached \[s\].
     pub reached: f64,
-    /// Steps it took.
+    /// Number of steps.
     pub steps: u32,
-    /// Estimated relative error of the responses, NaN where it is not known.
+    /// Estimated relative error of the responses, NaN if it is not known.
     pub error: f64,
 }
 
-/// How several runs went, with their responses.
+/// The outcomes of several runs, with their responses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcomes {
-    /// One per run.
+    /// One outcome for each run.
     pub runs: Vec<Outcome>,
-    /// Why each run has no result, or none to be trusted, in words; `None` where its status says all.
+    /// The reason why a run has no result or cannot be trusted, in words; `None` if its status says everything.
     pub reasons: Vec<Option<Arc<str>>>,
-    /// Row-major, `width` per run; NaN where there is none.
+    /// Row-major, `width` for each run; NaN if there is none.
     pub responses: Vec<f64>,
-    /// Responses per run.
+    /// Number of responses for each run.
     pub width: usize,
 }
 
 impl Outcomes {
-    /// None yet, of so many responses each.
+    /// An empty list for runs with this many responses each.
     pub fn new(width: usize) -> Outcomes {
         Outcomes {
             runs: Vec::new(),
@@ -132,12 +132,12 @@ impl Outcomes {
         }
     }
 
-    /// Adds a run. Of its responses, those beyond `width` are dropped and those missing are NaN.
+    /// Adds a run. Responses beyond `width` are dropped, and missing ones are NaN.
     pub fn push(&mut self, outcome: Outcome, responses: &[f64]) {
         self.push_because(outcome, responses, None);
     }
 
-    /// The same with the reason why it has no result, or none to be trusted.
+    /// The same with the reason why the run has no result or cannot be trusted.
     pub fn push_because(&mut self, outcome: Outcome, responses: &[f64], reason: Option<Arc<str>>) {
         self.runs.push(outcome);
         self.reasons.push(reason);
@@ -145,7 +145,7 @@ impl Outcomes {
         self.responses.extend(known.take(self.width));
     }
 
-    /// The first runs, which are no longer here then.
+    /// Removes the first runs and returns them.
     pub fn take(&mut self, count: usize) -> Outcomes {
         let count = count.min(self.runs.len());
         let runs = self.runs.split_off(count);
@@ -160,12 +160,12 @@ impl Outcomes {
         std::mem::replace(self, rest)
     }
 
-    /// The reason of a run, "" where there is none.
+    /// The reason of a run, "" if there is none.
     pub fn reason(&self, run: usize) -> &str {
         self.reasons[run].as_deref().unwrap_or_default()
     }
 
-    /// Whether computing one of them took too long.
+    /// Whether the computation of one of them took too long.
     pub fn any_slow(&self) -> bool {
         self.runs.iter().any(|run| run.status == Status::Slow)
     }
@@ -181,6 +181,6 @@ impl Outcomes {
 pub struct Series {
     /// \[s\]
     pub times: Vec<f64>,
-    /// One per output of the model, in its order, each with a value per time, SI.
+    /// One series for each output of the model, in its order, with a value for each time, SI.
     pub outputs: Vec<Vec<f64>>,
 }

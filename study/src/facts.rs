@@ -1,4 +1,4 @@
-//! What a study must know of a model: its parameters, its outputs, and how it runs where the study does not say.
+//! The facts that a study must know about a model: its parameters, its outputs, and the run settings that the study does not give.
 
 use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::model::scene::Scene;
@@ -6,45 +6,45 @@ use bryant_generator::model::{Dimension, Quantity};
 use bryant_runtime::response::filter::Standard;
 use serde::{Deserialize, Serialize};
 
-/// Samples between two rows of the model's own table, where nothing is said.
+/// By default, there are this many samples between two rows of the model's own table.
 const FINER: f64 = 20.0;
 
-/// Parameters and outputs of a model, in its order.
+/// Parameters and outputs of a model, in the model's order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ModelFacts {
-    /// What may be varied.
+    /// The parameters that may be varied.
     pub parameters: Vec<ParameterFact>,
-    /// What responses may be read off.
+    /// The outputs that responses may be read off.
     pub outputs: Vec<OutputFact>,
-    /// Parameters that are declared, but on which nothing depends, and why.
+    /// Declared parameters on which nothing depends, with the reason.
     #[serde(default)]
     pub unused: Vec<(String, String)>,
-    /// How it runs.
+    /// The settings of its runs.
     #[serde(default)]
     pub run: RunFact,
     /// Whether nothing moves along y.
     #[serde(default)]
     pub planar: bool,
-    /// By what its runs are judged.
+    /// The criteria that its runs are judged by.
     #[serde(default)]
     pub criteria: Option<CriteriaFact>,
 }
 
-/// By what the runs of a model are judged.
+/// The criteria that the runs of a model are judged by.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CriteriaFact {
     /// The regulation.
     pub standard: String,
     /// The dummy.
     pub dummy: String,
-    /// Whether filters are those of SAE J211-1, and not of ISO 6487.
+    /// Whether filters follow SAE J211-1 instead of ISO 6487.
     #[serde(default)]
     pub sae: bool,
-    /// Places of the dummy with the outputs that are there.
+    /// Places of the dummy with the outputs at them.
     pub places: Vec<(String, String)>,
 }
 
-/// How a model runs where a study does not say.
+/// The settings of a model's runs that a study does not give.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunFact {
     /// Length of a run \[s\].
@@ -53,7 +53,7 @@ pub struct RunFact {
     pub sampling: f64,
 }
 
-/// As if nothing were known: of results from before this was kept.
+/// The settings are unknown, in results that were made before they were kept.
 impl Default for RunFact {
     fn default() -> Self {
         RunFact {
@@ -70,7 +70,7 @@ pub struct ParameterFact {
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
-    /// Its value where nothing else is said, SI.
+    /// Its default value, SI.
     pub default: f64,
     /// Least value allowed, SI.
     pub min: Option<f64>,
@@ -85,19 +85,19 @@ pub struct OutputFact {
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
-    /// Channel code of ISO-MME.
+    /// Its channel code of ISO-MME.
     #[serde(default)]
     pub code: Option<String>,
-    /// The filter that it is shown with, by its name.
+    /// The filter with which it is shown, by its name.
     #[serde(default)]
     pub filter: Option<String>,
-    /// Of the kinematics of a body: whether it is the length of a vector, or one of its components.
+    /// For kinematics of a body: whether it is the length of a vector, or one of its components.
     #[serde(default)]
     pub resultant: Option<bool>,
 }
 
 impl CriteriaFact {
-    /// Whose coefficients filters have.
+    /// The standard whose coefficients the filters have.
     pub fn standard_of_filters(&self) -> Standard {
         match self.sae {
             true => Standard::SaeJ211,
@@ -107,7 +107,7 @@ impl CriteriaFact {
 }
 
 impl ModelFacts {
-    /// Of a model.
+    /// The facts about a model.
     pub fn of(scene: &Scene) -> ModelFacts {
         let model = &scene.model;
         let parameters = model.parameters.iter().map(|parameter| ParameterFact {
@@ -148,13 +148,13 @@ impl ModelFacts {
         }
     }
 
-    /// Why there is no parameter of this name to vary, and what to do.
+    /// The message for a parameter that cannot be varied, and what to do.
     pub fn no_parameter(&self, name: &str) -> (String, String) {
         if let Some((_, why)) = self.unused.iter().find(|(unused, _)| unused == name) {
             let message = format!("the parameter {} changes nothing: {why}", quoted(name));
             return (
                 message,
-                "leave it away; `bryant effects` lists what is out, and why".into(),
+                "leave it out; `bryant effects` lists what is out, and why".into(),
             );
         }
         let names = self.parameters.iter().map(|p| p.name.as_str());
@@ -194,7 +194,7 @@ impl ParameterFact {
         }
     }
 
-    /// Whether all of an interval is allowed.
+    /// Whether all values of an interval are allowed.
     pub fn allows(&self, [low, high]: [f64; 2]) -> bool {
         self.min.is_none_or(|min| low >= min) && self.max.is_none_or(|max| high <= max)
     }

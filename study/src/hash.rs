@@ -1,4 +1,4 @@
-//! Random numbers that depend on what they are for, not on when they are asked for: a hash of (seed, stream, index).
+//! Random numbers that depend on their purpose, not on the order of requests: a hash of (seed, stream, index).
 //!
 //! Each stream is a SplitMix64 generator that jumps to its index: mix(z₀ + index · γ), z₀ = mix(mix(seed + γ) ^ stream)
 //! \[Steele, Lea, Flood, OOPSLA 2014; the mix is Stafford's variant 13\].
@@ -17,12 +17,12 @@ pub fn uniform(seed: u64, stream: u64, index: u64) -> f64 {
     open_unit(bits(seed, stream, index))
 }
 
-/// Bits as the middle of one of 2⁵² equal parts of (0, 1): never 0, never 1.
+/// The middle of one of 2⁵² equal parts of (0, 1): never 0 and never 1.
 fn open_unit(bits: u64) -> f64 {
     ((bits >> 12) as f64 + 0.5) * (1.0 / (1u64 << 52) as f64)
 }
 
-/// A bijection of 64 bits that flips half of them where one changes.
+/// A bijection of 64 bits: changing one bit flips half of them on average.
 pub fn mix(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn streams_are_uniform_and_uncorrelated() {
-        // χ² of 64 bins has mean 63 and variance 126; a correlation of n pairs has deviation 1/√n
+        // χ² of 64 bins has the mean 63 and the variance 126; the correlation of n pairs has the standard deviation 1/√n
         let n = 1 << 16;
         for (stream, other) in [(0, 1), (1, 2), (7, 1 << 40)] {
             let mut bins = [0u32; 64];

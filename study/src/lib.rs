@@ -1,25 +1,25 @@
-//! Studies: many runs of one model. Which runs, where their results are kept, and what they say.
+//! Studies: many runs of one model. The crate decides which runs there are, keeps their results, and summarises them.
 //!
 //! ```text
 //! study file ─file→ Study ─design→ rows ─engine→ outcomes ─store→ blocks in a folder ─table→ Parquet, CSV
 //!                                                                                  └─summary→ numbers, indices, pictures
 //! ```
 //!
-//! This crate knows no model and no compiler: what runs is behind [`engine::Engine`]. A row's parameters are a function of the
-//! study and its index, a block's results of the study and the block's, so that any number of threads and processes fill one
-//! folder in any order, may be ended at any time, and the table has the same bytes.
+//! This crate knows no model and no compiler: [`engine::Engine`] hides them. A row's parameters depend only on the study and the row's
+//! index, and a block's results only on the study and the block's index. So any number of threads and processes can fill one folder in any
+//! order and may be ended at any time, and the table always has the same bytes.
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`mod@file`] | the YAML, checked against [`facts`] of a model |
-//! | [`study`], [`response`] | a study as checked; what is read off each run |
+//! | [`mod@file`] | the YAML file, checked against [`facts`] of a model |
+//! | [`study`], [`response`] | a checked study; the numbers that are read off each run |
 //! | [`criteria`] | injury criteria, and their limits by regulations |
-//! | [`design`], [`distribution`], [`normal`], [`hash`], [`digest`] | which values a row has |
-//! | [`engine`] | what runs |
-//! | [`run`], [`shard`], [`series`] | running what is missing |
+//! | [`design`], [`distribution`], [`normal`], [`hash`], [`digest`] | the values of a row |
+//! | [`engine`] | the traits of an engine that runs rows |
+//! | [`run`], [`shard`], [`series`] | runs the missing rows |
 //! | [`store`] | the folder of results |
-//! | [`results`], [`table`] | all results; tables of them |
-//! | [`summary`], [`picture`], [`report`] | what they say |
+//! | [`results`], [`table`] | all results; their tables |
+//! | [`summary`], [`picture`], [`report`] | summaries of the results |
 //! | [`quantity`] | numbers with units |
 
 pub mod criteria;

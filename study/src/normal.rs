@@ -3,12 +3,12 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Probability of a value below z.
+/// Probability of a value less than z.
 pub fn below(z: f64) -> f64 {
     0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }
 
-/// The value below which lies the probability p, 0 < p < 1; ∓∞ at the ends.
+/// The value z with the probability p of smaller values, 0 < p < 1; ∓∞ at the ends.
 pub fn quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
@@ -27,10 +27,10 @@ pub fn quantile(p: f64) -> f64 {
     z.copysign(q)
 }
 
-/// The value below which lies the share u of the probability between `low` and `high`; these may be infinite.
+/// The quantile u of the distribution truncated to the interval from `low` to `high`; both may be infinite.
 pub fn truncated(u: f64, low: f64, high: f64) -> f64 {
     let mass = between(low, high);
-    // Each half by its own tail, so that no digits are lost in either.
+    // each half uses its own tail, so that neither loses digits
     let below_it = below(low) + u * mass;
     let above_it = below(-high) + (1.0 - u) * mass;
     let z = if below_it < above_it {
@@ -41,7 +41,7 @@ pub fn truncated(u: f64, low: f64, high: f64) -> f64 {
     z.clamp(low, high)
 }
 
-/// Probability between two values, low < high.
+/// Probability of a value between two values, low < high.
 pub fn between(low: f64, high: f64) -> f64 {
     if low > 0.0 {
         below(-low) - below(-high)
@@ -50,7 +50,7 @@ pub fn between(low: f64, high: f64) -> f64 {
     }
 }
 
-/// Numerator and denominator, from the constant upwards.
+/// Coefficients of numerator and denominator, the constant first.
 type Rational = [[f64; 8]; 2];
 
 fn ratio(of: &Rational, x: f64) -> f64 {
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn quantiles_have_all_digits() {
-        // roots of log(Φ(z)/p) to 20 digits by mpmath 1.3, p the double next to what is written
+        // roots of log(Φ(z)/p) with 20 digits by mpmath 1.3; p is the double closest to the written number
         let table = [
             (1e-300, -37.047_096_299_361_2),
             (1e-20, -9.262_340_089_798_408),
@@ -147,7 +147,7 @@ mod tests {
             (0.999_999, 4.753_424_308_817_088),
         ];
         for (p, z) in table {
-            // p close to 1 is itself rounded: the table is of the double, so nothing is added for that
+            // p close to 1 is rounded itself: the table is for the rounded number, so this adds no error
             let error = (quantile(p) - z).abs();
             assert!(
                 error <= 1e-15 * z.abs(),
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn truncated_values_stay_between_their_ends_also_far_from_the_mean() {
+    fn truncated_values_stay_between_their_ends_in_far_tails() {
         for (low, high) in [(-1.0, 0.5), (8.0, 9.0), (-9.0, -8.0), (-1.0, f64::INFINITY)] {
             let mut last = low;
             for k in 0..1000 {
@@ -166,7 +166,7 @@ mod tests {
                 let z = truncated(u, low, high);
                 assert!(z >= last && z <= high, "{low} to {high}: {z}");
                 let share = between(low, z) / between(low, high);
-                // 1 − share in a tail of relative error ε·z²
+                // 1 − share in a tail has the relative error ε·z²
                 assert!(
                     (share - u).abs() < 1e-12,
                     "{low} to {high}: {share} is not {u}"

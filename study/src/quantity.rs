@@ -5,23 +5,23 @@
 use bryant_generator::description::expression::{Expression, Function, Kind, Operator, parse};
 use bryant_generator::description::unit::Dimension;
 
-/// A text that is no quantity of the unit wanted; the message holds a remedy.
+/// A text that is not a quantity with the requested unit; the message has a remedy.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct QuantityError(String);
 
-/// The value in SI units of a quantity whose SI unit is `unit`; any dimension is taken where `unit` is empty.
+/// The value in SI units of a quantity whose SI unit is `unit`; any dimension is accepted if `unit` is empty.
 ///
 /// # Errors
-/// No quantity, or one of another dimension.
+/// The text is not a quantity, or has another dimension.
 pub fn quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
     read(text, unit, dimension(unit))
 }
 
-/// The value in SI units of a quantity whose SI unit is `unit`, a pure number where `unit` is empty.
+/// The value in SI units of a quantity whose SI unit is `unit`; a pure number if `unit` is empty.
 ///
 /// # Errors
-/// No quantity, or one of another dimension.
+/// The text is not a quantity, or has another dimension.
 pub fn strict(text: &str, unit: &str) -> Result<f64, QuantityError> {
     let pure = unit.is_empty().then_some(Dimension::ONE);
     read(text, unit, pure.or_else(|| dimension(unit)))
@@ -67,7 +67,7 @@ pub fn any_time(text: &str) -> Result<f64, QuantityError> {
     quantity(text, "s")
 }
 
-/// A relative tolerance: a number without unit above 0 and below 1, where all of a value may be wrong.
+/// A relative tolerance: a number without unit above 0 and below 1; with 1, all of a value could be wrong.
 pub fn tolerance(text: &str) -> Result<f64, QuantityError> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
@@ -77,7 +77,7 @@ pub fn tolerance(text: &str) -> Result<f64, QuantityError> {
     }
 }
 
-/// A value; without dimension where it is a bare number, of which nobody knows what it measures.
+/// A value with its dimension, or a bare number, whose dimension is unknown.
 #[derive(Clone, Copy)]
 struct Value {
     number: f64,
@@ -95,7 +95,7 @@ fn named(dimension: Dimension) -> String {
     }
 }
 
-/// Dimension of an SI unit as a model writes it ("N*s/m"), `None` where it is empty or unknown.
+/// Dimension of an SI unit as a model writes it ("N*s/m"); `None` if it is empty or unknown.
 pub fn dimension(unit: &str) -> Option<Dimension> {
     let expression = parse(&format!("1 {unit}")).ok()?;
     evaluate(&expression).ok()?.dimension

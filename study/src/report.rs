@@ -1,4 +1,4 @@
-//! What is written about a study that is complete: `summary.json`, `summary.txt`, and the pictures `scatter`, `tornado`, as SVG or PNG.
+//! The report of a complete study: `summary.json`, `summary.txt`, and the pictures `scatter` and `tornado` as SVG or PNG.
 
 use crate::picture::{scatter, tornado};
 use crate::results::{Results, ResultsError};
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// Why there is no report.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// The results are not complete or not sound.
+    /// The results are incomplete or damaged.
     #[error(transparent)]
     Results(#[from] ResultsError),
     /// A file cannot be written.
@@ -24,10 +24,10 @@ pub enum ReportError {
     Json(#[from] serde_json::Error),
 }
 
-/// Writes the report into the folder of the results; the files written.
+/// Writes the report into the folder of the results; returns the files.
 ///
 /// # Errors
-/// A block cannot be read, a file not be written, a picture not be drawn.
+/// A block cannot be read, a file cannot be written, or a picture cannot be drawn.
 pub fn report(
     results: &Results<'_>,
     pictures: Format,

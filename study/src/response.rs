@@ -1,5 +1,5 @@
-//! Responses: one number per run, read off the time series of an output. Here is what they are called and measured in; how
-//! they are computed is the engine's.
+//! Responses: one number for each run, read off the time series of an output. This file has their names and units; the engine computes
+//! them.
 
 use crate::quantity::dimension;
 use bryant_generator::description::unit::Dimension;
@@ -7,28 +7,28 @@ use bryant_runtime::response::Channel;
 use bryant_runtime::response::filter::Filter;
 use serde::Serialize;
 
-/// Raised whenever what a response is computed as changes beyond rounding, or what it is computed from: results of both kinds are
-/// then never mixed. 2: clips are those of the line through the samples.
+/// Is raised whenever the computation of a response changes by more than rounding, or its input changes: results of both versions are then
+/// never mixed. 2: clips are those of the line through the samples.
 pub const REVISION: u32 = 2;
 
 /// A number read off each run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Response {
-    /// Heading of its column, unique.
+    /// Heading of its column; no other response has it.
     pub name: String,
-    /// What it is read off: outputs of the model, by their indices.
+    /// The channel that it is read off: outputs of the model, by their indices.
     #[serde(rename = "output", serialize_with = "as_text")]
     pub channel: Channel,
     /// Names of the outputs.
     pub of: String,
-    /// What is read off.
+    /// The kind of response.
     pub what: What,
-    /// SI unit of the number, "" for a pure one.
+    /// SI unit of the number, "" if it has no unit.
     pub unit: String,
 }
 
 impl Response {
-    /// The time between samples that its filter needs at most \[s\], where it has one.
+    /// The longest time between samples that its filter allows \[s\], if it has a filter.
     pub fn longest_interval(&self) -> Option<f64> {
         self.channel
             .filter
@@ -36,7 +36,7 @@ impl Response {
     }
 }
 
-/// An output as it is by its number, a channel of others by all that it is.
+/// An output without changes is stored as its index, other channels with all their parts.
 fn as_text<S: serde::Serializer>(channel: &Channel, to: S) -> Result<S::Ok, S::Error> {
     match channel.plain() {
         Some(output) => to.serialize_u64(output as u64),
@@ -44,14 +44,14 @@ fn as_text<S: serde::Serializer>(channel: &Channel, to: S) -> Result<S::Ok, S::E
     }
 }
 
-/// The channel of an output, filtered where the filter of a name is given.
+/// The channel of an output, filtered if the name of a filter is given.
 pub fn channel_of(output: usize, filter: Option<&str>) -> Channel {
     let mut channel = Channel::output(output);
     channel.filter = filter.and_then(Filter::named);
     channel
 }
 
-/// What is read off a series x(t), t from 0 to the end T.
+/// The number that is read off a series x(t), with t from 0 to the end T.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum What {
@@ -61,9 +61,9 @@ pub enum What {
     Minimum,
     /// max |x|
     Magnitude,
-    /// When x is largest \[s\].
+    /// Time of the largest x \[s\].
     TimeOfPeak,
-    /// When x is least \[s\].
+    /// Time of the least x \[s\].
     TimeOfMinimum,
     /// max x − min x
     Range,
@@ -80,7 +80,7 @@ pub enum What {
     Hic15,
     /// Head injury criterion over at most 36 ms.
     Hic36,
-    /// The largest value that x exceeds for this long, all parts together, as in FMVSS 208.
+    /// The largest value that x exceeds for this total time, in one or several parts, as in FMVSS 208.
     Clip {
         /// \[s\]
         duration: f64,
@@ -94,11 +94,11 @@ pub enum What {
     Excursion,
     /// ∫ x dt
     Integral,
-    /// The occupant load criterion of the pulse of a vehicle.
+    /// The occupant load criterion of a vehicle's pulse.
     Olc,
 }
 
-/// Every kind by the name that a study gives it; times of those that need one are filled in later.
+/// All kinds with the names that a study uses; times are filled in later.
 pub const NAMES: [(&str, What); 16] = [
     ("peak", What::Peak),
     ("minimum", What::Minimum),
@@ -119,7 +119,7 @@ pub const NAMES: [(&str, What); 16] = [
 ];
 
 impl What {
-    /// The kind by its name, with its time still 0.
+    /// The kind with this name; its time is still 0.
     pub fn named(name: &str) -> Option<What> {
         NAMES
             .iter()
@@ -127,12 +127,12 @@ impl What {
             .map(|(_, what)| *what)
     }
 
-    /// Whether it is of accelerations alone.
+    /// Whether it needs an acceleration.
     pub fn is_injury_criterion(self) -> bool {
         matches!(self, What::Hic15 | What::Hic36 | What::Olc)
     }
 
-    /// The window that it looks at \[s\], where it does.
+    /// The length of its window \[s\], if it has one.
     pub fn window(self) -> Option<f64> {
         match self {
             What::Hic15 => Some(15e-3),
@@ -142,7 +142,7 @@ impl What {
         }
     }
 
-    /// Its unit, of an output in `unit`.
+    /// Its unit for an output in `unit`.
     pub fn unit(self, unit: &str) -> String {
         match self {
             What::TimeOfPeak | What::TimeOfMinimum => "s".into(),

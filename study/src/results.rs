@@ -1,4 +1,4 @@
-//! The results of a whole study, block after block: parameters drawn again, outcomes read from the folder.
+//! The results of a whole study, block by block: the parameters are drawn again, the outcomes are read from the folder.
 
 use crate::design::{Sampler, TooManyParameters};
 use crate::engine::Outcomes;
@@ -9,26 +9,26 @@ use crate::store::{Folder, FolderError};
 use crate::study::Study;
 use std::fmt::Write as _;
 
-/// Ranges of blocks that a message names.
+/// Largest number of ranges of blocks in a message.
 const RANGES: usize = 20;
 
-/// A block of rows with all that is known of them.
+/// A block of rows with all their data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Batch {
     /// Index of the first row.
     pub first: u64,
-    /// Parameters varied, row-major, SI.
+    /// Varied parameters, row-major, SI.
     pub values: Vec<f64>,
-    /// How the rows went.
+    /// The outcomes of the rows.
     pub outcomes: Outcomes,
 }
 
-/// Results that are complete.
+/// The results of a complete study.
 #[derive(Debug)]
 pub struct Results<'a> {
     /// The study.
     pub study: &'a Study,
-    /// Where they are.
+    /// The folder with the results.
     pub folder: &'a Folder,
     /// Draws parameters.
     pub sampler: Sampler<'a>,
@@ -37,30 +37,30 @@ pub struct Results<'a> {
 /// Why there are no results.
 #[derive(Debug, thiserror::Error)]
 pub enum ResultsError {
-    /// Blocks are not there.
+    /// Blocks are missing.
     #[error(
         "{missing} of {count} blocks are missing: {blocks}{shards}\n  help: run what is missing (the same command goes on), then merge again"
     )]
     Missing {
-        /// How many.
+        /// Number of missing blocks.
         missing: usize,
-        /// Blocks in all.
+        /// Number of all blocks.
         count: u64,
-        /// Which.
+        /// The missing blocks.
         blocks: String,
-        /// The shards that they belong to, where it is known how many there are.
+        /// The shards of these blocks, if the number of shards is known.
         shards: String,
     },
-    /// Blocks are not sound.
+    /// Blocks are damaged.
     #[error("{}\n  help: run the study again on this folder; damaged blocks are run anew", list(.0))]
     Damaged(
-        /// Which, and why.
+        /// The blocks, and what is wrong with them.
         Vec<(u64, PartError)>,
     ),
-    /// The folder.
+    /// An error of the folder.
     #[error(transparent)]
     Folder(#[from] FolderError),
-    /// The design.
+    /// An error of the design.
     #[error(transparent)]
     Design(#[from] TooManyParameters),
 }
@@ -74,7 +74,7 @@ fn list(damaged: &[(u64, PartError)]) -> String {
 }
 
 impl<'a> Results<'a> {
-    /// The results, if all blocks are there. `shards` is how many the study was run in, where that is known.
+    /// The results, if all blocks exist. `shards` is the number of shards of the study, if it is known.
     ///
     /// # Errors
     /// Blocks are missing.
@@ -107,12 +107,12 @@ impl<'a> Results<'a> {
         })
     }
 
-    /// Blocks there are.
+    /// Number of blocks.
     pub fn count(&self) -> u64 {
         self.folder.blocks().count()
     }
 
-    /// The error of a block that is not sound, with those after it that are not, either.
+    /// The error for a damaged block and all damaged blocks after it.
     fn damaged_since(&self, block: u64, error: PartError) -> Result<ResultsError, ResultsError> {
         let mut damaged = vec![(block, error)];
         for block in block + 1..self.count() {
@@ -126,7 +126,7 @@ impl<'a> Results<'a> {
     /// One block.
     ///
     /// # Errors
-    /// It is damaged, and so may be others after it, which the error names, too; or it is gone.
+    /// The block is damaged (the error names all damaged blocks after it, too), or it is gone.
     pub fn batch(&self, block: u64) -> Result<Batch, ResultsError> {
         let rows = self.folder.blocks().rows(block);
         let outcomes = match self.folder.read(block)? {
@@ -159,7 +159,7 @@ impl<'a> Results<'a> {
     }
 }
 
-/// Increasing numbers in short: "0–3, 7, 9–12".
+/// Increasing numbers in short form: "0–3, 7, 9–12".
 fn ranges(numbers: impl Iterator<Item = u64>) -> String {
     let mut found: Vec<(u64, u64)> = Vec::new();
     for number in numbers {

@@ -1,4 +1,4 @@
-//! Runs what is missing of a study: threads take blocks from a shared counter; each block is a function of its index alone.
+//! Runs the missing rows of a study: threads take blocks from a shared counter; each block depends on its index only.
 
 use crate::design::{Sampler, TooManyParameters};
 use crate::engine::{Engine, EngineError, Outcomes};
@@ -14,21 +14,21 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// How far it is.
+/// The progress.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Progress {
-    /// Rows of this shard.
+    /// Rows of this shard are done.
     Rows {
-        /// In the folder, those found there included.
+        /// Rows in the folder, including those that were there at the beginning.
         done: u64,
-        /// Found there when it began.
+        /// Rows that were there at the beginning.
         found: u64,
-        /// In all.
+        /// Rows of the shard.
         total: u64,
-        /// Since the search for blocks ended.
+        /// Time since the search for blocks ended.
         elapsed: Duration,
     },
-    /// A block that is there is not sound and is run again.
+    /// A block in the folder is damaged and is run again.
     Damaged {
         /// The file.
         path: PathBuf,
@@ -37,41 +37,41 @@ pub enum Progress {
     },
 }
 
-/// What was done.
+/// The work that was done.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Report {
     /// Rows of this shard.
     pub rows: u64,
-    /// Of those, found in the folder.
+    /// Rows of these that were found in the folder.
     pub found: u64,
-    /// Blocks that were there but not sound.
+    /// Damaged blocks that were found.
     pub damaged: Vec<PathBuf>,
-    /// Time series written.
+    /// Number of time series written.
     pub series: u64,
 }
 
-/// Why it ended early. What is stored stays.
+/// Why the work ended early. Stored results stay.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// The folder.
+    /// An error of the folder.
     #[error(transparent)]
     Folder(#[from] FolderError),
     /// A file cannot be written: the disk is full, or gone.
     #[error("{error}\n  {done} of {total} rows are stored\n  help: {} the same command goes on from there", .error.remedy())]
     Write {
-        /// Which and why.
+        /// The file and the reason.
         error: WriteError,
         /// Rows stored, of this shard.
         done: u64,
         /// Rows of this shard.
         total: u64,
     },
-    /// The engine.
+    /// An error of the engine.
     #[error(
         "{error}\n  {done} of {total} rows are stored\n  help: when its cause is gone, the same command goes on from there"
     )]
     Engine {
-        /// Why.
+        /// The error.
         error: EngineError,
         /// Rows stored, of this shard.
         done: u64,
@@ -86,15 +86,15 @@ pub enum RunError {
         /// Rows of this shard.
         total: u64,
     },
-    /// The design.
+    /// An error of the design.
     #[error(transparent)]
     Design(#[from] TooManyParameters),
 }
 
-/// Runs the blocks of a shard that the folder does not have, on so many threads.
+/// Runs the blocks of a shard that are missing in the folder, on this many threads.
 ///
 /// # Errors
-/// The folder cannot be written, the engine cannot work; what is done is kept.
+/// The folder cannot be written, or the engine cannot work; finished blocks are kept.
 pub fn run(
     study: &Study,
     engine: &dyn Engine,
@@ -179,7 +179,7 @@ struct Search {
     report: Report,
 }
 
-/// Which blocks are to be run: every one that is there is read, and its digest compared.
+/// The blocks that are to be run. Every existing block is read, and its digest is compared.
 fn search(
     folder: &Folder,
     shard: Shard,
@@ -193,7 +193,7 @@ fn search(
         let mut missing = Vec::new();
         while let Some(&block) = mine.get(next.fetch_add(1, Ordering::Relaxed)) {
             match folder.read(block)? {
-                // with more time they may come to their ends
+                // with more time these rows may reach their ends
                 Found::Good(outcomes) if outcomes.any_slow() => missing.push((block, None)),
                 Found::Good(_) => {}
                 Found::Missing => missing.push((block, None)),
@@ -258,7 +258,7 @@ struct Shared {
 }
 
 impl State<'_> {
-    /// One thread: blocks until there are no more, or one of the threads has failed.
+    /// The work of one thread: runs blocks until none are left, or one of the threads has failed.
     fn work(&self, tell: &dyn Fn(u64)) {
         let result = self.blocks(tell);
         if let Err(error) = result {
@@ -273,7 +273,7 @@ impl State<'_> {
         let mut values = Vec::new();
         let (d, width) = (self.study.varied.len(), self.study.responses.len());
         let blocks = self.folder.blocks();
-        // as many blocks as make the rows that the engine wants at once
+        // as many blocks as make the number of rows that the engine wants at once
         let taken = self.engine.rows_at_once().div_ceil(blocks.size).max(1) as usize;
         while !self.stop.load(Ordering::Relaxed) && !self.engine.stops() {
             let first = self
@@ -305,7 +305,7 @@ impl State<'_> {
                 self.folder.write(*block, &outcomes)?;
                 let mut shared = self.lock();
                 shared.done += count;
-                // under the lock, so that what is told only grows
+                // under the lock, so that reported numbers only grow
                 tell(shared.done);
             }
         }

@@ -1,4 +1,4 @@
-//! Time series of the runs that are kept: `series/run-00000017.csv`, a column per output.
+//! Time series of the runs that are kept: `series/run-00000017.csv`, a column for each output.
 
 use crate::design::Sampler;
 use crate::engine::{Engine, EngineError, Series};
@@ -12,7 +12,7 @@ use bryant_generator::description::load::open_file;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Writes the series of a shard that are not there; how many were written.
+/// Writes the missing series of a shard; returns how many were written.
 pub(crate) fn write(
     study: &Study,
     sampler: &Sampler<'_>,
@@ -60,7 +60,7 @@ pub(crate) fn write(
     Ok(written)
 }
 
-/// The file of a run's series.
+/// The file with the series of a run.
 pub fn path(folder: &Path, row: u64) -> PathBuf {
     folder.join("series").join(format!("run-{row:08}.csv"))
 }
@@ -93,7 +93,7 @@ fn columns<'a>(study: &Study, series: &'a Series) -> Result<Vec<&'a [f64]>, Engi
         .collect()
 }
 
-/// Whether the file is there with these columns; it is whole if it is there, but other outputs may be asked for now.
+/// Whether the file exists with these columns; an existing file is complete, but other outputs may be requested now.
 fn is_whole(path: &Path, headings: &[String]) -> bool {
     let mut expected = Vec::new();
     let (Ok(file), Ok(())) = (open_file(path), record(&mut expected, headings)) else {

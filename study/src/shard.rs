@@ -1,4 +1,4 @@
-//! Shards of a study: shard i of n has the blocks b ≡ i (mod n). Which shard runs where and when does not matter.
+//! Shards of a study: shard i of n has the blocks b ≡ i (mod n). It does not matter where and when a shard runs.
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,7 +10,7 @@ pub struct Shard {
     count: u64,
 }
 
-/// Not a shard.
+/// The index is not less than the count.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{0} is not a shard\n  help: write INDEX/COUNT with an index from 0 and less than the count, such as 0/4"
@@ -18,7 +18,7 @@ pub struct Shard {
 pub struct ShardError(String);
 
 impl Shard {
-    /// All of it.
+    /// The whole study as one shard.
     pub const WHOLE: Shard = Shard { index: 0, count: 1 };
 
     /// Shard `index` of `count`, counted from 0.
@@ -34,13 +34,13 @@ impl Shard {
         }
     }
 
-    /// Its blocks of so many.
+    /// The blocks of this shard, of `count` blocks in all.
     pub fn blocks(self, count: u64) -> impl Iterator<Item = u64> {
         let step = usize::try_from(self.count).unwrap_or(usize::MAX);
         (self.index..count).step_by(step)
     }
 
-    /// Whether a block is its.
+    /// Whether a block belongs to this shard.
     pub fn has(self, block: u64) -> bool {
         block % self.count == self.index
     }

@@ -1,4 +1,4 @@
-//! A study, checked: every number in SI units, every name one of the model's.
+//! A checked study: every number is in SI units, and every name belongs to the model.
 
 use crate::distribution::Distribution;
 use crate::facts::ModelFacts;
@@ -7,10 +7,10 @@ use bryant_runtime::response::filter::{Class, Filter};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-/// Rows that a study may have.
+/// Largest number of rows of a study.
 pub const MOST_ROWS: u64 = 1_000_000_000;
 
-/// Columns of the table beside parameters and responses, none of which has such a name.
+/// Columns of the table besides parameters and responses; no parameter or response may have these names.
 pub const OWN_COLUMNS: [&str; 6] = [
     "run",
     "status",
@@ -20,28 +20,28 @@ pub const OWN_COLUMNS: [&str; 6] = [
     "reason",
 ];
 
-/// What runs, and what is asked of it. What of it decides about results is its identity (see `store`).
+/// The runs of a study, and the responses that are read off them. `store` says which parts decide about the results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Study {
-    /// The model as the file names it: a bundled one, or a path relative to the file.
+    /// The model as the file names it: a bundled model, or a path relative to the file.
     #[serde(skip)]
     pub model: String,
-    /// Runs, at least 1.
+    /// Number of runs, at least 1.
     pub rows: u64,
     /// The parameters that differ between runs, in the order of the file.
     pub varied: Vec<Varied>,
-    /// Parameters that have another value than the model's in all runs.
+    /// Parameters that have the same value in all runs, which is not that of the model.
     pub fixed: Vec<Fixed>,
-    /// Which values.
+    /// The plan of the values.
     pub plan: Plan,
-    /// How a row is run.
+    /// The settings of the run of a row.
     pub run: RunSettings,
-    /// What is read off each run, at least one.
+    /// The responses that are read off each run, at least one.
     pub responses: Vec<Response>,
     /// Runs whose time series are kept.
     #[serde(skip)]
     pub keep: Keep,
-    /// Tables that are written.
+    /// Formats of the tables that are written.
     #[serde(skip)]
     pub tables: Vec<TableKind>,
 }
@@ -64,21 +64,21 @@ pub struct Fixed {
     pub value: f64,
 }
 
-/// How the values of all rows come about.
+/// The plan of the values of all rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Plan {
-    /// All combinations of these values, per parameter; the last parameter changes fastest.
+    /// All combinations of these values; the last parameter changes fastest.
     Grid(Vec<Levels>),
-    /// As written.
+    /// Rows from a list.
     List(Listed),
-    /// By chance.
+    /// Random rows.
     Random {
-        /// How points are spread.
+        /// The way in which points are spread.
         design: RandomDesign,
-        /// Decides about all that is random.
+        /// The seed of all random numbers.
         seed: u64,
-        /// Per parameter.
+        /// One distribution for each parameter.
         distributions: Vec<Distribution>,
     },
 }
@@ -93,15 +93,15 @@ pub enum Levels {
         from: f64,
         /// Last value.
         to: f64,
-        /// Values, both ends included, at least 2.
+        /// Number of values, both ends included, at least 2.
         count: u64,
     },
-    /// As written.
+    /// Values from a list.
     Values(Vec<f64>),
 }
 
 impl Levels {
-    /// Values there are.
+    /// Number of values.
     pub fn count(&self) -> u64 {
         match self {
             Levels::Steps { count, .. } => *count,
@@ -109,11 +109,11 @@ impl Levels {
         }
     }
 
-    /// Value `k`, from 0.
+    /// Value `k`, counted from 0.
     pub fn value(&self, k: u64) -> f64 {
         match self {
             Levels::Steps { from, to, count } => {
-                // the weighted mean meets both ends
+                // the weighted mean meets both ends exactly
                 let part = k as f64 / (count - 1) as f64;
                 from * (1.0 - part) + to * part
             }
@@ -136,11 +136,11 @@ pub enum RandomDesign {
     Saltelli,
 }
 
-/// Rows that were written down: row-major, SI.
+/// Rows from a list: row-major, SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Listed(pub Vec<f64>);
 
-/// By their digest: a list may be long.
+/// Stored by their digest, because a list may be long.
 impl Serialize for Listed {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut digest = Sha256::new();
@@ -151,27 +151,27 @@ impl Serialize for Listed {
     }
 }
 
-/// Settings of each run; what is not given, the model decides.
+/// Settings of each run; the model decides about settings that are not given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct RunSettings {
     /// \[s\]
     pub duration: Option<f64>,
-    /// Error of the responses that is aimed at, relative.
+    /// Relative error of the responses that is aimed at.
     pub accuracy: Option<f64>,
     /// Time between the samples that responses are read off \[s\].
     pub sampling: Option<f64>,
-    /// Fixed steps, in place of steps that follow from the accuracy.
+    /// Fixed steps, instead of steps that follow from the accuracy.
     pub step: Option<FixedSteps>,
-    /// Share of energy and of momentum that may be missing in fixed steps; the usual one where nothing is said.
+    /// Share of energy and of momentum that may be missing in runs with fixed steps; `None` for the default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_limit: Option<f64>,
-    /// What numbers are computed with.
+    /// The precision of the numbers.
     #[serde(skip_serializing_if = "Precision::is_double")]
     pub precision: Precision,
 }
 
 impl Study {
-    /// The time between the samples that responses are read off \[s\]: as the study says, or what the model and the filters need.
+    /// The time between the samples of responses \[s\]: as the study says, or what the model and the filters need.
     pub fn sampling(&self, facts: &ModelFacts) -> f64 {
         let needed = crate::file::sampling(&self.run, facts, &self.responses);
         let kept = self.kept_filters(facts).map(Class::longest_interval);
@@ -189,7 +189,7 @@ impl Study {
 }
 
 impl RunSettings {
-    /// The accuracy that steps follow from: 0.1 % where nothing is said.
+    /// The accuracy that determines the steps: 0.1 % by default.
     pub fn accuracy(&self) -> f64 {
         self.accuracy.unwrap_or(1e-3)
     }
@@ -198,9 +198,9 @@ impl RunSettings {
 /// Steps of one length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FixedSteps {
-    /// At most so long \[s\].
+    /// Largest length \[s\].
     pub length: f64,
-    /// By which method.
+    /// The method.
     pub method: Method,
 }
 
@@ -234,19 +234,19 @@ impl Method {
     }
 }
 
-/// What numbers are computed with.
+/// The precision of the numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Precision {
-    /// Doubles, of 53 bits.
+    /// Double precision, 53 bits.
     #[default]
     Double,
-    /// Singles, of 24 bits, and twice as many side by side.
+    /// Single precision, 24 bits; twice as many numbers fit side by side.
     Single,
 }
 
 impl Precision {
-    // as serde asks
+    // serde requires this signature
     #[expect(
         clippy::trivially_copy_pass_by_ref,
         reason = "serde hands out references"
@@ -261,7 +261,7 @@ impl Precision {
 pub struct Keep {
     /// These, in increasing order.
     pub runs: Vec<u64>,
-    /// And runs 0, n, 2 n, ….
+    /// Also the runs 0, n, 2 n, ….
     pub every: Option<u64>,
     /// The outputs that are kept.
     pub outputs: Vec<KeptOutput>,

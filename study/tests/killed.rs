@@ -1,7 +1,7 @@
-//! A study that is killed again and again, at random times, and then finished: no row is lost, none is there twice, and the
-//! table has the bytes of one that was never interrupted.
+//! A study that is killed again and again at random times and then finished: no row is lost, none is there twice, and the table has the
+//! same bytes as without interruption.
 //!
-//! The program is its own child: with a folder in its environment it runs the study there, slowly.
+//! The program is its own child process: if a folder is in its environment, it runs the study there, slowly.
 
 mod common;
 
@@ -17,12 +17,12 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-/// Names the folder to the child.
+/// The environment variable with the folder for the child process.
 const FOLDER: &str = "BRYANT_STUDY_KILLED_FOLDER";
-/// How often it is killed at least.
+/// Least number of kills.
 const KILLS: usize = 24;
 
-/// A formula that takes its time.
+/// A slow formula.
 struct Slow;
 
 impl Engine for Slow {
@@ -75,7 +75,7 @@ fn killed_studies_lose_nothing(study: &Study) {
             .env(FOLDER, folder.path())
             .spawn()
             .unwrap();
-        // Every other one is killed while it begins, the others when they have stored something and go on.
+        // every other one is killed while it begins, the others after they have stored something
         let before = blocks(folder.path());
         let deadline = Instant::now() + Duration::from_secs(20);
         while attempt % 2 == 1 && blocks(folder.path()) == before && Instant::now() < deadline {
@@ -120,7 +120,7 @@ fn killed_studies_lose_nothing(study: &Study) {
     );
 }
 
-/// Blocks that are stored.
+/// Number of stored blocks.
 fn blocks(folder: &Path) -> usize {
     let Ok(entries) = std::fs::read_dir(folder.join("blocks")) else {
         return 0;
@@ -131,7 +131,7 @@ fn blocks(folder: &Path) -> usize {
     stored.count()
 }
 
-/// Both tables, with each row in its place.
+/// Both tables; each row must be in its place.
 fn tables(study: &Study, path: &Path) -> [Vec<u8>; 2] {
     let folder = open(path, study);
     let files = merge(&Results::new(study, &folder, None).unwrap()).unwrap();

@@ -1,4 +1,4 @@
-//! The page on studies against the program.
+//! The documentation page on studies agrees with the program.
 
 use bryant_generator::model::scene;
 use bryant_study::engine::Status;

@@ -1,4 +1,4 @@
-//! Runs of whole studies: the same bytes however they are run, and what is said where they cannot be.
+//! Runs of whole studies: the same bytes however they are run, and messages if they cannot be run.
 
 mod common;
 #[path = "common/parquet.rs"]
@@ -23,7 +23,7 @@ fn run_quietly(study: &Study, folder: &Folder, shard: Shard, threads: usize) -> 
     run(study, &Closed(ishigami), folder, shard, threads, &|_| {}).unwrap()
 }
 
-/// Names and bytes of all files of a folder but the blocks, whose bytes the tables stand for.
+/// Names and bytes of all files of a folder except the blocks, whose content is in the tables.
 fn files(path: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     for directory in [path.to_owned(), path.join("series"), path.join("blocks")] {
@@ -58,7 +58,7 @@ fn any_number_of_threads_and_shards_gives_the_same_bytes() {
     let expected = merged(&study, whole.path());
     for (shards, threads) in [(1, 3), (1, 64), (2, 1), (5, 2), (1000, 1)] {
         let folder = tempfile::tempdir().unwrap();
-        // the last first, to show that their order is nothing
+        // the last shard first, because their order does not matter
         for index in (0..shards).rev() {
             let shard = Shard::new(index, shards).unwrap();
             run_quietly(&study, &open(folder.path(), &study), shard, threads);
@@ -136,7 +136,7 @@ fn parquet_and_csv_hold_the_same() {
             }
         }
     }
-    // A person who wants another reader to look at it: BRYANT_TABLES names a directory.
+    // To read the tables with another program, name a directory by BRYANT_TABLES.
     if let Some(directory) = std::env::var_os("BRYANT_TABLES") {
         for name in ["results.parquet", "results.csv"] {
             std::fs::copy(folder.path().join(name), Path::new(&directory).join(name)).unwrap();
@@ -273,7 +273,7 @@ fn a_folder_of_something_else_is_left_alone() {
     assert!(matches!(error, FolderError::Unreadable { .. }), "{error}");
 }
 
-/// Wants many rows at once.
+/// An engine that wants many rows at once.
 struct Wide(u64);
 
 impl Engine for Wide {
@@ -288,7 +288,7 @@ impl Engine for Wide {
 
 impl Worker for Wide {
     fn run(&mut self, rows: &[f64], outcomes: &mut Outcomes) -> Result<(), EngineError> {
-        // as many whole blocks of 16 rows as make what is wanted, or less where no more are left
+        // as many whole blocks of 16 rows as it wants, or less if no more are left
         let count = (rows.len() / common::PARAMETERS) as u64;
         assert!(count <= self.0.next_multiple_of(16), "{count}");
         Closed(ishigami).worker()?.run(rows, outcomes)
@@ -333,7 +333,7 @@ fn shards_open_one_folder_at_the_same_time() {
     assert!(merged(&study, &path) == merged(&study, whole.path()));
 }
 
-/// Takes the folder away, or stops working, after some rows.
+/// Removes the folder, or stops working, after some rows.
 struct Failing<'a> {
     folder: &'a Path,
     rows: Mutex<usize>,
@@ -378,7 +378,7 @@ fn what_is_done_stays_where_a_file_cannot_be_written() {
         removes: true,
     };
     let error = run(&study, &engine, &store, Shard::WHOLE, 1, &|_| {}).unwrap_err();
-    // blocks of 16 rows; the one in which the folder goes is not stored
+    // blocks of 16 rows; the block during which the folder disappears is not stored
     assert!(
         matches!(
             error,

@@ -1,4 +1,4 @@
-//! Summaries against closed forms.
+//! Summaries compared with closed forms.
 
 mod common;
 
@@ -13,7 +13,7 @@ use bryant_study::summary::{About, summarize};
 use common::{Closed, Formula, ishigami, open, study, with};
 use std::f64::consts::PI;
 
-/// What is said of both responses.
+/// The numbers about both responses.
 fn about(study: &Study, formula: Formula) -> Vec<About> {
     let directory = tempfile::tempdir().unwrap();
     let folder = open(directory.path(), study);
@@ -25,7 +25,7 @@ fn about(study: &Study, formula: Formula) -> Vec<About> {
 /// Main and total indices of each parameter.
 type Exact = [[f64; 2]; 3];
 
-/// Of sin a + 7 sin² b + c⁴ sin a / 10 \[Ishigami and Homma, 1990\].
+/// The indices of sin a + 7 sin² b + c⁴ sin a / 10 \[Ishigami and Homma, 1990\].
 fn exact_ishigami() -> Exact {
     let (a, b) = (7.0, 0.1);
     let first = 0.5 * (1.0 + b * PI.powi(4) / 5.0).powi(2);
@@ -38,7 +38,7 @@ fn exact_ishigami() -> Exact {
 /// Coefficients of the g-function.
 const G: [f64; 3] = [0.0, 1.0, 4.5];
 
-/// Sobol' g-function, Π (|4 u − 2| + a)/(1 + a), of u = (x + π)/2π; and a polynomial.
+/// Sobol's g-function, Π (|4 u − 2| + a)/(1 + a), with u = (x + π)/2π; and a polynomial.
 fn sobol_g(x: &[f64]) -> Vec<f64> {
     let u = x.iter().map(|x| (x + PI) / (2.0 * PI));
     let g = u
@@ -76,13 +76,13 @@ fn groups_find_the_indices_of_closed_forms() {
         );
         for (estimates, exact) in estimates(sensitivity).iter().zip(exact) {
             for (estimate, exact) in estimates.iter().zip(exact) {
-                // 95 % are 1.96 standard errors; Sobol' points are better than the chance that the interval is for
+                // 95 % are 1.96 standard errors; Sobol' points scatter less than the random points that the interval assumes
                 let error = (estimate.high - estimate.low) / (2.0 * 1.96);
                 assert!(
                     (estimate.value - exact).abs() < 4.0 * error,
                     "{estimate:?} is not {exact}"
                 );
-                // of N groups, a mean of products of fourth moments of some variances squared
+                // the mean over N groups of products, whose fourth moments are a few variances squared
                 assert!(
                     error > 0.0 && error < 3.0 / f64::sqrt(groups),
                     "{estimate:?}"
@@ -111,19 +111,19 @@ fn intervals_of_groups_hold_what_they_promise() {
             }
         }
     }
-    // a binomial share of 0.95, less five of its deviations
+    // a binomial share of 0.95, less five of its standard deviations
     let least = 0.95 - 5.0 * f64::sqrt(0.95 * 0.05 / all);
     assert!(inside / all > least, "{inside} of {all}");
 }
 
 #[test]
 fn groups_that_lost_a_run_are_left_out() {
-    // the second response is missing where a > 3
+    // the second response is missing for a > 3
     let found = about(&study("design: saltelli\nruns: 5120\nseed: 3"), ishigami);
     let Method::Groups { groups } = found[1].sensitivity.as_ref().unwrap().method else {
         panic!("groups");
     };
-    // A or AB_a: a group is whole with the probability p², p = (3 + π)/2π
+    // A or AB_a: a group is complete with the probability p², p = (3 + π)/2π
     let p: f64 = (3.0 + PI) / (2.0 * PI);
     assert!(
         (groups as f64 - 1024.0 * p * p).abs() < 5.0 * (1024.0 * p * p * (1.0 - p * p)).sqrt(),
@@ -165,7 +165,7 @@ fn a_polynomial_is_found_to_rounding() {
 
 #[test]
 fn polynomials_of_normal_parameters_are_hermites() {
-    // a + b² with standard normal a, b: variances 1 and 2; exp(0.5 z) of a lognormal c is not asked for
+    // a + b² with standard normal a, b: variances 1 and 2; exp(0.5 z) of a lognormal c is not used
     let normal = "{ normal: { mean: 0, deviation: 1 } }";
     let parameters = format!(
         "{{ a: {normal}, b: {normal}, c: {{ lognormal: {{ median: 1, deviation: 0.5 }} }} }}"
@@ -189,8 +189,8 @@ fn polynomials_of_normal_parameters_are_hermites() {
     }
 }
 
-/// That main and total indices are these, to what normal equations of a few terms leave of rounding: terms have norms that are
-/// those of their weights within tenths, so that conditions are a few.
+/// Checks that main and total indices have these values, up to the rounding of normal equations with a few terms: the norms of terms are
+/// their weights within a few tenths, so that conditions are small.
 fn assert_exact(about: &About, exact: Exact, what: &str) {
     let sensitivity = about.sensitivity.as_ref().unwrap();
     let Method::Polynomial { explained, .. } = sensitivity.method else {
@@ -210,7 +210,7 @@ fn assert_exact(about: &About, exact: Exact, what: &str) {
 
 #[test]
 fn polynomials_of_values_have_the_indices_of_their_weights() {
-    // a has the variance 2/3 about 2, c 9/4 about 1/2, b one value
+    // a has the variance 2/3 about 2, c 9/4 about 1/2, b has one value
     let parameters =
         "{ a: { values: [1, 2, 3] }, b: { values: [4] }, c: { values: [0, 5], weights: [9, 1] } }";
     let formula: Formula = |x| vec![2.0 * (x[0] + x[2]), x[0] * x[1] * x[2]];
@@ -232,7 +232,7 @@ fn polynomials_of_values_have_the_indices_of_their_weights() {
 
 #[test]
 fn any_function_of_values_is_found() {
-    // 2 comes twice; three levels of weights 1/2, 3/8, 1/8, told apart by a jump, and b uniform of the variance π²/3
+    // 2 comes twice; three levels have the weights 1/2, 3/8, 1/8, and a jump separates them; b is uniform with the variance π²/3
     let parameters = "{ a: { values: [2, 1, 2, 1e6], weights: [1, 4, 2, 1] }, b: { from: -pi, to: pi }, c: { values: [3, 3] } }";
     let formula: Formula = |x| {
         let f = if x[0] == 2.0 { 1.0 } else { 0.0 };
@@ -241,7 +241,7 @@ fn any_function_of_values_is_found() {
     let (p, b) = (0.375, PI * PI / 3.0);
     let f = p * (1.0 - p);
     let sum = [[f / (f + b); 2], [b / (f + b); 2], [0.0; 2]];
-    // V_b p² of b, V_b p (1 − p) of both
+    // V_b p² belongs to b, V_b p (1 − p) to both
     let product = [[0.0, 1.0 - p], [p, 1.0], [0.0; 2]];
     for design in ["monte carlo", "latin hypercube", "sobol"] {
         let head = format!("design: {design}\nruns: 1000");
@@ -253,12 +253,12 @@ fn any_function_of_values_is_found() {
 
 #[test]
 fn values_that_come_seldom_or_never_leave_the_other_indices() {
-    // 0 to about 8 runs of 1000 have a = 1, or c = 7
+    // between 0 and about 8 of 1000 runs have a = 1, or c = 7
     let rare = "weights: [997, 2, 1]";
     let parameters = format!(
         "{{ a: {{ values: [0, 1, 5], {rare} }}, b: {{ from: -pi, to: pi }}, c: {{ values: [3, 7, 1], {rare} }} }}"
     );
-    // b³ − b: all of it b's
+    // b³ − b depends on b only
     let formula: Formula = |x| vec![x[1].powi(3) - x[1], x[0] + x[1].sin() + x[2]];
     for seed in 0..8 {
         let head = format!("design: monte carlo\nruns: 1000\nseed: {seed}");
@@ -299,7 +299,7 @@ fn a_polynomial_errs_by_no_more_than_it_leaves_unexplained() {
 
 #[test]
 fn moments_are_those_of_the_closed_form() {
-    // Ishigami: mean 7/2; its variance by its parts
+    // Ishigami: mean 7/2; its variance is the sum of its parts
     let n = 8192.0;
     let found = about(&study("design: monte carlo\nruns: 8192\nseed: 8"), ishigami);
     let variance = 0.5 * (1.0 + 0.1 * PI.powi(4) / 5.0).powi(2)
@@ -310,7 +310,7 @@ fn moments_are_those_of_the_closed_form() {
         (about.mean - 3.5).abs() < 5.0 * (variance / n).sqrt(),
         "{about:?}"
     );
-    // the variance of a sample variance is about (κ − 1) V²/n, κ = 3.5 of this function
+    // the variance of a sample variance is about (κ − 1) V²/n, with κ = 3.5 for this function
     assert!(
         (about.deviation.powi(2) - variance).abs() < 5.0 * variance * (2.5 / n).sqrt(),
         "{about:?}"

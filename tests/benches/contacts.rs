@@ -1,4 +1,4 @@
-//! What the approach of two ellipsoids and a curve cost, over one double and over wide registers: nanoseconds a call.
+//! The cost of the approach of two ellipsoids and of a curve, over one double and over wide registers: nanoseconds for each call.
 //!
 //! `cargo bench -p bryant-tests --bench contacts`
 
@@ -8,11 +8,11 @@ use bryant_runtime::{Curve, Extrapolate, Real, Several, Task, Width};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Semi-axes of shank and bumper, of thigh and edge: by half-lengths \[m\].
+/// Two semi-axes of each shape \[m\]: shank and bumper, thigh and edge.
 const SHAPES: [[f64; 2]; 4] = [[0.055, 0.24], [0.1, 0.1], [0.08, 0.24], [0.12, 0.1]];
-/// Pairs that take turns, so that the processor learns none by heart.
+/// Number of pairs in turn, so that branch prediction cannot learn one pair.
 const PAIRS: usize = 64;
-/// Distances of the centres as parts of that at which bodies of this size touch.
+/// Distances of the centres, as shares of the distance at which bodies of this size touch.
 const PLACES: [(&str, f64); 4] = [
     ("far", 1.8),
     ("near", 1.05),
@@ -20,7 +20,7 @@ const PLACES: [(&str, f64); 4] = [
     ("deep", 0.75),
 ];
 
-/// Arguments of a call in the plane: two shapes that are turned, and where they are.
+/// Arguments of a call in the plane: two rotated shapes and their positions.
 fn arguments(pair: usize, share: f64) -> [f64; 8] {
     let turned = |[a, b]: [f64; 2], angle: f64| {
         let (s, c) = angle.sin_cos();
@@ -88,7 +88,7 @@ impl<T: Real> Task for All<'_, T> {
     }
 }
 
-/// The same in a function of its own.
+/// The same in a separate function.
 #[inline(never)]
 fn all<T: Real>(calls: &[[T; 8]], what: What) -> T {
     T::enable(All(calls, what))
@@ -117,7 +117,7 @@ impl OfAnyWidth for OfWidth<'_> {
     }
 }
 
-/// The median time of a call of `work` in 50 batches [ns], printed.
+/// Prints the median time of a call of `work` in 50 batches \[ns\].
 fn report<T>(name: &str, mut work: impl FnMut() -> T) {
     const BATCH: u32 = 100;
     let mut times: Vec<f64> = (0..50)

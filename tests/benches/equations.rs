@@ -1,20 +1,20 @@
-//! Time of deriving and of evaluating, with operation counts beside it. `cargo bench` measures; `cargo test --bench equations`
-//! does each once, to see that it can be done.
+//! Times of derivation and evaluation, with operation counts. `cargo bench` measures; `cargo test --bench equations` does each once, to see
+//! that it works.
 
 use bryant_generator::Config;
 use bryant_generator::dynamics::{Options, derive_with};
-use bryant_generator::emit;
 use bryant_generator::model::read;
+use bryant_generator::program;
 use bryant_runtime::{Model, ParameterSet, Vector};
 use std::hint::black_box;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Measurements of each work, and the least time of one.
+/// Number of measurements of each work, and the least time of one.
 const MEASUREMENTS: usize = 25;
 const LEAST: Duration = Duration::from_millis(20);
 
-/// Does a work many times and prints how long it takes: the median, and the quartiles.
+/// Repeats a work many times and prints its time: the median, and the quartiles.
 fn time<T>(name: &str, mut work: impl FnMut() -> T) {
     let mut duration = |count: u64| {
         let start = Instant::now();
@@ -59,7 +59,7 @@ fn generation() {
     }
 }
 
-/// The state that a mechanism is timed at: off the special values of the start, where the processor might be faster.
+/// The state for the timing of a mechanism: it avoids the special values of the start, which may be faster to evaluate.
 fn state<M: Model<f64>>(mechanism: &M) -> M::State {
     let mut y = mechanism.initial_state();
     for i in 0..M::State::LEN {
@@ -69,14 +69,14 @@ fn state<M: Model<f64>>(mechanism: &M) -> M::State {
     y
 }
 
-/// Accelerations alone, and the derivative of the state (accelerations and q̇), with the operations of the former.
+/// Accelerations alone, and the derivative of the state (accelerations and q̇), with the operation count of the accelerations.
 macro_rules! evaluation {
     ($name:literal, $path:literal, $($module:ident)::+) => {{
         use $($module)::+ as module;
         let model = model($path);
         let options = Options { matrices: false, ..Options::default() };
-        let emitted = emit::Options { matrices: false, ..emit::Options::default() };
-        for (method, table) in emit::costs(&model, &derive_with(&model, options), &emitted) {
+        let emitted = program::Options { matrices: false, ..program::Options::default() };
+        for (method, table) in program::costs(&model, &derive_with(&model, options), &emitted) {
             if method == "accelerations" {
                 println!("accelerations of {}: {}", $name, table.total);
             }

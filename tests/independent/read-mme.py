@@ -1,4 +1,4 @@
-"""Reads a test in ISO-MME with a reader that is not ours, and compares it with the CSV table of the same run.
+"""Reads a test in ISO-MME with an independent reader, and compares it with the CSV table of the same run.
 
 python3 read-mme.py TEST.mme RUN.csv
 """
@@ -20,7 +20,7 @@ for place, channel in enumerate(channels, start=1):
     assert len(data) == len(rows), (channel.code, len(data), len(rows))
     for found, expected in zip(data.index, times):
         assert abs(found - expected) < 1e-12, (channel.code, found, expected)
-    # the last character says the filter: 0 is none
+    # the last character gives the filter: 0 means no filter
     if not channel.code.endswith("0"):
         continue
     for found, row in zip(data.iloc[:, 0], rows):

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """Integrates the bundled model child-seat by scipy and writes child-seat-scipy.json beside this file.
 
-What is independent of the project: both integrators, with their control of the error. What is not: the equations; their
-derivative is asked of generated/examples/derivatives.rs, which this script starts by cargo. The equations themselves are
-compared with other engines elsewhere.
+Both integrators and their error control are independent of the project. The equations are not: generated/examples/derivatives.rs,
+which this script starts by cargo, evaluates their derivative. The equations themselves are compared with other engines elsewhere.
 
 To run it, from anywhere, with cargo on the path:
 
@@ -11,20 +10,19 @@ To run it, from anywhere, with cargo on the path:
     venv/bin/pip install numpy==2.4.6 scipy==1.17.1
     venv/bin/python tests/reference/child_seat_scipy.py
 
-The stored numbers were made by Python 3.11.7 with these versions; the file names them, too. It takes some minutes, most of them compiling.
+The stored numbers were made by Python 3.11.7 with these versions; the file names them, too. It takes some minutes, mostly for compilation.
 
-- Integration begins anew at each kink of a curve of time, where the derivative has a kink that no control of the error
-  needs to find. Kinks of force laws are left to it: force laws of this model are continuous, and it has neither memory nor
-  guards. By chance an estimate of the error may be blind to a kink: that of DOP853 at a tolerance of 1e-12 is, by hundreds of
-  tolerances, at one of them between 50 and 60 ms. It would hardly happen to two integrators alike, so there are two, and a
-  test compares them.
-- DOP853 and Radau, the one explicit, the other implicit, share no coefficients. scipy allows in each step an error whose root
+- Integration restarts at each kink of a curve of time, so that error control need not find these kinks. Error control handles
+  kinks of force laws: the force laws of this model are continuous, and it has neither memory nor event functions. By chance an
+  error estimate may miss a kink: that of DOP853 at a tolerance of 1e-12 misses one between 50 and 60 ms by hundreds of
+  tolerances. Two integrators are unlikely to miss the same kink, so there are two, and a test compares them.
+- DOP853 is explicit, Radau is implicit, and they share no coefficients. scipy allows in each step an error whose root
   mean square over the entries, each over atol + rtol |y|, is 1; here atol = rtol.
-- "growth" says what becomes of errors. Motions that leave the true one at a time s, by a little in one entry of the state,
-  give the derivative of all later states by that entry. In units 1 + |y| of the entry, its magnitudes are summed over all
+- "growth" is the growth of errors. Motions with a small deviation from the true one at a time s, in one entry of the state,
+  give the derivative of all later states with respect to that entry. In units 1 + |y| of the entry, its magnitudes are summed over all
   entries that may err, and of all s up to a sample the largest sum counts: for each sample and entry of the state. An
   integrator that errs by tau units in each entry and in each of n steps is then off by n tau growth at most, to first order in
-  tau. For outputs the same goes through their slopes at the state.
+  tau. For outputs, the same holds with their derivatives with respect to the state.
 """
 
 import json
@@ -41,15 +39,15 @@ SAMPLES = np.arange(17) * 10e-3
 """[s]"""
 SOLUTIONS = [("DOP853", 1e-13), ("Radau", 1e-12)]
 SPACING = 2e-3
-"""Of the times s at which an error may begin [s], a part of the time between samples."""
+"""Distance of the times s at which an error may begin [s], a fraction of the time between samples."""
 PERTURBATION = 1e-5
-"""In units 1 + |y|: its square is far below it, and it is far above what integration errs by."""
+"""In units 1 + |y|: so small that its square is negligible, and far above the error of integration."""
 PERTURBED = 1e-10
 """Tolerance of perturbed motions."""
 
 
 class Derivatives:
-    """The running program that knows the equations."""
+    """The running program that evaluates the equations."""
 
     def __init__(self):
         root = Path(__file__).resolve().parents[2]
@@ -84,16 +82,16 @@ class Derivatives:
 
 
 def pieces(start, end, breakpoints):
-    """The parts of an interval between kinks in time."""
+    """Splits an interval at kinks in time."""
     inner = [t for t in breakpoints if start < t < end]
     return list(zip([start, *inner], [*inner, end]))
 
 
 def advance(model, y, start, end, breakpoints, method, tolerance):
-    """The state at `end`, from the state at `start`, and how many steps and evaluations that took."""
+    """The state at `end`, from the state at `start`, with the numbers of steps and evaluations."""
     steps = evaluations = 0
     for a, b in pieces(start, end, breakpoints):
-        # stages at the end see a curve of time as it is before its kink
+        # stages at the end use the curve of time before its kink
         before = np.nextafter(b, a)
         solution = solve_ivp(
             lambda t, y: model.rate(min(t, before), y),
@@ -112,7 +110,7 @@ def advance(model, y, start, end, breakpoints, method, tolerance):
 
 
 def trajectory(model, start, breakpoints, method, tolerance):
-    """States and outputs at all samples, how many steps led to each, and how many evaluations to the last.
+    """States and outputs at all samples, the number of steps up to each, and the number of evaluations up to the last.
 
     Every sample is the end of a step: scipy's interpolants are of lower order than its steps.
     """
@@ -127,7 +125,7 @@ def trajectory(model, start, breakpoints, method, tolerance):
 
 
 def transition(model, y, start, end, breakpoints):
-    """The derivative of the state at `end` by the state at `start`, its columns per unit of tolerance."""
+    """The derivative of the state at `end` with respect to the state at `start`, in columns per unit of tolerance."""
     columns = []
     for entry in range(len(y)):
         change = np.zeros(len(y))
@@ -141,7 +139,7 @@ def transition(model, y, start, end, breakpoints):
 
 
 def output_slopes(model, t, y):
-    """|∂o/∂y|, the larger one of both sides: a force law may have its kink here."""
+    """|∂o/∂y|, the larger one of both sides, because a force law may have a kink here."""
     here, columns = model.output(t, y), []
     for entry in range(len(y)):
         change = np.zeros(len(y))
@@ -152,7 +150,7 @@ def output_slopes(model, t, y):
 
 
 def growth(model, start, breakpoints):
-    """Of states and of outputs, at all samples."""
+    """The growth of errors of states and of outputs, at all samples."""
     parts = round((SAMPLES[1] - SAMPLES[0]) / SPACING)
     y, later = start, [np.diag(1 + abs(start))]
     of_states, of_outputs = [], []
@@ -174,7 +172,7 @@ def growth(model, start, breakpoints):
 
 
 def text(rows, digits=None):
-    """Rows of numbers, each with as many digits as read back as the same number, or fewer."""
+    """Rows of numbers, each with the fewest digits that read back exactly, or fewer."""
     show = repr if digits is None else lambda x: f"{x:.{digits - 1}e}"
     lines = ["[" + ", ".join(show(float(x)) for x in row) + "]" for row in rows]
     return "[\n    " + ",\n    ".join(lines) + "\n  ]"

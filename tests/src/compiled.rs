@@ -1,4 +1,4 @@
-//! Compiled equations behind function pointers, with the YAML that they were made from.
+//! Compiled equations behind function pointers, with the YAML that they were generated from.
 
 use bryant_generator::model::{Model, read};
 use bryant_runtime::ParameterSet;
@@ -12,18 +12,18 @@ pub struct Compiled {
     pub path: &'static str,
     /// The model.
     pub entry: Entry,
-    /// What else its module computes, where it was compiled with matrices.
+    /// The matrices of its module, if it was compiled with them.
     pub matrices: Option<Matrices>,
 }
 
-/// S by rows, r_s, r_k and v̇, one after the other, at parameters, t, q, v, m.
+/// S by rows, r_s, r_k and v̇, one after the other, for parameters, t, q, v, m.
 pub type Matrices = fn(&[f64], f64, &[f64], &[f64], &[f64]) -> Vec<f64>;
 
 impl Compiled {
-    /// The model as read.
+    /// The model that its YAML describes.
     ///
     /// # Panics
-    /// If it is no valid model.
+    /// If it is not a valid model.
     pub fn model(&self) -> Model {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(self.path);
         read(&path)
@@ -44,8 +44,8 @@ pub fn parameters<P: ParameterSet<f64>>(values: &[f64]) -> P {
     parameters
 }
 
-/// The [`Compiled`] of a generated module, of the path of its YAML and its own path, without its Jacobian;
-/// `; m` behind them says that its methods are given a memory, `, in t` that S and r_s depend on time.
+/// The [`Compiled`] of a generated module without Jacobian, from the path of its YAML and the path of the module. `; m` behind them says
+/// that its methods take a memory, `, in t` that S and r_s depend on time.
 #[macro_export]
 macro_rules! compiled {
     ($path:expr, $($module:ident)::+ $(, in $t:ident)? $(; $m:ident)?) => {

@@ -1,4 +1,4 @@
-//! What the tests share: reference data, random trees, independent evaluation.
+//! Shared parts of the tests: reference data, random trees, independent evaluation.
 
 pub mod compiled;
 pub mod laws;

@@ -1,4 +1,4 @@
-//! The test models, compiled: what is listed here is also compared with its interpreted equations.
+//! The compiled test models; each model in this list is also compared with its interpreted equations.
 
 use crate::compiled::Compiled;
 use bryant_runtime::program::Entry;
@@ -50,7 +50,7 @@ macro_rules! models {
             $(Compiled {
                 path: concat!("models/", $lawful_file, ".yaml"),
                 entry: Entry::without_jacobian::<$lawful::Mechanism<f64>>(),
-                // r_k takes z and m too
+                // r_k also takes z and m
                 matrices: None,
             },)*
             $(Compiled {

@@ -1,16 +1,16 @@
 //! Reference trees and states, computed independently of any engine (see `reference/README.md`), as models.
 
 use bryant_generator::model::{
-    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint,
-    Model, Number, Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, Field, FieldComponent, Force, ForceKind,
+    Joint, Model, Number, Reference, Run, System,
 };
 use serde_json::Value;
 
-/// One state of a reference file, with what is expected there. Vectors in absolute axes; planar ones in (x, z).
+/// One state of a reference file, with the expected values. Vectors in absolute axes; planar ones in (x, z).
 pub struct ReferenceState {
-    /// Of the reference joint.
+    /// Position of the reference joint.
     pub position: Vec<f64>,
-    /// Of the reference joint.
+    /// Velocity of the reference joint.
     pub velocity: Vec<f64>,
     /// Quaternion (w, x, y, z) of each element, or its angle.
     pub orientation: Vec<Vec<f64>>,
@@ -18,17 +18,17 @@ pub struct ReferenceState {
     pub angular_velocity: Vec<Vec<f64>>,
     /// Moment on each element at its joint; the opposite acts on the parent.
     pub joint_moment: Vec<Vec<f64>>,
-    /// Expected.
+    /// Expected acceleration of the reference joint.
     pub reference_joint_acceleration: Vec<f64>,
-    /// Expected.
+    /// Expected angular acceleration of each element.
     pub angular_acceleration: Vec<Vec<f64>>,
-    /// Expected.
+    /// Expected acceleration of each centre of gravity.
     pub cg_acceleration: Vec<Vec<f64>>,
 }
 
 /// A reference file.
 pub struct ReferenceTree {
-    /// The tree with its gravity; joint moments are not in it.
+    /// The tree with its gravity, without the joint moments.
     pub model: Model,
     /// States.
     pub states: Vec<ReferenceState>,
@@ -111,10 +111,10 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
         }],
         forces: vec![Force {
             name: "gravity".into(),
-            kind: ForceKind::Field {
+            kind: ForceKind::from(Field {
                 on,
                 acceleration: in_space(gravity).map(FieldComponent::Constant),
-            },
+            }),
             active: Active::default(),
         }],
         switches: vec![],
@@ -134,7 +134,7 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
     ReferenceTree { model, states }
 }
 
-/// An element without anything: to be completed by `..`.
+/// An element without any property, to be completed by `..`.
 pub fn element() -> Element {
     let zero = || [0.0; 3].map(Number::from);
     Element {

@@ -20,10 +20,10 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// An output at all times.
+    /// An output at all samples.
     ///
     /// # Panics
-    /// If there is none of this name.
+    /// If there is no output of this name.
     pub fn column(&self, name: &str) -> Vec<f64> {
         let index = self.names.iter().position(|n| *n == name);
         let index = index.unwrap_or_else(|| panic!("no output {name:?}"));
@@ -33,14 +33,14 @@ impl Recording {
     /// Index of the sample at a time.
     ///
     /// # Panics
-    /// If there is none.
+    /// If there is no sample at this time.
     pub fn at(&self, t: f64) -> usize {
         let index = self.times.iter().position(|x| (x - t).abs() < 1e-9);
         index.unwrap_or_else(|| panic!("no sample at {t} s"))
     }
 }
 
-/// A run as the model says but with these parameters, by the adaptive method at one tolerance for all.
+/// A run with the settings of the model but with these parameters, by the adaptive method, with one tolerance for all variables.
 ///
 /// # Panics
 /// If the run fails.
@@ -48,7 +48,7 @@ pub fn run(entry: &Entry, parameters: &[(&str, f64)], tolerance: f64) -> Recordi
     run_for(entry, parameters, tolerance, None)
 }
 
-/// As [`run`], of another duration, with a hundred samples.
+/// As [`run`], with another duration and a hundred samples.
 ///
 /// # Panics
 /// If the run fails.

@@ -4,12 +4,12 @@ use crate::reference::element;
 use bryant_generator::dynamics::layout::{Layout, Orientation};
 use bryant_generator::expression::Function;
 use bryant_generator::model::{
-    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, ForceKind, Joint,
-    Model, Number, Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, Field, FieldComponent, Force, ForceKind,
+    Joint, Model, Number, Reference, Run, System,
 };
 pub use bryant_hard::random::Random;
 
-/// How a tree branches.
+/// The branching of a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Each element on the one before.
@@ -40,7 +40,7 @@ pub fn random_tree(
     let elements: Vec<Element> = (0..count)
         .map(|k| {
             let mass = random.uniform(0.5, 5.0);
-            // semi-axes of a solid ellipsoid: always realisable
+            // semi-axes of a solid ellipsoid: its moments of inertia are always realisable
             let squares = [0, 1, 2].map(|_| random.uniform(0.03, 0.2f64).powi(2));
             let sum: f64 = squares.iter().sum();
             Element {
@@ -119,10 +119,10 @@ fn one_system(
         }],
         forces: vec![Force {
             name: "gravity".into(),
-            kind: ForceKind::Field {
+            kind: ForceKind::from(Field {
                 on,
                 acceleration: [0.0, 0.0, -9.81].map(|a| FieldComponent::Constant(a.into())),
-            },
+            }),
             active: Active::default(),
         }],
         switches: vec![],
@@ -135,7 +135,7 @@ fn one_system(
     }
 }
 
-/// What equations of trees call when they are evaluated: nothing but choices. Anything else is not a number.
+/// The functions that the equations of trees call: only choices. Any other function gives NaN.
 pub fn choices(function: Function, arguments: &[f64]) -> f64 {
     match (function, arguments) {
         (Function::Choose, &[a, b, then, otherwise]) => {
@@ -149,7 +149,7 @@ pub fn choices(function: Function, arguments: &[f64]) -> f64 {
     }
 }
 
-/// Random charts of a model in Bryant angles, one for each element: the first of its memory. None of others.
+/// Random charts for a model in Bryant angles, one for each element, which are the first entries of its memory; empty for other models.
 pub fn random_charts(random: &mut Random, model: &Model) -> Vec<f64> {
     (0..Layout::of(model).charts())
         .map(|_| f64::from(u8::from(random.uniform(0.0, 1.0) > 0.5)))

@@ -1,4 +1,4 @@
-//! What a run promises where nothing is asked for: better than 0.1 % in every output.
+//! The default accuracy of a run: better than 0.1 % in every output.
 
 use crate::estimates::engine_of;
 use bryant::accuracy::target::Difference;
@@ -10,13 +10,13 @@ use bryant_runtime::{Formula, Method, Tolerances};
 const PROMISED: f64 = 1e-3;
 
 #[test]
-fn bundled_models_run_to_better_than_a_thousandth_without_being_asked() {
+fn bundled_models_err_by_less_than_a_thousandth_by_default() {
     for bundled in bundled::all() {
         let model = bundled::model(bundled).expect("bundled models are right");
         let engine = engine_of(&model);
         let run = |job: &Job| simulation::run(&engine, job, &mut |_| {});
         let default = run(&Job::default());
-        // two methods, both far sharper, tell each other from the truth
+        // two different methods, both far sharper, show the error
         let [one, other] = [Formula::Dop853, Formula::Tsit5].map(|formula| {
             run(&Job {
                 method: Some(Method::adaptive(formula, Tolerances::of(1e-10))),

@@ -27,7 +27,7 @@ outputs:
 run: { duration: 1.5 s, every: 10 ms }
 ";
 
-/// A file as its JSON and its buffer.
+/// The JSON and the buffer of a file.
 fn parts(bytes: &[u8]) -> (Value, &[u8]) {
     let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
     assert_eq!(
@@ -101,14 +101,14 @@ fn keyframes_are_where_the_outputs_say() {
     let (times, places) = keys("arm/lower", "translation");
     let (_, turns) = keys("arm/lower", "rotation");
     let (_, lengths) = keys("strap", "scale");
-    // six digits in places, seven in singles
+    // positions have six digits, singles have seven
     let near = |a: f64, b: f64| assert!((a - b).abs() < 2e-5, "{a} {b}");
     assert_eq!(times.len(), written.len());
     for (k, time) in times.iter().enumerate() {
         near(*time, written[k]);
         let [x, y, z, w] = [0, 1, 2, 3].map(|i| turns[4 * k + i]);
         near(x * x + y * y + z * z + w * w, 1.0);
-        // the tip, 0.3 m down the body's own z, by the matrix of the quaternion
+        // the tip, 0.3 m along the body's −z axis, by the matrix of the quaternion
         let down = [
             2.0 * (x * z + w * y),
             2.0 * (y * z - w * x),
@@ -132,7 +132,7 @@ fn keyframes_are_where_the_outputs_say() {
             assert!(product > 0.0, "the turn jumps at row {k}");
         }
     }
-    // z is up: the node that all hang on turns it into y
+    // z is up: the node above all others rotates it to y
     let root: Vec<f64> = nodes[0]["rotation"]
         .as_array()
         .unwrap()
@@ -146,7 +146,7 @@ fn keyframes_are_where_the_outputs_say() {
     assert!(ellipsoid.is_some_and(|node| node["translation"] == serde_json::json!([0, 0, -0.3])));
 }
 
-/// Columns stand as doubles one after the other: all digits of the table.
+/// Columns are doubles one after the other, with all digits of the table.
 #[test]
 fn a_table_as_parquet_has_the_digits_of_the_run() {
     let directory = directory();

@@ -1,7 +1,7 @@
-//! What is compiled alone and loaded: functions of the user's over every scalar, to the last bit those of the generated Rust; models
-//! compiled by rustc; and functions that do what they should not.
+//! Code that is compiled as a library and loaded: user functions over every scalar, equal to the last bit to the generated Rust; models
+//! compiled by rustc; and user functions that misbehave.
 //!
-//! Each test is a process of its own, for some of them end it.
+//! Each test is a process of its own, because some of them end it.
 
 use bryant::build_on_demand::{RustcModel, Text, Unit, UserForces};
 use bryant_engine::{Engine, UserFunctions};
@@ -18,14 +18,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
-/// Said to a process of this program that does one thing alone; the name of it follows.
+/// The argument for a process of this program that does one thing only; the name of the thing follows.
 const ALONE: &str = "--alone";
 const CALLS: usize = 50;
 
-/// What a process does.
+/// The work of such a process.
 type Alone = fn();
 
-/// Things that end well.
+/// Works that succeed.
 const CHECKS: [(&str, Alone); 4] = [
     ("functions have the bits of generated Rust", the_same_bits),
     ("an engine calls them", an_engine_calls_them),
@@ -33,7 +33,7 @@ const CHECKS: [(&str, Alone); 4] = [
     ("what is compiled is found again", found_again),
 ];
 
-/// Functions that do not: the text in place of a result, the exit code, and what is said.
+/// User functions that misbehave: the text in place of a result, the exit code, and expected words of the messages.
 const ENDS: [(&str, &str, Option<i32>, &[&str]); 8] = [
     (
         "exit",
@@ -117,7 +117,7 @@ fn main() {
     libtest_mimic::run(&Arguments::from_args(), trials).exit();
 }
 
-/// Does one thing in a process of its own: its exit code, what it said, and what it printed.
+/// Does one thing in a process of its own; returns its exit code, standard error and standard output.
 fn process(name: &str) -> Result<(Option<i32>, String, String), Failed> {
     let cache = Path::new(env!("CARGO_TARGET_TMPDIR")).join("apart-cache");
     let output = Command::new(std::env::current_exe()?)
@@ -141,7 +141,7 @@ fn alone(name: &str) {
     std::process::exit(ended(name, text));
 }
 
-/// A model with functions of the user's, as it is read; and the files that they are in.
+/// A model with user functions, as read, and the files with the functions.
 fn read(path: &Path) -> (Model, Vec<(String, String)>) {
     let model = scene::read(path).expect("a model").model;
     let mut sources = Vec::new();
@@ -174,7 +174,7 @@ fn only(model: &Model) -> usize {
         .expect("a user force")
 }
 
-/// Numbers that look random, between 0.1 and 1.1.
+/// Pseudo-random numbers between 0.1 and 1.1.
 fn numbers(seed: usize) -> impl FnMut() -> f64 {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(2 * seed as u64 + 1);
     move || {
@@ -185,7 +185,7 @@ fn numbers(seed: usize) -> impl FnMut() -> f64 {
     }
 }
 
-/// A generated function of so many arguments and results.
+/// A generated function with A arguments and R results.
 trait Generated<const A: usize, const R: usize> {
     fn call<T: Real>(arguments: [T; A]) -> [T; R];
 }
@@ -220,7 +220,7 @@ impl<const A: usize, const R: usize> Clone for Compare<'_, A, R> {
 impl<const A: usize, const R: usize> Copy for Compare<'_, A, R> {}
 
 impl<const A: usize, const R: usize> Compare<'_, A, R> {
-    /// Over one scalar, made of the words of each lane.
+    /// Compares the results over one scalar, made from the words of each lane.
     fn over<T: Real, F: Generated<A, R>>(self) {
         let form = T::FORM.expect("a form");
         for seed in 0..CALLS {
@@ -265,7 +265,7 @@ impl<O: Real, F: Generated<A, R>, const A: usize, const R: usize> OfAnyWidth<O>
     }
 }
 
-/// A scalar of any form, each word another number; the lesser words of a double-double are small.
+/// A scalar of any form, with different numbers in its words; the lower words of a double-double are small.
 fn scalar<T: Real>(form: Form, next: &mut dyn FnMut() -> f64) -> T {
     let words = form.words();
     let mut all: Vec<f64> = (0..words * form.lanes)
@@ -298,7 +298,7 @@ fn the_same_bits() {
     of_muscle.all::<Muscle>();
 }
 
-/// Every method of a model, at a few states and two sets of parameters.
+/// Compares every method of two models, at a few states and with two sets of parameters.
 fn alike(ours: &mut dyn Adjustable<f64>, theirs: &mut dyn Adjustable<f64>, within: f64) {
     let info = ours.info();
     let parameters: Vec<f64> = info.parameters.iter().map(|p| p.default).collect();
@@ -392,7 +392,7 @@ fn rustc_model(name: &str) -> RustcModel {
     RustcModel::of(unit, info, true, source, &mut |_| {}).expect("a model")
 }
 
-/// Up to rounding: products and sums may be fused, and of both the muscle amplifies errors by less than 10³.
+/// Equal up to rounding: products and sums may be fused, and the muscle amplifies the errors of both by less than 10³.
 fn a_model_of_rustc() {
     let model = rustc_model("elbow");
     let compiled = Compiled::<elbow::Mechanism<f64>>::new();
@@ -403,7 +403,7 @@ fn a_model_of_rustc() {
     ours.initial_state(&mut y);
     let (mut by_state, mut by_time) = (vec![0.0; n * n], vec![0.0; n]);
     assert!(ours.jacobian(0.0, &y, &mut by_state, &mut by_time));
-    // the rate of an angle is a speed
+    // the rate of an angle is a velocity
     assert_eq!(by_state[n / 2], 1.0, "{by_state:?}");
     assert_eq!(model.failure(), None);
 }
@@ -423,7 +423,7 @@ fn found_again() {
     assert!(UserForces::of(&model, Vec::new(), &mut |_| {}).is_ok_and(|forces| forces.is_none()));
 }
 
-/// What comes of a function that has this text in place of a result.
+/// The result of a function with this text in place of a result.
 fn ended(name: &str, text: &str) -> i32 {
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("apart-{name}"));
     std::fs::create_dir_all(&directory).expect("a directory");

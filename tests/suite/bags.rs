@@ -8,7 +8,7 @@ use std::fs;
 /// Radius of a sphere of 60 l \[m\].
 const RADIUS: f64 = 0.242_858_991_282_263_65;
 
-/// A full bag with a hole, which meets nothing.
+/// A full bag with a hole, which touches nothing.
 fn blowing_down() -> String {
     format!(
         "model: blowing-down
@@ -59,7 +59,7 @@ fn a_bag_blows_down_as_a_perfect_gas_does() {
             close("p", p[k], expected, 1e-7);
             compared[0] += 1;
         } else if p[k] > 101_500.0 {
-            // Saint-Venant and Wantzel below the critical ratio
+            // Saint-Venant and Wantzel, below the critical ratio
             let r = 101_325.0 / p[k];
             let psi =
                 2.0 * gamma / (gamma - 1.0) * (r.powf(2.0 / gamma) - r.powf((gamma + 1.0) / gamma));
@@ -67,7 +67,7 @@ fn a_bag_blows_down_as_a_perfect_gas_does() {
             close("flow out", out[k], expected, 1e-9);
             compared[1] += 1;
         }
-        // what is left in the bag expanded without heat: p/m^γ does not change
+        // the gas in the bag expanded adiabatically: p/m^γ is constant
         close(
             "p/m^γ",
             p[k] / mass[k].powf(gamma),
@@ -115,7 +115,7 @@ fn a_bag_without_a_hole_gives_back_what_it_took() {
     let whole = 4.0 / 3.0 * std::f64::consts::PI * 0.15 * 0.33 * 0.33;
     let mut pressed = 0;
     for k in 0..p.len() {
-        // adiabatic: p V^γ does not change, and the force is the overpressure on the area
+        // adiabatic: p V^γ is constant, and the force is the overpressure times the area
         close(
             "p V^γ",
             p[k] * volume[k].powf(1.4),
@@ -127,9 +127,9 @@ fn a_bag_without_a_hole_gives_back_what_it_took() {
         pressed += usize::from(area[k] > 0.0);
     }
     assert!(pressed > 20, "{pressed}");
-    // it came back with the energy that it had; rotation takes a part, as it does not meet the middle
+    // the ball returns with the energy that it had; rotation takes a part, because it does not hit the middle
     assert!(speed[speed.len() - 1] < -5.5, "{speed:?}");
-    // the pressure is integrated to the tolerance, 1e-8 of 17 kJ of gas a step, 50 steps
+    // the pressure is integrated to the tolerance: 1e-8 of 17 kJ of gas in each of 50 steps
     assert!(
         energy(&printed, "not accounted for").abs() < 1e-2,
         "{printed}"
@@ -142,7 +142,8 @@ fn a_bag_without_a_hole_gives_back_what_it_took() {
     );
 }
 
-/// Where a ball passes the middle of a bag that pushes, the direction of its force is not determined. Of one that is folded nothing leaps.
+/// When a ball passes the middle of a bag that pushes, the direction of its force is not determined. A folded bag does not push, and
+/// nothing jumps.
 #[test]
 fn a_ball_that_passes_the_middle_of_a_bag_is_told() {
     let directory = directory();
@@ -162,7 +163,7 @@ fn a_ball_that_passes_the_middle_of_a_bag_is_told() {
     assert!(column(&table, "speed").iter().all(|speed| *speed == 6.0));
 }
 
-/// H = γ/(γ − 1) ṁ R T_in fills a slack bag at the pressure around it: V = m R T_in/p_a once what was in it counts no more.
+/// H = γ/(γ − 1) ṁ R T_in fills a slack bag at the ambient pressure: V = m R T_in/p_a, once the initial gas is negligible.
 #[test]
 fn a_slack_bag_fills_at_the_pressure_around_it() {
     let filling = FLIGHT
@@ -187,7 +188,7 @@ fn a_slack_bag_fills_at_the_pressure_around_it() {
     }
 }
 
-/// What is in a bag at the start takes its place, and the pressure is that which was asked for.
+/// A body that is in the bag at the start displaces volume, and the pressure has the requested value.
 #[test]
 fn a_bag_is_full_around_what_is_in_it_at_the_start() {
     let inside = FLIGHT.replace("position: [-0.5, 0, 0.02]", "position: [-0.12, 0, 0.02]");
@@ -254,7 +255,7 @@ fn what_is_wrong_with_a_bag_is_said() {
         let (_, printed) = call(path, &["check", "m.yaml"], 2);
         assert!(printed.contains(said), "{said}: {printed}");
     }
-    // gas that flows in backwards, by a factor or beyond the last point
+    // gas that flows backwards, by a factor or beyond the last point
     for flow in [
         "{ curve: { points: [[0, 1], [0.1, 0]] }, times: -1 }",
         "{ points: [[0, 1], [0.1, 0]], extrapolate: linear }",

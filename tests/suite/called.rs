@@ -1,16 +1,16 @@
-//! The command as tests call it: a process of its own, with a cache that no user has.
+//! The command as the tests call it: a process of its own, with a cache that no user has.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
 
-/// One cache for all tests of a run: what it holds is the point of some of them, its speed of all.
+/// One cache for all tests of a run: some tests check its content, and all are faster with it.
 pub fn cache() -> &'static Path {
     static CACHE: OnceLock<PathBuf> = OnceLock::new();
     CACHE.get_or_init(|| {
         let name = concat!(env!("CARGO_CRATE_NAME"), "-cache");
         let cache = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        // Entries of earlier builds of the program would never be used again.
+        // entries of earlier builds of the program would never be used again
         if cache.exists() {
             std::fs::remove_dir_all(&cache).unwrap();
         }
@@ -26,14 +26,14 @@ pub fn bryant(directory: &Path) -> Command {
     command
 }
 
-/// Runs and expects an exit code; returns standard output and standard error.
+/// Runs the command and expects an exit code; returns standard output and standard error.
 #[track_caller]
 pub fn call(directory: &Path, arguments: &[&str], code: i32) -> (String, String) {
     let output = bryant(directory).args(arguments).output().unwrap();
     expect(output, arguments, code)
 }
 
-/// Expects an exit code of what ran; returns standard output and standard error.
+/// Expects an exit code of a finished command; returns standard output and standard error.
 #[track_caller]
 pub fn expect(output: Output, arguments: &[&str], code: i32) -> (String, String) {
     let stdout = String::from_utf8(output.stdout).unwrap();

@@ -1,4 +1,5 @@
-//! Certification tests of the Hybrid III dummies, 49 CFR Part 572: what is met, and what is not. docs/validation.md shows the same numbers.
+//! Certification tests of the Hybrid III dummies, 49 CFR Part 572: the corridors that are met, and those that are not. docs/validation.md
+//! has the same numbers.
 
 use super::called::call;
 use super::directory;
@@ -23,7 +24,7 @@ impl Signal {
         }
     }
 
-    /// The largest value before a time, and where it is.
+    /// The largest value before a time, and its index.
     fn peak(&self, before: f64) -> (f64, usize) {
         let all = self.t.iter().zip(&self.y).enumerate();
         let early = all.filter(|(_, (t, _))| **t < before);
@@ -32,7 +33,7 @@ impl Signal {
         })
     }
 
-    /// When it falls through a level after its peak \[ms\].
+    /// The time when it falls below a level after its peak \[ms\].
     fn falls_through(&self, level: f64) -> f64 {
         let (_, from) = self.peak(0.1);
         for i in from..self.y.len() - 1 {
@@ -45,7 +46,7 @@ impl Signal {
     }
 }
 
-/// A number beside its corridor, as the page shows it. The page says which were fitted.
+/// Checks a number against its corridor, as the page shows both. The page says which numbers were fitted.
 fn judge(scene: &str, what: &str, value: f64, [low, high]: [f64; 2], digits: usize, meets: bool) {
     let is = (low..=high).contains(&value);
     assert_eq!(is, meets, "{scene}, {what}: {value} beside {low} to {high}");
@@ -62,7 +63,7 @@ fn judge(scene: &str, what: &str, value: f64, [low, high]: [f64; 2], digits: usi
     assert!(line.ends_with(&format!("| {verdict} |")), "{line}");
 }
 
-/// A test of a neck: its corridors by the names that the page gives them, and whether each is met.
+/// A test of a neck: its corridors by their names on the page, and whether each is met.
 struct Neck {
     scene: &'static str,
     flexion: bool,
@@ -157,7 +158,8 @@ fn necks_bend_as_the_page_says() {
     }
 }
 
-/// The pendulum keeps to the corridors that the regulation gives for its deceleration \[gn\], or for the change of its velocity \[m/s\], at 10, 20 and 30 ms.
+/// The pendulum stays in the corridors of the regulation for its deceleration \[gn\], or for the change of its velocity \[m/s\], at 10, 20
+/// and 30 ms.
 #[test]
 fn pendulums_are_braked_within_their_corridors() {
     let decelerations = [
@@ -260,7 +262,7 @@ fn heads_knees_and_torsos_resist_as_the_page_says() {
         0,
         true,
     );
-    // of two hips, from the seated position
+    // both hips, from the seated position
     let (table, _) = run("hip-flexion-50m", &[]);
     let angle = column(&table, "thigh").iter();
     let angle: Vec<f64> = angle.map(|angle| -angle.to_degrees() - 90.0).collect();
@@ -301,7 +303,7 @@ fn heads_knees_and_torsos_resist_as_the_page_says() {
     }
 }
 
-/// A corridor is drawn in the plots of its column, at its place, and refused where there is none.
+/// A corridor is drawn in the plots of its column, at its place, and refused if there is no such plot.
 #[test]
 fn corridors_are_drawn_in_their_plots() {
     let directory = directory();

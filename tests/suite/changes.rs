@@ -1,4 +1,4 @@
-//! A state that is changed and put on its manifold at once is what it is one after the other, to the last bit.
+//! Changing a state and normalizing it at once gives the same bits as doing it in two steps.
 
 use bryant_runtime::{Change, Model, ParameterSet, Vector};
 use bryant_tests::models::{free_top, free_tree, poles_bryant, sliding_block};
@@ -14,7 +14,7 @@ impl<S: Vector<f64>> Change<f64> for Scaled<S> {
     }
 }
 
-/// Of how many entries it changes the normalization changes as well.
+/// The number of changed entries that normalization changes, too.
 fn normalized<M: Model<f64>>() -> usize {
     let model = M::new(M::Parameters::defaults());
     let mut random = Random::new(11);
@@ -40,10 +40,10 @@ fn normalized<M: Model<f64>>() -> usize {
 #[test]
 fn entries_are_changed_and_quaternions_normalized_in_one_pass() {
     assert_eq!(normalized::<free_top::Mechanism<f64>>(), 4);
-    // two trees, whose reference joints have three coordinates each
+    // two trees, each with three coordinates of its reference joint
     let quaternions = free_tree::Mechanism::<f64>::INFO.coordinates.len() - 2 * 3;
     assert_eq!(normalized::<free_tree::Mechanism<f64>>(), quaternions);
-    // in charts of angles and in the plane there is nothing to normalize
+    // Bryant angles and planar models have nothing to normalize
     assert_eq!(normalized::<poles_bryant::Mechanism<f64>>(), 0);
     assert_eq!(normalized::<sliding_block::Mechanism<f64>>(), 0);
 }

@@ -1,4 +1,4 @@
-//! Bryant angles through their singularity: what changes the chart shows in nothing but the coordinates.
+//! Bryant angles through their singularity: a change of chart affects only the coordinates.
 
 use bryant_generator::dynamics::chart::LIMIT;
 use bryant_generator::dynamics::derive;
@@ -15,7 +15,7 @@ use bryant_tests::trees::{Random, Shape, choices, random_charts, random_state, r
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::ops::ControlFlow;
 
-/// Samples of a run: outputs, and the charts where there are any.
+/// Samples of a run: outputs, and the charts if there are any.
 struct Run {
     outputs: Vec<Vec<f64>>,
     charts: Vec<Vec<f64>>,
@@ -23,7 +23,7 @@ struct Run {
 }
 
 impl Run {
-    /// How often a chart was another one at a sample than at the sample before.
+    /// Number of changes of charts between successive samples.
     fn changes(&self) -> usize {
         let pairs = self.charts.windows(2);
         let changed =
@@ -85,8 +85,8 @@ fn adaptive(formula: Formula, tolerance: f64) -> Method {
     Method::adaptive(formula, Tolerances::uniform(tolerance))
 }
 
-/// The error theory of `motion`: each of n steps errs by the tolerance τ, times the size y of the state, times the growth G
-/// of errors, which is measured by starting from a disturbed state. The states stay below 10 (metres, radians and their rates).
+/// The error theory of `motion`: each of n steps errs by the tolerance τ times the size y of the state times the growth G of errors, which
+/// is measured by a run from a disturbed state. The states stay below 10 (metres, radians and their rates).
 #[test]
 fn bodies_driven_through_the_pole_move_as_in_quaternions() {
     const TOLERANCE: f64 = 1e-14;
@@ -96,7 +96,7 @@ fn bodies_driven_through_the_pole_move_as_in_quaternions() {
     let quaternion = run::<poles::Mechanism<f64>>(method, 2.0, 0.0);
     let disturbed = run::<poles::Mechanism<f64>>(method, 2.0, DISTURBANCE);
     let bryant = run::<poles_bryant::Mechanism<f64>>(method, 2.0, 0.0);
-    // the wheel alone passes the pole every quarter of a turn: 18 rad make 11 passes
+    // the wheel alone passes the pole every quarter of a turn: 18 rad are 11 passes
     assert!(bryant.changes() > 11, "{} changes", bryant.changes());
     let growth = differences(&quaternion, &disturbed);
     let found = differences(&quaternion, &bryant);
@@ -108,7 +108,7 @@ fn bodies_driven_through_the_pole_move_as_in_quaternions() {
     }
 }
 
-/// Every method of integration, its steps fixed or not, goes through the pole, and errs by no more than theory says.
+/// Every integration method, with fixed steps or not, passes through the pole with an error below the theoretical bound.
 #[test]
 fn every_method_goes_through_the_pole() {
     const SIZE: f64 = 10.0;
@@ -131,7 +131,8 @@ fn every_method_goes_through_the_pole() {
             assert!(*found <= bound, "{formula}: {found:e} > {bound:e}");
         }
     }
-    // fixed steps keep their order: half the step, an error 2^p times smaller; half of that is left for terms of higher order
+    // fixed steps keep their order: with half the step, the error is 2^p times smaller; a factor of two is allowed for terms of higher
+    // order
     for formula in [Formula::SemiImplicitEuler, Formula::Heun, Formula::Rk4] {
         let error = |steps: f64| {
             let method = Method::fixed(formula, 1.0 / steps);
@@ -156,7 +157,7 @@ fn every_method_goes_through_the_pole() {
     }
 }
 
-/// Single precision rounds each of n steps in some operations: n · 8 ε · size · growth.
+/// Single precision rounds each of n steps in a few operations: n · 8 ε · size · growth.
 #[test]
 fn single_precision_goes_through_the_pole() {
     const SIZE: f64 = 10.0;
@@ -177,15 +178,15 @@ fn single_precision_goes_through_the_pole() {
     }
 }
 
-/// Two trees tumble freely through many changes of chart: the errors of the steps add up, times the slope of what is
-/// conserved by the state, as in `motion`.
+/// Two trees tumble freely through many changes of charts: the errors of the steps add up, times the derivative of the conserved quantity
+/// with respect to the state, as in `motion`.
 #[test]
-fn a_tumbling_tree_conserves_energy_and_momentum_over_many_changes() {
+fn a_tumbling_tree_conserves_energy_and_momentum_over_charts() {
     const TOLERANCE: f64 = 1e-12;
     let method = adaptive(Formula::Dop853, TOLERANCE);
     let run = run::<free_tree_bryant::Mechanism<f64>>(method, 20.0, 0.0);
     assert!(run.changes() > 50, "{} changes", run.changes());
-    // the star drifts 22 m away, which is the lever of the angular momentum
+    // the star drifts 22 m away, which is the lever arm of the angular momentum
     let bound = run.report.steps as f64 * TOLERANCE * 22.0 * 6.5 * 3.0 * 5.0;
     assert!(bound < 1e-4, "{bound:e} is no bound");
     for row in &run.outputs {
@@ -198,7 +199,7 @@ fn a_tumbling_tree_conserves_energy_and_momentum_over_many_changes() {
     }
 }
 
-/// A = Rx Ry Rz, in the second chart with Ry(−90°) behind it.
+/// A = Rx Ry Rz, in the second chart followed by Ry(−90°).
 fn rotation(angles: &[f64], chart: f64) -> Matrix3<f64> {
     let turn = |axis: Vector3<f64>, angle: f64| {
         *Rotation3::from_axis_angle(&nalgebra::Unit::new_unchecked(axis), angle).matrix()
@@ -216,8 +217,8 @@ fn omega(angles: &[f64], rates: &[f64]) -> Vector3<f64> {
     Vector3::x() * rates[0] + first * Vector3::y() * rates[1] + second * Vector3::z() * rates[2]
 }
 
-/// A change of chart leaves A and ω where they are, within a few roundings, divided by the cosine of the new second angle, which is
-/// at least 0.6; what does not change keeps every bit.
+/// A change of chart keeps A and ω within a few roundings, divided by the cosine of the new second angle, which is at least 0.6; entries
+/// that do not change keep every bit.
 #[test]
 fn a_change_of_chart_is_none_of_the_body() {
     let mut random = Random::new(11);
@@ -240,7 +241,7 @@ fn a_change_of_chart_is_none_of_the_body() {
             .map(|element| layout.element_coordinates(ElementId { system: 0, element }))
             .collect();
         if k % 4 == 0 {
-            // exactly at the pole, and beyond
+            // exactly at the pole, and beyond it
             for range in &elements {
                 let pole = if random.uniform(-1.0, 1.0) > 0.0 {
                     0.5

@@ -1,4 +1,4 @@
-//! The check that every run gets: what is not as accurate as promised is run sharper, or said.
+//! The check of every run: outputs that are not as accurate as promised are computed sharper, or reported.
 
 use super::called::call;
 use super::json;
@@ -77,7 +77,7 @@ fn output(run: &Value, name: &str) -> Vec<f64> {
         .collect()
 }
 
-/// A free rod whose centre of gravity moves along a straight line: the acceleration of that point is 0, that of the end is not.
+/// A free rod whose centre of gravity moves along a straight line: the acceleration of this point is 0, that of the end is not.
 const ROD: &str = "\
 model: rod
 title: a free rod
@@ -110,7 +110,7 @@ fn an_output_of_rounding_errors_alone_is_no_alarm() {
         &["--accuracy", "1e-6"],
         0,
     );
-    // next to that point there is an acceleration, and steps that are too long are an error
+    // a point beside it has an acceleration, and steps that are too long cause an error
     let (beside, _) = run(here, &ROD.replace("PLACE", "0.500001"), &[], 0);
     let known = &beside["accuracy"]["verified"]["difference"];
     assert!(
@@ -132,13 +132,13 @@ fn the_force_below_a_ball_at_rest_is_its_weight() {
     let (checked, _) = run(here, REST, &[], 0);
     let wrong = |force: &f64| (force / 9.81 - 1.0).abs() > 1e-3;
     assert!(!output(&checked, "force").iter().any(wrong), "{checked}");
-    // its speed is 0 in truth and never agrees: a bound, not an alarm
+    // the speed is exactly 0 and never agrees: a bound is reported, not an alarm
     let difference = &checked["accuracy"]["verified"]["difference"];
     assert!(
         difference["vanishing"]["speed"]["bound"].as_f64().unwrap() < 1e-6,
         "{difference}"
     );
-    // the default tolerance alone does not keep the promise: the check is what does
+    // the default tolerance alone does not keep the promise; the check does
     let (unchecked, _) = run(here, REST, &["--no-verify"], 0);
     assert!(
         output(&unchecked, "force").iter().any(wrong),
@@ -177,7 +177,7 @@ fn a_motion_that_makes_every_error_large_is_said_to_do_so() {
     );
     assert!(stderr.contains("not as accurate as 0.1 %"), "{stderr}");
     assert!(stderr.contains("grown by a factor"), "{stderr}");
-    // while it is regular still, nothing is wrong
+    // while the motion is still regular, nothing is wrong
     call(
         here,
         &["run", "scene.yaml", "--no-files", "--duration", "2 s"],
@@ -189,7 +189,7 @@ fn a_motion_that_makes_every_error_large_is_said_to_do_so() {
 fn a_method_of_ones_own_is_checked_and_not_replaced() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // 5 % away: beyond the promise, but nothing was promised
+    // a difference of 5 %: more than the default promise, but nothing was promised
     let coarse = ["--method", "dopri5", "--tolerance", "1e-7"];
     let (checked, _) = run(here, SMALL, &coarse, 0);
     let worst = checked["accuracy"]["verified"]["difference"]["worst"]
@@ -199,7 +199,7 @@ fn a_method_of_ones_own_is_checked_and_not_replaced() {
         worst > 1e-3 && checked["accuracy"]["runs"] == 2,
         "{checked}"
     );
-    // a step of a third of the period is wrong altogether
+    // a step of a third of the period is completely wrong
     let absurd = ["--method", "rk4", "--step", "2 s", "--every", "2 s"];
     let absurd: Vec<&str> = absurd
         .into_iter()
@@ -212,7 +212,7 @@ fn a_method_of_ones_own_is_checked_and_not_replaced() {
 }
 
 #[test]
-fn a_run_that_takes_too_long_names_the_force_that_bounds_its_steps() {
+fn a_slow_run_names_the_force_that_bounds_its_steps() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let long = ["--duration", "1000 s", "--every", "10 s", "--no-verify"];
@@ -226,7 +226,7 @@ fn a_run_that_takes_too_long_names_the_force_that_bounds_its_steps() {
     ] {
         assert!(stderr.contains(part), "{part}: {stderr}");
     }
-    // what was computed is there
+    // the computed results are written
     assert!(!run["rows"].as_array().unwrap().is_empty(), "{run}");
 }
 

@@ -1,5 +1,4 @@
-//! The command from end to end, as a user calls it: models that are files, compiled on demand; what is printed, what is
-//! written, how it fails.
+//! The command from end to end, as a user calls it: models in files, compiled on demand; output, files, and failures.
 
 mod animated;
 mod bags;
@@ -119,7 +118,7 @@ fn a_run_prints_a_table_and_writes_files() {
     assert_eq!(rest, 2 + 2, "models and files alone are left");
 }
 
-/// Runs where there is neither a compiler nor anything else on the path.
+/// Runs without a compiler and with an empty path.
 #[track_caller]
 fn without_a_toolchain(at: &Path, arguments: &[&str], code: i32) -> (String, String) {
     let mut command = bryant(at);
@@ -181,7 +180,7 @@ fn both_methods_agree_and_conserve_energy() {
     for (a, b) in adaptive_rows.iter().zip(&fixed_rows) {
         // RK4 at 1 ms over 1 s at ω₀ = 4 rad/s: (ω₀h)⁴/120 per radian is about 1e-11.
         assert!((a[1] - b[1]).abs() < 1e-8, "{a:?} {b:?}");
-        // The bob stays on its circle of 0.5 m.
+        // the bob stays on its circle of 0.5 m
         assert!((a[2] + 0.5 * a[1].cos()).abs() < 1e-12, "{a:?}");
     }
     assert_eq!(fixed["report"]["steps"], 1000);
@@ -230,7 +229,7 @@ fn parameters_have_units_and_bounds() {
             value["parameters"]["gravity"]["value"].as_f64().unwrap(),
         )
     };
-    // Without gravity the rod stays where it is.
+    // without gravity the rod stays where it is
     let (swing, gravity) = last(&["--set", "gravity=0"]);
     assert_eq!(gravity, 0.0);
     assert!((swing - std::f64::consts::FRAC_PI_6).abs() < 1e-15);
@@ -311,7 +310,7 @@ fn a_run_is_as_accurate_as_asked_for_and_says_so() {
     let accuracy = &json(&stdout)["accuracy"];
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
     let estimated = number(&accuracy["estimated"]["worst"]);
-    // both are differences of sharper runs than asked for
+    // both are differences from runs that are sharper than requested
     assert!(estimated <= 1e-5, "{accuracy}");
     assert!(
         number(&accuracy["verified"]["difference"]["worst"]) <= 1e-5,
@@ -324,7 +323,7 @@ fn a_run_is_as_accurate_as_asked_for_and_says_so() {
 fn a_failing_run_keeps_its_samples() {
     let directory = directory();
     let (stdout, stderr) = call(directory.path(), &["run", "cut-short.yaml"], 3);
-    // 0, 10 … 50 ms: the pulse is known up to there.
+    // 0, 10 … 50 ms: the pulse is known up to there
     assert_eq!(stdout.lines().count(), 2 + 6, "{stdout}");
     assert!(
         stderr.contains("clock/rod") && stderr.contains("t = 0.05"),
@@ -444,11 +443,11 @@ fn a_robot_is_imported_and_runs() {
         std::fs::read_to_string(directory.path().join("arm.yaml")).unwrap(),
         written
     );
-    // the file and what is imported of it are one model
+    // the file and the model imported from it are one model
     let table = |model| call(directory.path(), &["run", model, "--no-files"], 0).0;
     assert_eq!(table("arm.urdf"), table("arm.yaml"));
     assert!(table("arm.urdf").contains("shoulder"));
-    // whoever runs the file is told what the import tells
+    // whoever runs the file gets the notes of the import
     for command in ["run", "check"] {
         let (_, told) = call(directory.path(), &[command, "arm.urdf"], 0);
         for note in notes.lines() {
@@ -457,7 +456,7 @@ fn a_robot_is_imported_and_runs() {
         let (_, told) = call(directory.path(), &[command, "arm.yaml"], 0);
         assert!(!told.contains("--stops"), "{command}: {told}");
     }
-    // what only the model shows to be wrong stands where the file says it: a hinge that moves no inertia
+    // an error that only the model shows has its place in the file: a hinge that moves no inertia
     let flat = ARM.replace("0 0 -0.2", "0 0 0");
     let flat = ["0.03", "0.001", "0.01"]
         .into_iter()
@@ -472,7 +471,7 @@ fn a_robot_is_imported_and_runs() {
             "{command}: {wrong}"
         );
     }
-    // effects stand where the links and joints do
+    // effects have the places of the links and joints
     let (effects, _) = call(directory.path(), &["effects", "arm.urdf", "--no-time"], 0);
     assert!(!effects.contains("arm.urdf:1 "), "{effects}");
     let (held, _) = call(
@@ -544,7 +543,7 @@ fn equations_at_a_state_are_those_of_the_pendulum() {
     .unwrap();
     let arguments = ["equations", "clock.yaml", "--at", "state.json", "--json"];
     let value = json(&call(directory.path(), &arguments, 0).0);
-    // A turn about +y moves a rod that hangs along −z towards −x: r_k = −m g l sin φ.
+    // A rotation about +y moves a rod that hangs along −z towards −x: r_k = −m g l sin φ.
     let torque = -2.0 * 9.81 * 0.5 * 0.4f64.sin();
     let near = |a: f64, b: f64| assert!((a - b).abs() <= 4.0 * f64::EPSILON * b.abs(), "{a} {b}");
     assert_eq!(value["coordinates"], serde_json::json!(["clock/rod.phi"]));
@@ -554,7 +553,7 @@ fn equations_at_a_state_are_those_of_the_pendulum() {
     near(numbers(&value["r_k"])[0], torque);
     near(numbers(&value["acceleration"])[0], torque / 0.6);
 
-    // Without a state: the start of a run, 30 degrees.
+    // without a state: the start of a run, 30 degrees
     let value = json(
         &call(
             directory.path(),
@@ -655,7 +654,7 @@ fn effects_are_listed_with_what_they_cost() {
         "{text}"
     );
 
-    // Really timed, and few: the rest is the same.
+    // with timing, and few effects: the rest is the same
     let arguments = [
         "effects",
         "clock.yaml",
@@ -668,7 +667,7 @@ fn effects_are_listed_with_what_they_cost() {
     assert_eq!(list.len(), 1, "{effects}");
     let field = &list[0];
     assert_eq!(field["place"]["line"], 14);
-    // Without its weight the rod has no acceleration: 1 product and 1 sine less.
+    // without its weight the rod has no acceleration: 1 product and 1 sine less
     assert_eq!(
         (&field["operations"], &field["calls"]),
         (&1.into(), &1.into())
@@ -679,7 +678,7 @@ fn effects_are_listed_with_what_they_cost() {
         "{field}"
     );
     let (scene, general) = (&effects["scene"], &effects["nothing_left_out"]);
-    // where equations are interpreted there is no code
+    // interpreted equations have no code
     let keys = match scene["code_bytes"].is_null() {
         true => &["operations", "time_s"][..],
         false => &["operations", "time_s", "code_bytes"],
@@ -706,7 +705,7 @@ fn a_parameter_that_changes_nothing_is_refused_with_the_reason() {
     );
 }
 
-/// The page that teaches it: its model and its function.
+/// The example of the documentation page: its model and its function.
 fn ball() -> tempfile::TempDir {
     let page = include_str!("../../docs/forces/user.md");
     let block = |language: &str| {
@@ -720,7 +719,7 @@ fn ball() -> tempfile::TempDir {
     directory
 }
 
-/// A ball in still air comes down before and below where it would without: v_t² = 2 m g/(ρ c_d A) = 134 m²/s².
+/// A ball in air lands before and below a ball without drag: v_t² = 2 m g/(ρ c_d A) = 134 m²/s².
 #[test]
 fn a_force_of_the_users_own_runs_from_its_page() {
     let directory = ball();
@@ -744,7 +743,7 @@ fn a_force_of_the_users_own_runs_from_its_page() {
     };
     assert!(time == t && drag == 0.0);
     assert!((x - 20.0 * t).abs() < 1e-3 && (z - (15.0 * t - g * t * t / 2.0)).abs() < 1e-3);
-    // with it, by steps of a tenth of a millisecond of the midpoint rule, whose error is below 1e-6 here
+    // with drag, by steps of a tenth of a millisecond of the midpoint rule, whose error is below 1e-6 here
     let k = 0.5 * 1.2 * 0.47 * 13e-4 / 0.05;
     let (mut p, mut v, h) = ([0.0, 0.0], [20.0f64, 15.0], 1e-4);
     let rate = |v: [f64; 2]| {
@@ -786,7 +785,7 @@ fn what_the_compiler_finds_in_a_function_is_shown_in_its_file() {
     assert!(err.contains("similar name exists: `speed`"), "{err}");
     assert!(!err.contains("fault of bryant"), "{err}");
 
-    // what the page shows
+    // the example of the page
     std::fs::write(
         &file,
         text.replace("points.centre.velocity", "points.center.velocity"),
@@ -874,7 +873,7 @@ fn equations_at_a_state_have_the_functions_of_the_user() {
     // as a table
     let (out, _) = call(here, &["equations", "ball.yaml", "--at", "state.json"], 0);
     assert!(out.contains("ball.vx"), "{out}");
-    // a function that gives up says where
+    // a function that panics reports the place
     let file = here.join("drag.rs");
     let text = std::fs::read_to_string(&file).unwrap();
     let panics = text.replace(
@@ -914,7 +913,7 @@ fn what_only_a_crate_can_call_is_said() {
     );
 }
 
-/// Two pictures have as many points, each within two pixels.
+/// Checks that two pictures have equally many points, each within two pixels.
 #[track_caller]
 fn same_picture(drawn: &str, shown: &str, file: &str) {
     let [drawn, shown] = [drawn, shown].map(|svg| -> Vec<f64> {
@@ -929,7 +928,7 @@ fn same_picture(drawn: &str, shown: &str, file: &str) {
     assert_eq!(far, None, "{file}");
 }
 
-/// So are the pictures of the joints.
+/// The same for the pictures of the joints.
 #[test]
 fn the_joints_on_the_page_are_drawn_by_the_program() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/joints");
@@ -952,8 +951,8 @@ fn the_joints_on_the_page_are_drawn_by_the_program() {
     assert_eq!(count, 12);
 }
 
-/// The pictures of the pages on force models are what the program draws: as many points, each within two pixels (the
-/// processor at hand may round otherwise).
+/// The pictures on the pages about force models are those that the program draws: equally many points, each within two pixels, because
+/// another processor may round differently.
 #[test]
 fn the_laws_on_the_pages_are_drawn_by_the_program() {
     let pages = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/forces");
@@ -989,8 +988,8 @@ fn the_laws_on_the_pages_are_drawn_by_the_program() {
     }
 }
 
-/// What a study of the clock is called with: few points, one repetition, and time enough that no pause of a busy machine makes
-/// a point look too slow to be run.
+/// Arguments for a study of the clock: few points, one repetition, and so much time that a pause of a busy machine does not make a point
+/// look too slow to run.
 const STUDY: [&str; 15] = [
     "accuracy",
     "clock.yaml",
@@ -1009,7 +1008,7 @@ const STUDY: [&str; 15] = [
     "--json",
 ];
 
-/// The lines of a diagram with their numbers of points, and its legend: what does not depend on how long runs took.
+/// The lines of a diagram with their numbers of points, and its legend: the parts that do not depend on times.
 fn structure(svg: &str) -> Vec<String> {
     let mut parts: Vec<String> = svg
         .lines()
@@ -1019,14 +1018,14 @@ fn structure(svg: &str) -> Vec<String> {
             Some(format!("{class}: {}", points.matches(',').count()))
         })
         .collect();
-    // The legend stands in a column of its own, to the right of the frame.
+    // the legend has a column of its own, to the right of the frame
     let legend = svg.lines().filter(|line| line.contains(" x=\"748\" "));
     parts.extend(legend.filter_map(|line| Some(line.split_once('>')?.1.to_owned())));
     parts
 }
 
-/// θ̈ = −κ sin θ swings at ω = √κ, κ = m g l/J = 2·9.81·0.5/0.6: a step that errs by the tolerance moves the end of a run of
-/// T = 1 s by at most (1 + ωT) times that.
+/// θ̈ = −κ sin θ swings at ω = √κ, κ = m g l/J = 2·9.81·0.5/0.6: a step that errs by the tolerance changes the end of a run of T = 1 s by
+/// at most (1 + ωT) times as much.
 #[test]
 fn errors_fall_with_the_tolerance_and_are_written_down() {
     let directory = directory();
@@ -1038,7 +1037,7 @@ fn errors_fall_with_the_tolerance_and_are_written_down() {
     let study = json(&out);
     let points = study["points"].as_array().unwrap();
 
-    // The reference is the closed form, and the computed one agrees with it but for the roundings of its constants.
+    // the reference is the closed form; the computed solution agrees with it up to the rounding of its constants
     let epsilon = f64::EPSILON;
     let phase = (2.0 * 9.81 * 0.5f64 / 0.6).sqrt();
     let closed = &study["reference"]["closed_form"];
@@ -1067,20 +1066,21 @@ fn errors_fall_with_the_tolerance_and_are_written_down() {
         assert!(error <= steps * tolerance * (1.0 + phase), "{point}");
         errors.push(error);
     }
-    // Neighbours with some five steps each may err alike; over four decades the tolerance shows.
+    // neighbours with about five steps each may have similar errors; over four decades the tolerance shows
     let fall = errors.windows(3).all(|three| three[2] < three[0]);
     assert!(fall, "{errors:?}");
-    // Between steps of 10 ms and 1 ms, ωh = 0.04 and 0.004, the classical method has its order.
+    // between steps of 10 ms and 1 ms, ωh = 0.04 and 0.004, the classical method has its order
     let fixed = of("rk4", "f64", "step_s");
     let order = fixed[1]["order"].as_f64().unwrap();
     assert!((order - 4.0).abs() < 0.1, "{order}");
-    // Single precision has its rounding: ε of it, not less than one.
+    // the error in single precision is at least ε of it
     for point in of("dop853", "f32", "step_s") {
         let error = point["error_state"].as_f64().unwrap();
         assert!(error > 0.1 * f64::from(f32::EPSILON), "{point}");
     }
 
-    // The file says the same, and by what it was computed. (serde_json reads a number to within a unit in the last place.)
+    // the file has the same numbers, and the settings that they were computed with (serde_json reads a number to within a unit in the last
+    // place)
     let same = |text: String, value: &serde_json::Value| match (text.parse::<f64>(), value.as_f64())
     {
         (Ok(a), Some(b)) => (a - b).abs() <= 2.0 * epsilon * b.abs(),
@@ -1117,7 +1117,7 @@ fn errors_fall_with_the_tolerance_and_are_written_down() {
         }
     }
 
-    // A picture drawn again has the same lines and legend, whatever the times were.
+    // a picture that is drawn again has the same lines and legend, whatever the times were
     let svg = std::fs::read_to_string(here.join("a.svg")).unwrap();
     assert!(svg.contains("for 1 % in the worst of") && svg.contains("Pareto front"));
     let first = structure(&svg);
@@ -1144,7 +1144,7 @@ fn errors_fall_with_the_tolerance_and_are_written_down() {
     );
 }
 
-/// A time that a `Duration` cannot hold is a time all the same.
+/// A time that a `Duration` cannot hold is still a valid time.
 #[test]
 fn a_study_may_have_more_time_than_there_is() {
     let directory = directory();
@@ -1188,7 +1188,7 @@ fn a_study_that_cannot_be_is_refused_with_what_can() {
     refused(&["--picture", "a.pdf"], &[".svg", ".png"]);
     refused(&["--set", "gravity=-1"], &["at least 0"]);
 
-    // The scene itself cannot be run to its end.
+    // the scene itself cannot run to its end
     let (_, err) = call(here, &["accuracy", "cut-short.yaml", "--quick"], 3);
     assert!(
         err.contains("nothing to measure errors against") && err.contains("at t = 0.05 s the rate"),
@@ -1215,7 +1215,7 @@ fn a_run_that_cannot_be_trusted_ends_with_3_and_says_why() {
         "--no-files",
     ];
     let (out, err) = call(here, &arguments, 3);
-    // all is printed, and then doubted
+    // everything is printed, and then the run is doubted
     assert!(out.contains("10.0"), "{out}");
     for part in ["since t = ", "energy", "help:", "--tolerance"] {
         assert!(err.contains(part), "{part}: {err}");
@@ -1227,19 +1227,19 @@ fn a_run_that_cannot_be_trusted_ends_with_3_and_says_why() {
     assert_eq!(doubts[0]["kind"], "energy", "{doubts}");
     assert!(doubts[0]["since_s"].as_f64().is_some(), "{doubts}");
     let mut allowed = arguments.to_vec();
-    // the second run finds the same, and has a switch of its own
+    // the second run gives the same, and has an option of its own
     allowed.extend(["--energy-limit", "off"]);
     let (_, err) = call(here, &allowed, 3);
     assert!(err.contains("not as accurate as 10 %"), "{err}");
     allowed.push("--no-verify");
     call(here, &allowed, 0);
-    // and a finer step needs no allowance
+    // a finer step needs no allowance
     let mut finer = arguments.to_vec();
     finer[5] = "1 ms";
     call(here, &finer, 0);
 }
 
-/// A body on a joint as written, with a force on it or none.
+/// A body on a joint, with a force on it or without.
 fn on_a_joint(joint: &str, force: &str) -> String {
     format!(
         "model: several
@@ -1280,8 +1280,25 @@ fn a_start_in_a_singular_position_of_a_joint_is_named() {
             "{told}"
         );
     }
-    // away from there the run goes on
+    // the run can continue away from there
     run("60 deg", 0);
+    // where rounding alone says how it leaves such a position, it is not trusted
+    let euler = "[ { hinge: z, name: a }, { hinge: x, name: b }, { hinge: z, name: c } ]";
+    let start = "    start: { joints: { hand: [0, 180 deg, 0] } }\nforces";
+    let text = on_a_joint(euler, "").replace("forces", start);
+    let run = |text: String, code: i32| {
+        std::fs::write(directory.path().join("several.yaml"), text).unwrap();
+        let arguments = ["run", "several.yaml", "--no-files", "--no-verify"];
+        call(directory.path(), &arguments, code).1
+    };
+    let told = run(text.clone(), 3);
+    assert!(
+        told.contains("at the start the joint of \"arm/hand\" is in a singular position")
+            && told.contains("there a and c move the element alike"),
+        "{told}"
+    );
+    // a rotor keeps the mass matrix regular
+    run(text.replace("name: c", "name: c, armature: 0.05"), 0);
 }
 
 #[test]
@@ -1313,12 +1330,17 @@ fn check_warns_of_singular_positions_of_a_joint() {
             Some("comes within 10° of angle-y = -90° or 90°, where it is singular"),
         ),
         (three, &stop("79 deg"), None),
-        // a.(b x c) = 0 where the axis of the last lies in the plane of the others
+        // a.(b x c) = 0 if the axis of the last joint lies in the plane of the others
         (tilted, "", Some("is singular at tilt = -90° or 90°")),
         (
             polar,
             "",
             Some("is singular at position-x = 0 mm: there first and last move"),
+        ),
+        (
+            "[ { hinge: z, name: a, armature: 0.1 }, { hinge: x, name: b }, { hinge: z, name: c } ]",
+            "",
+            None,
         ),
         ("{ universal: [x, y] }", "", None),
         ("{ cylinder: z }", "", None),

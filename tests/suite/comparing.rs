@@ -1,4 +1,4 @@
-//! `bryant compare`, and channels of ISO-MME that `bryant run --mme` writes.
+//! `bryant compare`, and the ISO-MME channels that `bryant run --mme` writes.
 
 use super::called::call;
 use super::{PENDULUM, directory};
@@ -32,7 +32,7 @@ fn a_run_agrees_with_its_own_channels() {
         0,
     );
     assert!(told.contains("clock.mme"), "{told}");
-    // the code is the name, the output the title: by either the channel is found
+    // the code is the name, the output is the title: the channel is found by either
     let list = fs::read_to_string(path.join("test/Channel/clock.chn")).unwrap();
     assert!(list.contains("11CLOK000000ANYP / swing"), "{list}");
     let arguments = ["compare", "run.csv", "test", "--json"];
@@ -46,7 +46,7 @@ fn a_run_agrees_with_its_own_channels() {
             "{one}"
         );
     }
-    // bit for bit: what is read of the channel is what is in the table
+    // bit for bit: the numbers read from the channel are those in the table
     let table = fs::read_to_string(path.join("run.csv")).unwrap();
     let swing = table
         .lines()
@@ -62,7 +62,7 @@ fn a_run_agrees_with_its_own_channels() {
     );
 }
 
-/// A run against the same one with more gravity: the numbers are those of the formula, of the two tables.
+/// A run against the same run with more gravity: the ratings are those of the formula for the two tables.
 #[test]
 fn another_pendulum_agrees_less() {
     let directory = directory();
@@ -129,7 +129,7 @@ fn another_pendulum_agrees_less() {
         one["rating"].as_f64().unwrap() < 0.99 && one["late"].as_f64().unwrap() > 0.0,
         "{one}"
     );
-    // filtered both, they agree no worse by much
+    // if both are filtered, the agreement is not much worse
     call(path, &[&arguments[..], &["--filter", "CFC60"]].concat(), 0);
 }
 
@@ -200,7 +200,7 @@ fn what_cannot_be_compared_is_refused_with_the_remedy() {
         &["compare", "fine.csv", "coarse.csv", "--resample"],
         0,
     );
-    // 1 rad beside 1 deg: as far apart as can be
+    // 1 rad compared with 1 deg: they differ as much as possible
     let (text, _) = call(
         path,
         &[
@@ -213,7 +213,7 @@ fn what_cannot_be_compared_is_refused_with_the_remedy() {
         0,
     );
     assert!(text.contains("poor"), "{text}");
-    // channels at equal intervals alone
+    // only channels at equal intervals
     let (_, error) = call(
         path,
         &["run", "clock.yaml", "--mme", "test", "--every", "0.3 s"],
@@ -272,7 +272,7 @@ fn channel_codes_are_checked_and_follow_components_and_sides() {
     ];
     call(path, &fine, 0);
     let list = fs::read_to_string(path.join("test/Channel/clock.chn")).unwrap();
-    // what is written as CFC1000 is the table, filtered
+    // a channel written as CFC1000 is the filtered table
     let arguments = [
         "compare", "run.csv", "test", "--filter", "CFC1000", "--json",
     ];

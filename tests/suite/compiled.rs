@@ -1,10 +1,10 @@
-//! Compiled equations against the interpreted graph: what only the emitted code has wrong shows here and nowhere else.
+//! Compiled equations against the interpreted graph: only this test finds errors that are only in the emitted code.
 //!
-//! Both compute the same expressions, arranged differently, so they differ by rounding: by c·κ·ε. κ·ε is measured at every
-//! state as the scatter of the interpreted values when every operation, input and constant errs by up to ε at random
-//! (`bryant_tests::rounding`). c covers what eight samples say of a largest error: taken as normally distributed with
-//! deviation σ, the difference of two evaluations exceeds 6.5 σ once in 10⁵, the largest of eight samples is below 0.3 σ as
-//! seldom, hence c = 20; a rounding error is at most ε/2, which leaves a factor of two for longer chains of operations.
+//! Both compute the same expressions in different arrangements, so they differ by rounding, by c·κ·ε. κ·ε is measured at every state as the
+//! scatter of the interpreted values when every operation, input and constant errs randomly by up to ε (`bryant_tests::rounding`). c is the
+//! factor from eight samples to a largest error. For a normal distribution with deviation σ, the difference of two evaluations exceeds 6.5
+//! σ once in 10⁵, and the largest of eight samples is below 0.3 σ equally rarely, hence c = 20. A rounding error is at most ε/2, which
+//! leaves a factor of two for longer chains of operations.
 
 use crate::users::functions;
 use bryant_generator::dynamics::{Options, derive_with};
@@ -23,10 +23,10 @@ use std::path::Path;
 const C: f64 = 20.0;
 const STATES: usize = 20;
 
-/// Freedoms up to which S is assembled: that of a chain of 100 takes ten million operations.
+/// S is assembled for models with at most this many freedoms: S of a chain of 100 takes ten million operations.
 const LARGEST_MATRIX: usize = 60;
 
-/// What a model is evaluated at.
+/// A state and parameters at which a model is evaluated.
 struct Point {
     parameters: Vec<f64>,
     t: f64,
@@ -58,8 +58,8 @@ impl Point {
     }
 }
 
-/// States about the start of a run: near it, where contacts touch and belts tighten, and far from it; parameters at their
-/// defaults and anywhere within their bounds, or within half of themselves where they have none.
+/// States around the start of a run: near it, where contacts touch and belts tighten, and far from it. Parameters have their defaults, or
+/// random values within their bounds, or within a factor of a half if they have no bounds.
 fn points(model: &Model, equations: &Equations, entry: &Entry) -> Vec<Point> {
     let mut random = Random::new(entry.info.name.bytes().map(u64::from).sum());
     let mut points = Vec::new();
@@ -92,7 +92,7 @@ fn points(model: &Model, equations: &Equations, entry: &Entry) -> Vec<Point> {
         let (z, m) = rest.split_at(equations.auxiliaries.len());
         point.q = q.iter().map(|x| x + random.uniform(-near, near)).collect();
         point.v = v.iter().map(|x| x + random.uniform(-fast, fast)).collect();
-        // states of laws are lengths, angles and fractions; times that are never reached are left alone
+        // states of laws are lengths, angles and fractions; times that are never reached stay
         let mut law = |x: &f64| match x.abs() < 1e20 {
             true => x + random.uniform(-0.1 * near, 0.1 * near),
             false => *x,
@@ -113,7 +113,7 @@ fn points(model: &Model, equations: &Equations, entry: &Entry) -> Vec<Point> {
     points
 }
 
-/// Asserts that every value is within C times its scatter; gives the largest share of that taken.
+/// Checks that every difference is at most C times its scatter; returns the largest share of that.
 fn compare(what: &str, names: &[&str], ours: &[f64], expected: &[f64], scatter: &[f64]) -> f64 {
     assert_eq!(ours.len(), expected.len(), "{what}");
     let mut largest = 0.0f64;
@@ -131,7 +131,7 @@ fn compare(what: &str, names: &[&str], ours: &[f64], expected: &[f64], scatter: 
     largest
 }
 
-/// Entries of a vector or a matrix are sums of parts of others: the largest scatter is that of all.
+/// Entries of a vector or a matrix are sums of parts of others: all get the largest scatter.
 fn together(scatter: &[f64]) -> Vec<f64> {
     vec![scatter.iter().fold(0.0f64, |m, x| m.max(*x)); scatter.len()]
 }
@@ -293,8 +293,8 @@ fn check(compiled: &Compiled) {
         let accelerations = &ours[start..];
         assert_eq!(accelerations, v_dot, "{name}: two ways to the same method");
 
-        // The other route rounds otherwise by the condition of S, for the same forces; what these lose by themselves is
-        // in the scatter.
+        // The other route rounds differently, by the condition of S, for the same forces; the rounding of the forces themselves is in the
+        // scatter.
         let Some(by_other) = &mut by_other else {
             continue;
         };
@@ -327,7 +327,7 @@ fn bundled_models_compute_what_their_equations_say() {
         bryant_tests::compiled!("../models/robot-arm.yaml", bundled::robot_arm),
         bryant_tests::compiled!("../models/skydiver.yaml", bundled::skydiver),
         bryant_tests::compiled!("../models/sled-pendulum.yaml", bundled::sled_pendulum),
-        // r_k takes the states of force laws too
+        // r_k also takes the states of force laws
         Compiled {
             path: "../models/elbow.yaml",
             entry: Entry::of::<bundled::elbow::Mechanism<f64>>(),
@@ -375,7 +375,7 @@ fn single_precision_computes_the_same_to_its_own_rounding() {
     let single = Mechanism::<f32>::new(ParameterSet::<f32>::defaults());
     let double = Mechanism::<f64>::new(ParameterSet::<f64>::defaults());
     for mut point in points(&model, &equations, &entry) {
-        // the same numbers for both
+        // both get the same numbers
         point.t = f64::from(point.t as f32);
         for x in point.q.iter_mut().chain(&mut point.v) {
             *x = f64::from(*x as f32);

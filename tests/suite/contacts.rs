@@ -1,4 +1,4 @@
-//! The laws of contacts against closed forms: hysteresis, damping that fades in, friction that holds, edges, other shapes.
+//! Contact laws against closed forms: hysteresis, damping that fades in, friction that holds, edges, other shapes.
 //!
 //! The error of a run is bounded as in `laws`: steps · tolerance · max(ω, 1).
 
@@ -38,7 +38,7 @@ fn a_dent_stays_and_takes_its_part_of_the_energy() {
             (ours - set).abs() <= bound,
             "{what}: set {ours} instead of {set}, allowed {bound:e}"
         );
-        // the force falls to nothing where the dent ends, not at the first touch
+        // the force falls to 0 at the end of the dent, not at the first touch
         for (force, dent) in run.column("dent force").iter().zip(run.column("dent")) {
             assert!(*force >= 0.0);
             assert!(*force > 0.0 || dent <= set + bound, "{force} {dent}");
@@ -60,7 +60,7 @@ fn a_cushion_gives_back_the_energy_under_its_lower_curve() {
             ],
             TOLERANCE,
         );
-        // loading to δ_m, down the line of slope s to the straight curve of unloading, and along that
+        // loading to δ_m, then down the line of slope s to the straight unloading curve, and along it
         let deepest = speed * f64::sqrt(mass / k1);
         let foot = deepest * (1.0 - k1 / s);
         let meets = s * foot / (s - ku);
@@ -77,13 +77,12 @@ fn a_cushion_gives_back_the_energy_under_its_lower_curve() {
     }
 }
 
-/// The force after a whole history of penetrations, told branch by branch: on the curve of loading, on a line, on the curve
-/// of unloading.
+/// The force after a whole history of penetrations, computed branch by branch: on the loading curve, on a line, on the unloading curve.
 struct History<'a> {
     loading: &'a dyn Fn(f64) -> f64,
     unloading: Option<&'a dyn Fn(f64) -> f64>,
     slope: f64,
-    /// A point of the line now valid.
+    /// A point of the current line.
     through: (f64, f64),
 }
 
@@ -132,8 +131,8 @@ fn loops_of_any_depth_close() {
         slope: steep,
         through: (0.0, 0.0),
     };
-    // The samples miss a turning point by at most half their time Δt: by a (Δt/2)²/2 of the penetration, a being the largest
-    // acceleration; every turn may leave as much, of which the lines make a force.
+    // The samples miss a turning point by at most half their interval Δt: by a (Δt/2)²/2 of the penetration, where a is the largest
+    // acceleration. Every turn may contribute this error, which the slopes of the lines convert to a force.
     let (acceleration, sampling, turns) = (55.0, 1e-4f64, 10.0);
     let missed = turns * acceleration * sampling * sampling / 8.0;
     let (mut least, mut turned, mut before) = (f64::INFINITY, 0, 0.0);
@@ -159,7 +158,7 @@ fn loops_of_any_depth_close() {
         least = least.min(penetration);
     }
     assert!(turned > 100 && least < -1e-3);
-    // 300 N/5 mm: the deepest point is 22 mm deep, where 1120 N dent it by all but 5.6 mm
+    // 300 N/5 mm: the deepest point is 22 mm deep; a force of 1120 N dents it, and 5.6 mm spring back
     let deepest = largest(&columns[0]);
     let set = deepest - loading(deepest) / 2e5;
     close(
@@ -183,8 +182,8 @@ fn work(run: &Recording, penetration: &str, force: &str) -> f64 {
 
 #[test]
 fn damping_that_fades_in_takes_what_hunt_and_crossley_say() {
-    // As long as it fades in, the force is k δ + λ δ δ̇ with λ = d/depth: m v dv/dδ = −δ (k + λ v), so that
-    // v/λ − k/λ² ln(1 + λ v/k) is the same at the first touch and at the last.
+    // While the damping fades in, the force is k δ + λ δ δ̇ with λ = d/depth: m v dv/dδ = −δ (k + λ v), so v/λ − k/λ² ln(1 + λ v/k) is the
+    // same at the first touch and at the last.
     let entry = Entry::of::<models::bounce::Mechanism<f64>>();
     let (stiffness, mass, speed) = (1e4f64, 1.0, 1.0);
     for (damping, depth) in [(20.0, 0.02), (200.0, 0.02), (200.0, 0.5)] {
@@ -206,13 +205,13 @@ fn damping_that_fades_in_takes_what_hunt_and_crossley_say() {
                 most = middle;
             }
         }
-        // as fast as ω, or as damping at the deepest point, which is above the speed divided by ω
+        // the rate is that of ω, or that of damping at the deepest point, which is deeper than the speed divided by ω
         let deepest = speed * f64::sqrt(mass / stiffness);
         let rate = f64::sqrt(stiffness / mass) + lambda * deepest / mass;
         let what = format!("restitution, damping {damping} N s/m over {depth} m");
         let bound = integration(&run, rate) + 1e-12 * rate;
         close(&what, last(&run.column("velocity")), least, bound);
-        // F ≤ (k + λ v) δ: nothing jumps
+        // F ≤ (k + λ v) δ: the force does not jump
         for (height, force) in run.column("height").iter().zip(run.column("force")) {
             let penetration = (0.1 - height).max(0.0);
             assert!(force <= (stiffness + lambda * speed) * penetration * (1.0 + 1e-9));
@@ -220,7 +219,7 @@ fn damping_that_fades_in_takes_what_hunt_and_crossley_say() {
     }
 }
 
-/// Downhill way of the block on its slope.
+/// Downhill displacement of the block on its slope.
 fn downhill(run: &Recording, slope: f64) -> Vec<f64> {
     let (x, z) = (run.column("x"), run.column("z"));
     let pairs = x.iter().zip(&z);
@@ -244,8 +243,8 @@ fn a_block_holds_on_a_slope() {
             TOLERANCE,
             Some(duration),
         );
-        // The way of the block and the deflection of the bristle have the same rate while it sticks, so that their difference
-        // stays whatever the errors of the steps; the deflection goes to z_b tan θ/μ.
+        // While the block sticks, its displacement and the deflection of the bristle have the same rate, so that their difference is
+        // constant whatever the errors of the steps are; the deflection tends to z_b tan θ/μ.
         let way = downhill(&run, slope);
         let held = displacement * slope.tan() / mu;
         let bound = run.steps * TOLERANCE;
@@ -255,7 +254,7 @@ fn a_block_holds_on_a_slope() {
                 (way - rest).abs() <= 2.0 * bound,
                 "creeps from {rest} to {way} in {t} s, allowed {bound:e}"
             );
-            // with less in reserve it slips when it is let go, until it is at rest
+            // with a smaller margin it slips after the release, until it is at rest
             if slope.tan() < 0.9 * mu {
                 close(&format!("{degrees} degrees at {t} s"), *way, held, bound);
             }
@@ -264,7 +263,7 @@ fn a_block_holds_on_a_slope() {
 }
 
 #[test]
-fn a_block_breaks_loose_where_the_slope_is_steeper_than_its_friction() {
+fn a_block_slides_where_the_slope_exceeds_the_friction_angle() {
     let entry = Entry::of::<models::incline::Mechanism<f64>>();
     for (degrees, mu) in [(30.0f64, 0.4), (22.0, 0.4), (45.0, 0.9)] {
         let slope = degrees.to_radians();
@@ -272,7 +271,7 @@ fn a_block_breaks_loose_where_the_slope_is_steeper_than_its_friction() {
         let (vx, vz) = (run.column("vx"), run.column("vz"));
         let speed = |k: usize| vx[k] * slope.cos() - vz[k] * slope.sin();
         let acceleration = G * (slope.sin() - mu * slope.cos());
-        // the normal force rings with the contact's frequency, the bristle is as fast
+        // the normal force oscillates with the contact's frequency, and the bristle is equally fast
         let bound = integration(&run, f64::sqrt(1e5 / 2.0));
         let (from, to) = (run.at(2.0), run.at(10.0));
         close(
@@ -296,8 +295,8 @@ fn a_sliding_block_stops_and_springs_back_by_its_bristle() {
         ];
         let run = run(&entry, &parameters, TOLERANCE);
         let (distance, time) = (speed * speed / (2.0 * mu * G), speed / (mu * G));
-        // Sliding, the deflection goes to z_b with the rate v_s/z_b; what it lacks it does not spring back by, and it lets
-        // go of μN when s_t falls below 1, within that part of v_s.
+        // During sliding, the deflection tends to z_b with the rate v_s/z_b. It springs back by the deflection reached, and the friction
+        // leaves μN when s_t falls below 1, within that share of v_s.
         let lacks = f64::exp(-time * 0.01 / displacement);
         let error = run.steps * TOLERANCE * f64::max(1.0, time);
         let bound = error + displacement * lacks + 0.01 * lacks * time;
@@ -337,7 +336,7 @@ fn friction_that_holds_knows_no_direction() {
             close("held", down, displacement * slope.tan() / mu, bound);
             assert!(across.abs() <= bound, "across {across}");
         }
-        // on the level, pushed in that direction
+        // on level ground, pushed in that direction
         let speed = 1.5;
         let parameters = [
             ("slope", 0.0),
@@ -451,7 +450,7 @@ fn unit(a: Vector) -> Vector {
     a.map(|x| x / dot(a, a).sqrt())
 }
 
-/// What a turn by an angle about an axis makes of a vector.
+/// A vector, rotated by an angle about an axis.
 fn turned(axis: usize, angle: f64, v: Vector) -> Vector {
     let (s, c) = angle.sin_cos();
     let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -460,7 +459,7 @@ fn turned(axis: usize, angle: f64, v: Vector) -> Vector {
     w
 }
 
-/// A body by seven coordinates: position and quaternion.
+/// The pose of a body from seven coordinates: position and quaternion.
 struct Pose<'a>(&'a [f64]);
 
 impl Pose<'_> {
@@ -477,7 +476,7 @@ impl Pose<'_> {
     }
 }
 
-/// Deepest point of an ellipsoid in a direction: a step of the reach against it from the centre, by its own axes.
+/// Deepest point of an ellipsoid in a direction: the point farthest against it from the centre, by its own axes.
 fn furthest(
     pose: &Pose<'_>,
     centre: Vector,
@@ -503,7 +502,7 @@ fn furthest(
 }
 
 #[test]
-fn an_edge_that_fades_keeps_energy_and_momentum_of_bodies_that_turn() {
+fn a_fading_edge_conserves_energy_and_momentum_while_turning() {
     let entry = Entry::of::<models::edge_space::Mechanism<f64>>();
     let run = run(&entry, &[], TOLERANCE);
     let sum = |what: &str| -> Vec<f64> {
@@ -514,7 +513,7 @@ fn an_edge_that_fades_keeps_energy_and_momentum_of_bodies_that_turn() {
         stone.iter().zip(&slab).map(|(a, b)| a + b).collect()
     };
     let (kinetic, deep) = (sum("energy"), run.column("penetration"));
-    // speeds of a few m/s and masses of 30 kg, at most: ten times as wrong as a coordinate
+    // speeds of a few m/s and masses of at most 30 kg: ten times the error of a coordinate
     let bound = 100.0 * integration(&run, f64::sqrt(1e5 / 2.0));
     let normal = unit([0.1, 0.2, 1.0]);
     let along = unit(plus([1.0, 1.0, 0.0], -dot([1.0, 1.0, 0.0], normal), normal));
@@ -571,8 +570,8 @@ fn a_rounded_box_keeps_its_energy() {
         let springs = [floor, wall].map(|x: f64| 0.5 * 2e4 * x.max(0.0).powi(2));
         kinetic + mass * G * z + springs[0] + springs[1]
     };
-    // A corner of degree 8 and radius r/8 turns under the deepest point: a few times the rate of the springs. An energy of
-    // 10 J and 2 kg is wrong by its speed of 3 m/s times its mass.
+    // A corner of degree 8 and radius r/8 rotates under the deepest point: a few times the rate of the springs. The error of an energy of
+    // 10 J and 2 kg is that of its speed of 3 m/s times its mass.
     let bound = 6.0 * integration(&run, 4.0 * f64::sqrt(2e4 / 0.5));
     for (k, t) in run.times.iter().enumerate() {
         let error = (energy(k) - energy(0)).abs();
@@ -586,7 +585,7 @@ fn a_rounded_box_keeps_its_energy() {
 
 #[test]
 fn the_deepest_point_of_a_rounded_box_is_the_deepest() {
-    // The penetration of an output against the surface itself, sampled in all directions from its centre.
+    // The penetration of an output, against the surface itself, sampled in all directions from its centre.
     let entry = Entry::of::<models::chest_drop::Mechanism<f64>>();
     let run = run(&entry, &[], 1e-6);
     let (floor, wall) = (run.column("floor"), run.column("wall"));
@@ -618,8 +617,8 @@ fn the_deepest_point_of_a_rounded_box_is_the_deepest() {
                     deepest = deepest.max(dot(pose.point(point), down));
                 }
             }
-            // no sample is deeper; at most 0.2 m away, two directions of the grid are a grid's width of that apart, and the surface
-            // rises between them by no more, be it ever so steep against the direction
+            // No sample is deeper. At a distance of at most 0.2 m, two directions of the grid are one grid width apart, and the surface
+            // between them rises by no more than this, however steep it is.
             let width = 2.0 * 0.2 * std::f64::consts::PI / GRID as f64;
             assert!(deepest <= ours + 1e-12, "{deepest} {ours}");
             assert!(ours - deepest <= width, "{deepest} {ours}");
@@ -631,7 +630,7 @@ fn the_deepest_point_of_a_rounded_box_is_the_deepest() {
 fn discs_part_as_the_laws_of_impact_say() {
     let entry = Entry::of::<models::discs::Mechanism<f64>>();
     let run = run(&entry, &[], TOLERANCE);
-    // 1 kg and 3 kg at 1 m/s each along (3, 4): a spring of 10 kN/m and the reduced mass, for half a turn
+    // 1 kg and 3 kg at 1 m/s each along (3, 4): a spring of 10 kN/m and the reduced mass, for half a period
     let (stiffness, reduced, speed) = (1e4f64, 0.75, 2.0);
     let omega = f64::sqrt(stiffness / reduced);
     let bound = integration(&run, omega);
@@ -672,7 +671,7 @@ fn a_disc_as_large_as_a_planet_is_a_plane_from_either_side() {
     ];
     let columns = names.map(|name| run.column(name));
     let (rub, turned) = (run.column("friction"), run.column("friction turned round"));
-    // kilometres are rounded to this
+    // kilometres are rounded by this
     let (radius, rounding) = (1e3, 8.0 * f64::EPSILON * 1e3);
     let (stiffness, mu, displacement) = (1e4, 0.3, 1e-3);
     let strongest = largest(&columns[4]);
@@ -680,7 +679,7 @@ fn a_disc_as_large_as_a_planet_is_a_plane_from_either_side() {
         let [x, line, planet, other, normal, opposite] = std::array::from_fn(|i| columns[i][k]);
         assert!((planet - other).abs() <= rounding, "{planet} {other}");
         assert!((normal - opposite).abs() <= stiffness * rounding);
-        // two bristles, of two states, each wrong by the tolerance of every step
+        // two bristles with two states, each with the error of the tolerance in every step
         let bound = mu * strongest / displacement * run.steps * TOLERANCE;
         assert!(
             (rub[k] - turned[k]).abs() <= bound,
@@ -688,7 +687,7 @@ fn a_disc_as_large_as_a_planet_is_a_plane_from_either_side() {
             rub[k],
             turned[k]
         );
-        // the surface of the disc falls away by X²/2R, wherever in the ellipse they meet
+        // the surface of the disc falls away by X²/2R, wherever they meet in the ellipse
         let furthest = x.abs() + 0.31;
         let falls = furthest * furthest / (2.0 * radius) * 1.01;
         let less = line - planet;
@@ -734,7 +733,7 @@ fn stones_keep_energy_and_momentum() {
             );
         }
     }
-    // the deepest points of both, along the line that joins them: as deep as said, and no surface in between
+    // the deepest points of both, along the line that connects them: as deep as the output says, and no surface in between
     let touching = (0..run.times.len()).filter(|k| hit[*k] > 1e-3);
     let (mut checked, semi) = (0, [[0.12, 0.07, 0.09], [0.15, 0.08, 0.1]]);
     for k in touching {
@@ -753,7 +752,7 @@ fn stones_keep_energy_and_momentum() {
                 least = least.min(overlap([s * d, s * t, c]));
             }
         }
-        // half a grid's width e from the least, the overlap is more by e²/2 times radii of curvature, a²/c at most each
+        // half a grid width e from the smallest overlap, the overlap is larger by e²/2 times radii of curvature, each at most a²/c
         let width = std::f64::consts::PI / GRID as f64;
         let curved = 0.15 * 0.15 / 0.08 + 0.12 * 0.12 / 0.07;
         assert!(hit[k] <= least + 1e-12, "{} {least}", hit[k]);

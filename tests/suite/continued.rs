@@ -1,11 +1,11 @@
-//! Runs that begin where others ended, by a file of the state.
+//! Runs that begin where others ended, through a state file.
 
 use super::called::call;
 use super::json;
 use serde_json::Value;
 use std::path::Path;
 
-/// 1 kg that is kicked between 0.5 s and 0.6 s with up to 20 m/s², a triangle, and before with nothing.
+/// 1 kg that is kicked between 0.5 s and 0.6 s with a triangle of up to 20 m/s², and is at rest before.
 const KICK: &str = "\
 model: kick
 dimension: 2
@@ -41,7 +41,7 @@ fn a_kick_is_felt_by_a_run_that_begins_before_it_or_within_it() {
     let here = tempfile::tempdir().unwrap();
     let here = here.path();
     std::fs::write(here.join("kick.yaml"), KICK).unwrap();
-    // 1 m/s, on average half of it for 0.1 s, then 0.4 s of it
+    // 1 m/s: on average half of it for 0.1 s, then all of it for 0.4 s
     let (x, speed) = (0.05 + 0.4, 1.0);
     for at in ["0.25 s", "0.5 s", "0.537 s", "0.6 s", "0.9 s"] {
         run(here, "kick.yaml", &["--duration", at, "--final-state", "s"]);
@@ -70,7 +70,7 @@ fn a_kick_is_felt_by_a_run_that_begins_before_it_or_within_it() {
 }
 
 #[test]
-fn two_halves_are_the_whole_with_belts_contacts_memory_and_vehicles() {
+fn a_run_in_two_halves_equals_the_whole_run() {
     let here = tempfile::tempdir().unwrap();
     let here = here.path();
     let scene = |name: &str| format!("{}/benches/scenes/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
@@ -89,7 +89,7 @@ fn two_halves_are_the_whole_with_belts_contacts_memory_and_vehicles() {
             &[&sharp[..], &["--start", "state.json"]].concat(),
         );
         let (whole, first, second) = (rows(&whole), rows(&first), rows(&second));
-        // the sample where they meet is in both
+        // the sample between the two runs is in both
         assert_eq!(first.len() + second.len(), whole.len() + 1, "{model}");
         assert_eq!(first.last().unwrap()[0], second[0][0]);
         for column in 1..whole[0].len() {
@@ -98,7 +98,7 @@ fn two_halves_are_the_whole_with_belts_contacts_memory_and_vehicles() {
             let tail = &whole[whole.len() - second.len() + 1..];
             for (row, expected) in second[1..].iter().zip(tail) {
                 assert_eq!(row[0], expected[0]);
-                // the default promise is 1e-3 at a tolerance a hundred times this one
+                // the default promise is 1e-3 at a tolerance that is a hundred times this one
                 let error = (row[column] - expected[column]).abs();
                 assert!(
                     error <= 1e-5 * largest,

@@ -1,4 +1,4 @@
-//! Curves of time as a compiled model has them: from files, smooth, stretched by parameters.
+//! Curves of time in a compiled model: from files, smooth, stretched by parameters.
 
 use bryant_runtime::simulate::{Settings, simulate};
 use bryant_runtime::{Model, ParameterSet};
@@ -19,14 +19,14 @@ fn run(lengthening: f64) -> Vec<(f64, Vec<f64>)> {
     samples
 }
 
-/// A piece of a curve: where it begins, its length, ordinate and slope at both ends; a cubic, or a line.
+/// A piece of a curve: its beginning, its length, ordinates and slopes at both ends; a cubic, or a line.
 struct Piece {
     from: f64,
     h: f64,
     ends: [[f64; 2]; 2],
 }
 
-/// Position and velocity at t of what starts at rest and is accelerated by the pieces, and then by a line.
+/// Position and velocity at t of a motion that starts at rest and is accelerated by the pieces, and then by a line.
 fn follow(pieces: &[Piece], last: [f64; 2], t: f64) -> [f64; 2] {
     let [mut x, mut v] = [0.0, 0.0];
     let mut end = 0.0;
@@ -52,7 +52,7 @@ fn follow(pieces: &[Piece], last: [f64; 2], t: f64) -> [f64; 2] {
 
 const PULSE: [[f64; 2]; 4] = [[0.0, 0.0], [0.02, 3.5], [0.05, -2.0], [0.09, 1.0]];
 
-/// The pulse stretched and scaled with slopes at its points, and what follows it.
+/// The pulse, stretched and scaled, with slopes at its points, and the line that follows it.
 fn pulse(stretch: f64, times: f64, slopes: Option<[f64; 4]>) -> (Vec<Piece>, [f64; 2]) {
     let pieces = (0..3).map(|k| {
         let ([x, y], [next_x, next_y]) = (PULSE[k], PULSE[k + 1]);
@@ -71,9 +71,9 @@ fn pulse(stretch: f64, times: f64, slopes: Option<[f64; 4]>) -> (Vec<Piece>, [f6
     (pieces.collect(), [times * PULSE[3][1], after])
 }
 
-/// Slopes of the smooth pulse in N/s: level at its extrema, and at the ends those of parabolas. Left: secants 175 and −183⅓
-/// over 20 and 30 ms, (70·175 + 20·183⅓)/50 = 318⅓. Right: secants 75 and −183⅓ over 40 and 30 ms,
-/// (110·75 + 40·183⅓)/70 = 222.6…, just less than three times the secant.
+/// Slopes of the smooth pulse in N/s: 0 at its extrema, and at the ends those of parabolas. Left: secants 175 and −183⅓ over 20 and 30 ms,
+/// (70·175 + 20·183⅓)/50 = 318⅓. Right: secants 75 and −183⅓ over 40 and 30 ms, (110·75 + 40·183⅓)/70 = 222.6…, just less than three times
+/// the secant.
 const SMOOTH: [f64; 4] = [
     (70.0 * 175.0 + 20.0 * 550.0 / 3.0) / 50.0,
     0.0,
@@ -85,13 +85,13 @@ const SMOOTH: [f64; 4] = [
 fn curves_of_time_move_masses_exactly() {
     for lengthening in [1.7, 0.5, 1.0, 2.345_678] {
         for (t, state) in run(lengthening) {
-            // per system x, z, φ; then the velocities
+            // for each system x, z, φ; then the velocities
             let (q, v) = state.split_at(12);
             let check = |what: &str, index: usize, (pieces, last): (Vec<Piece>, [f64; 2])| {
                 let [x, speed] = follow(&pieces, last, t);
-                // Between the points the solution is a polynomial of degree 3, or 5 where the curve is smooth: the method of
-                // order 5 makes no error but of rounding, as long as every step ends on the points; within a step the
-                // interpolation, of order 4, neither for degree 3. A hundred steps, a dozen roundings each.
+                // Between the points the solution is a polynomial of degree 3, or 5 for the smooth curve. The method of order 5 errs only
+                // by rounding if every step ends on the points; within a step the interpolation of order 4 is exact for degree 3, too. A
+                // hundred steps, a dozen roundings each.
                 let bound = 1200.0 * f64::EPSILON;
                 for (ours, expected) in [(q[index], x), (v[index], speed)] {
                     assert!(
@@ -116,7 +116,7 @@ fn curves_of_time_move_masses_exactly() {
 }
 
 #[test]
-fn kinks_of_numbers_are_listed_and_those_of_parameters_asked_for() {
+fn kinks_of_constant_and_of_adjustable_curves_are_known() {
     let info = <curves::Mechanism<f64> as Model<f64>>::INFO;
     let expected = [0.0, 0.006, 0.015, 0.02, 0.027, 0.05, 0.09];
     assert_eq!(info.breakpoints.len(), expected.len());
@@ -138,7 +138,7 @@ fn kinks_of_numbers_are_listed_and_those_of_parameters_asked_for() {
     }
 }
 
-/// Of a curve as read and as compiled, for lines and cubics, some points of which lie on a line.
+/// A curve as read and as compiled, with lines and with cubics; some of its points are on one line.
 #[test]
 fn the_kinks_of_a_curve_are_the_same_to_the_interpreter() {
     use bryant_generator::model::{Curve as Read, Extrapolate as Beyond, Interpolate};
@@ -177,7 +177,7 @@ fn the_kinks_of_a_curve_are_the_same_to_the_interpreter() {
             assert_eq!(edged.zigzag(x), lines.zigzag(x), "{points:?} at {x}");
             assert_eq!(smooth.zigzag(x), cubics.zigzag(x), "{points:?} at {x}");
         }
-        // where the slope of a line is another on either side
+        // points where the slope of the lines changes
         for (k, point) in points.iter().enumerate().skip(1).take(4) {
             let [before, after] =
                 [k - 1, k].map(|k| lines.slope(0.5 * (points[k][0] + points[k + 1][0])));

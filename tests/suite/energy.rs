@@ -1,10 +1,10 @@
 //! The balance of energy, dT/dt = Σ P, as an identity of the equations at any state of every model.
 //!
-//! dT/dt = Σ ∂T/∂q q̇ + Σ ∂T/∂v v̇ + ∂T/∂t is derived from the kinetic energy alone, the powers from the forces: a force that
-//! does other work than its power says, acts at another point, or has no reaction, shows. Both are sums of the same size, so
-//! they agree within rounding of their terms.
+//! dT/dt = Σ ∂T/∂q q̇ + Σ ∂T/∂v v̇ + ∂T/∂t is derived from the kinetic energy only, and the powers from the forces. So the test finds a
+//! force whose work differs from its power, that acts at a wrong point, or that has no reaction. Both sides are sums of the same size, so
+//! they agree within the rounding of their terms.
 //!
-//! And as the balance of runs: what is missing at the end is what the integrator lost, at most its tolerance in each step.
+//! And as the balance of runs: the gap at the end is the loss of the integrator, at most its tolerance in each step.
 
 use crate::identity::Balance;
 use bryant_generator::expression::sum;
@@ -13,8 +13,8 @@ use bryant_runtime::{Formula, Method, Tolerances};
 use bryant_tests::models::MODELS;
 use std::ops::ControlFlow;
 
-/// The tolerance is relative to coordinates, a spring's energy goes with the square of a difference of them, which in these
-/// models comes down to a tenth of their size (the ball of `bounce`, 0.1 m above the origin, sinks in by 1 cm).
+/// The tolerance is relative to coordinates, and the energy of a spring is quadratic in a difference of coordinates, which in these models
+/// is at least a tenth of their size (the ball of `bounce`, 0.1 m above the origin, sinks in by 1 cm).
 const AMPLIFICATION: f64 = 2.0 * 10.0;
 
 #[test]
@@ -30,7 +30,7 @@ fn the_powers_are_the_rate_of_the_kinetic_energy() {
 }
 
 #[test]
-fn the_balance_of_every_run_closes_to_the_tolerance_of_the_integrator() {
+fn the_energy_balance_of_every_run_closes_to_the_tolerance() {
     let bundled = bryant_generated::MODELS.iter().map(|m| m.entry);
     for entry in bundled.chain(MODELS.iter().map(|m| m.entry)) {
         let name = entry.info.name;

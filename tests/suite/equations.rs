@@ -1,4 +1,4 @@
-//! The equations against what was derived or computed independently of them.
+//! The equations against independent derivations and results.
 
 use bryant_generator::dynamics::lagrange::{NoLagrange, lagrange};
 use bryant_generator::dynamics::layout::Layout;
@@ -134,7 +134,7 @@ fn mass_matrix_and_velocity_forces_are_those_of_lagrange() {
                             "S of {count} in {dimension:?}, {shape:?}: {difference:e}"
                         );
                         let ours = values(&equations, &equations.velocity_forces, &q, &v, &m, &[]);
-                        // Each term of r_s is an inertia times two rates; where all cancel, they are the measure.
+                        // each term of r_s is an inertia times two rates; if all terms cancel, they are the scale
                         let scale = s.iter().fold(0.0f64, |m, x| m.max(x.abs()))
                             * v.iter().fold(0.0f64, |m, x| m.max(x * x));
                         let difference = ours
@@ -246,7 +246,7 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
     tree
 }
 
-/// q, v and charts of a state of a reference tree, in the coordinates of the model; every other element in the second chart.
+/// q, v and charts for a state of a reference tree, in the coordinates of the model; every other element is in the second chart.
 fn in_coordinates(tree: &ReferenceTree, index: usize) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     let (model, state) = (&tree.model, &tree.states[index]);
     let layout = Layout::of(model);
@@ -276,8 +276,8 @@ fn in_coordinates(tree: &ReferenceTree, index: usize) -> (Vec<f64>, Vec<f64>, Ve
     (q, v, m)
 }
 
-/// Bryant angles of a quaternion in a chart, and their rates for ω in absolute axes: from A = Rx Ry Rz, after which the second
-/// chart has a turn about y by −90°, and ω = W φ̇, W inverted numerically.
+/// Bryant angles of a quaternion in a chart, and their rates for ω in absolute axes: from A = Rx Ry Rz, followed in the second chart by a
+/// rotation about y by −90°, and from ω = W φ̇ with W inverted numerically.
 fn bryant_of(quaternion: &[f64], omega: &[f64], chart: usize) -> ([f64; 3], [f64; 3]) {
     let &[w, x, y, z] = quaternion else {
         panic!("a quaternion")
@@ -383,7 +383,7 @@ fn elimination_solves_the_system() {
     }
 }
 
-/// Geometry in which constants of an element vanish or coincide, so that it is eliminated in fewer steps or another way.
+/// Geometries in which constants of an element vanish or coincide, so that it is eliminated in fewer steps or in another way.
 #[test]
 fn elimination_solves_the_system_where_geometry_is_special() {
     type Change = fn(usize, &mut Element);
@@ -444,7 +444,7 @@ fn elimination_solves_the_system_where_geometry_is_special() {
                     }
                     let case = format!("{name}, {coordinates:?} {reference:?} {shape:?}");
                     eliminates(&mut random, &model, &case);
-                    // Loaded elements are eliminated about the absolute axes, between others that are not.
+                    // Loaded elements are eliminated in absolute axes, between others that are not.
                     model.forces.push(push_on(2));
                     eliminates(&mut random, &model, &format!("{case}, with a load"));
                 }
@@ -597,9 +597,9 @@ fn values_of(equations: &Equations, q: &[f64], v: &[f64]) -> Vec<f64> {
     values(equations, &equations.accelerations, q, v, &m, &[])
 }
 
-/// The same trees in quaternions and in Bryant angles of whatever charts, at the same orientations and angular velocities.
+/// The same trees in quaternions and in Bryant angles of any charts, at the same orientations and angular velocities.
 ///
-/// ω = W φ̇ and α = W φ̈ + ε with ε = Ẇ φ̇ make of S α = r_s + r_k, with B = diag(1, W₁, W₂, …): Bᵀ S B φ̈ = Bᵀ (r_s − S ε) + Bᵀ r_k.
+/// ω = W φ̇ and α = W φ̈ + ε with ε = Ẇ φ̇ turn S α = r_s + r_k into Bᵀ S B φ̈ = Bᵀ (r_s − S ε) + Bᵀ r_k, with B = diag(1, W₁, W₂, …).
 #[test]
 fn both_charts_are_of_the_motion_in_quaternions() {
     let mut random = Random::new(8);
@@ -625,7 +625,7 @@ fn both_charts_are_of_the_motion_in_quaternions() {
                     let (mut angles, mut rates) = (q[..first].to_vec(), v[..first].to_vec());
                     let mut b = DMatrix::identity(v.len(), v.len());
                     let mut bias = DVector::zeros(v.len());
-                    // W is divided by the cosine of the second angle: states near its pole are for the other chart
+                    // W is divided by the cosine of the second angle: states near its pole belong to the other chart
                     let mut smallest = 1.0f64;
                     for k in 0..count {
                         let (at, orientation) = (first + 3 * k, &q[first + 4 * k..][..4]);
@@ -653,7 +653,7 @@ fn both_charts_are_of_the_motion_in_quaternions() {
                     };
                     let ours = matrix(&in_angles, &angles, &rates, &m, &[]);
                     let scale = ours.amax();
-                    // some hundred operations, each with rates divided by 0.3 up to twice
+                    // some hundred operations, each with rates that are divided by 0.3 up to twice
                     let rounding = 1e-12;
                     let fast = 1.0 + bias.amax() + rates.iter().map(|r| r * r).sum::<f64>();
                     let difference = (&ours - b.transpose() * &s * &b).amax() / scale;
@@ -680,7 +680,7 @@ fn both_charts_are_of_the_motion_in_quaternions() {
     }
 }
 
-/// W, by which ω = W φ̇, and Ẇ φ̇: its columns are e_x, Rx e_y and Rx Ry e_z.
+/// W with ω = W φ̇, and Ẇ φ̇; the columns of W are e_x, Rx e_y and Rx Ry e_z.
 fn rates_to_omega(
     [first, second, _]: [f64; 3],
     [d1, d2, d3]: [f64; 3],

@@ -1,4 +1,4 @@
-//! The error that a run estimates of itself, against the true one, in a thousand random scenes.
+//! The error that a run estimates for itself, against the true error, in a thousand random scenes.
 
 use bryant::accuracy::target::{self, Difference};
 use bryant::build_on_demand::UserForces;
@@ -9,12 +9,12 @@ use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Method, Tolerances};
 use std::sync::Arc;
 
-/// Scenes of each model, and models: bundled ones with contacts, belts, joints with stops, switches and states of force laws,
-/// whose parameters are drawn from all of their bounds, or from half to twice their defaults.
+/// The models, with their numbers of scenes: bundled models with contacts, belts, joints with stops, switches and states of force laws.
+/// Parameters are drawn from their whole bounds, or from half to twice their defaults.
 const SCENES: [(&str, usize); 3] = [("sled-pendulum", 600), ("elbow", 300), ("child-seat", 100)];
-/// What a run without options promises in every output.
+/// The promise of a run without options for every output.
 const PROMISED: f64 = 1e-3;
-/// The accuracy asked for, in turn.
+/// The requested accuracies, in turn.
 const WANTED: [f64; 3] = [1e-2, 1e-3, 1e-4];
 
 /// A number in 0..1 (splitmix64).
@@ -95,8 +95,8 @@ fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
     }
     assert!(scenes == 1000);
     assert!(covered >= 950, "{covered}: {worst:?}");
-    // what was asked for is reached, too
+    // the requested accuracy is reached, too
     assert!(reached >= 950, "{reached}");
-    // and what is promised where nothing is asked for
+    // and so is the default promise
     assert!(kept >= 990, "{kept}");
 }

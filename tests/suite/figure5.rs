@@ -1,14 +1,15 @@
 //! The first 30 ms of the child in its seat, as in figure 5 of the 1980 paper.
 //!
-//! Until a belt tightens or a contact touches, nothing but the field of the sled acts, alike on all elements: the head moves
-//! as a point does in it, by the double integral of the pulse (nothing until 10 ms, 198 m/s² from 20 ms on).
+//! Until a belt tightens or a contact touches, only the field of the sled acts, equally on all elements: the head moves like a point in
+//! this field, by the double integral of the pulse (0 until 10 ms, 198 m/s² from 20 ms on).
 
 use bryant::bundled::find;
 use bryant::evaluation::functions;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::model::{
-    BeltQuantity, ContactQuantity, ForceKind, JointQuantity, Model, Output, Quantity,
+    Asked, BeltOutput, BeltQuantity, ContactQuantity, ForceKind, JointOutput, JointQuantity, Model,
+    Output, Quantity,
 };
 use bryant_tests::runs::{Recording, run};
 
@@ -24,33 +25,24 @@ fn ride(parameters: &[(&str, f64)]) -> Recording {
     run(&bundled.entry, parameters, TOLERANCE)
 }
 
-/// The forces of all belts and contacts and the torques of all joints, by name, at every sample until a time.
+/// The forces of all belts and contacts and the torques of all joints, by name, at every sample up to a time.
 fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
     let mut model = child_seat();
     model.outputs.clear();
     for (index, force) in model.forces.iter().enumerate() {
-        let quantity = match force.kind {
-            ForceKind::Belt(_) => Quantity::Belt {
-                force: index,
+        let what = match force.kind {
+            ForceKind::Belt(_) => Asked::Belt(BeltOutput {
                 part: 0,
                 what: BeltQuantity::Force,
-            },
-            ForceKind::Contact(_) => Quantity::Contact {
-                force: index,
-                what: ContactQuantity::Force,
-            },
-            ForceKind::Joint { .. } => Quantity::Joint {
-                force: index,
+            }),
+            ForceKind::Contact(_) => Asked::Contact(ContactQuantity::Force),
+            ForceKind::Joint(_) => Asked::Joint(JointOutput {
                 about: 1,
                 what: JointQuantity::Torque,
-            },
-            ForceKind::Freedom { .. }
-            | ForceKind::Field { .. }
-            | ForceKind::Spring(_)
-            | ForceKind::Airbag(_)
-            | ForceKind::Load(_)
-            | ForceKind::User(_) => continue,
+            }),
+            _ => continue,
         };
+        let quantity = Quantity::OfForce { force: index, what };
         model.outputs.push(Output {
             name: force.name.clone(),
             quantity,
@@ -97,7 +89,7 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
 #[test]
 fn head_excursion_and_acceleration_are_those_of_the_figure() {
     let ride = ride(&[]);
-    // metres, to three digits
+    // in metres, to three digits
     let excursion = ride.column("head excursion");
     for (t, printed) in [
         (20, 0.003),
@@ -113,7 +105,7 @@ fn head_excursion_and_acceleration_are_those_of_the_figure() {
             "excursion at {t} ms: {ours} instead of {printed}"
         );
     }
-    // m/s², to the unit
+    // in m/s², to an integer
     let acceleration = ride.column("res. head acceleration");
     for (t, printed) in [
         (12, 40.0),
@@ -152,7 +144,7 @@ fn the_child_floats_as_a_point_does() {
         let flat = (t - 0.02).max(0.0);
         let a = 19_800.0 * ramp;
         let x = 19_800.0 / 6.0 * ramp.powi(3) + 0.99 * flat + 99.0 * flat * flat;
-        // the steps err by the tolerance each, a polynomial of degree 3 by less: rounding is what is left
+        // each step errs by the tolerance, or by less for a polynomial of degree 3: rounding remains
         let bound = ride.steps * TOLERANCE;
         assert!((excursion[k] - x).abs() <= bound, "excursion at {t} s");
         assert!(
@@ -169,11 +161,11 @@ fn the_child_floats_as_a_point_does() {
     }
 }
 
-/// With gravity on the child falls from the first instant: the head accelerates by 9.81 m/s² before the pulse, by both fields
-/// together in it, and an accelerometer in it still reads nothing, since nothing holds the child; once the cushion catches
-/// it, the accelerometer reads. Where the child starts is the same.
+/// With gravity the child falls from the first instant: the head accelerates by 9.81 m/s² before the pulse, and by both fields during it.
+/// An accelerometer in the head reads 0 as long as nothing holds the child, and more when the cushion catches it. The start of the child is
+/// the same.
 #[test]
-fn gravity_acts_from_the_start_and_is_felt_when_the_cushion_holds() {
+fn gravity_acts_from_the_start_but_is_felt_on_the_cushion_only() {
     let (without, with) = (ride(&[]), ride(&[("gravity", 9.81)]));
     assert_eq!(with.states[0], without.states[0], "gravity moves no start");
     let [acceleration, excursion, accelerometer, cushion] = [

@@ -1,4 +1,4 @@
-//! Reference joints moved as given: by displacement, velocity, acceleration, on their own or with a vehicle.
+//! Reference joints with prescribed motion: by displacement, velocity or acceleration, alone or with a vehicle.
 
 use crate::motion::{close, run_with_bound};
 use bryant::evaluation::functions;
@@ -19,7 +19,7 @@ fn one_motion_given_in_two_ways_is_one_motion() {
         let of = |system: usize| &motion.outputs[k][6 * system..6 * system + 6];
         for (first, second) in [(0, 1), (2, 3)] {
             for (ours, other) in of(first).iter().zip(of(second)) {
-                // Nothing is integrated numerically: a few dozen roundings of numbers below 10.
+                // nothing is integrated numerically: a few dozen roundings of numbers below 10
                 let error = (ours - other).abs();
                 assert!(
                     error <= 40.0 * 10.0 * f64::EPSILON,
@@ -51,7 +51,7 @@ fn one_motion_given_in_two_ways_is_one_motion() {
     assert!(moved.abs() > 0.1, "nothing moved");
 }
 
-/// A wavy curve of time about its middle.
+/// A wavy curve of time about its mean.
 pub(crate) fn wave(random: &mut Random, name: &str, interpolate: Interpolate) -> Curve {
     let mut points = vec![[-0.1, random.uniform(-1.0, 1.0)]];
     for k in 0..6 {
@@ -77,7 +77,7 @@ pub(crate) fn scaled(curve: usize, times: f64, stretch: f64) -> ScaledCurve {
     }
 }
 
-/// S of a model, and r_s + r_k, are those of Lagrange's equations at random states and times between `from` and 1.2 s.
+/// Checks that S and r_s + r_k of a model are those of Lagrange's equations, at random states and times between `from` and 1.2 s.
 pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
     let options = Options {
         matrices: true,
@@ -121,7 +121,7 @@ pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
                 model.name
             );
         }
-        // each term is an inertia times two rates, or times an acceleration that the curves give, some hundred m/s²
+        // each term is an inertia times two rates, or times a prescribed acceleration of some hundred m/s²
         let scale = largest(s) * v.iter().fold(1e3f64, |m, x| m.max(x * x));
         for ((r_s, r_k), expected) in r_s.iter().zip(r_k).zip(r) {
             let error = (r_s + r_k - expected).abs();
@@ -129,11 +129,11 @@ pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
         }
         acts |= largest(r_k) > 0.0;
     }
-    // beyond the last point of a curve of displacements nothing does
+    // beyond the last point of a curve of displacements nothing acts
     assert!(acts, "nothing acts");
 }
 
-/// What tells how much of a motion is over that stops.
+/// A curve that decides which part of a motion has already stopped.
 fn part_that_is_over() -> Curve {
     Curve {
         name: "stops".into(),

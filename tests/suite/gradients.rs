@@ -1,4 +1,4 @@
-//! Derivatives of responses through events: switches that parameters move, and points of curves of time that they stretch.
+//! Derivatives of responses across events: switches that parameters move, and points of curves of time that parameters stretch.
 
 use bryant_runtime::batch::rows::{Asked, Gradients, Job, gradients};
 use bryant_runtime::batch::{Fixed, Method, Pace, Settings, Status};
@@ -20,7 +20,7 @@ fn position(mut names: impl Iterator<Item = &'static str>, name: &str) -> usize 
         .expect("one of the model's")
 }
 
-/// Responses of outputs at a row of the parameters that are named, and their derivatives with respect to each.
+/// Responses at a row of the named parameters, and their derivatives with respect to each parameter.
 fn differentiated<M: Model<f64>>(
     duration: f64,
     pace: Pace,
@@ -59,11 +59,11 @@ fn differentiated<M: Model<f64>>(
     found
 }
 
-/// The ball of `models/switches.yaml` is pushed with 3 m/s² from the ignition on until it is high, which it passes with 2 m/s; it falls
-/// from 0.68 s on, by 4/6 s earlier for each second that what pushes it upwards begins later: that takes 4 of 10 m/s² away. Polynomials of the second degree, which the
-/// integrator follows exactly.
+/// The ball of `models/switches.yaml` is pushed with 3 m/s² from the ignition until it is high, where its speed is 2 m/s. It begins to fall
+/// at 0.68 s, and 4/6 s earlier for each second by which the upward push begins later: the push takes 4 of 10 m/s² away. The motion
+/// consists of polynomials of the second degree, which the integrator follows exactly.
 #[test]
-fn what_a_switch_lets_in_for_a_while_is_differentiated_by_both_of_its_ends() {
+fn a_switched_force_is_differentiated_by_both_of_its_ends() {
     let window = 0.05;
     let responses = [
         ("ax", Response::Integral),
@@ -97,7 +97,8 @@ fn what_a_switch_lets_in_for_a_while_is_differentiated_by_both_of_its_ends() {
     ];
     for (k, (value, slopes)) in expected.into_iter().enumerate() {
         let name = responses[k];
-        // events are located to 1e-13 of a step, rates at them by differences of 1e-4 of one of a parabola: roundings over that
+        // events are located to 1e-13 of a step; rates at them come from differences of 1e-4 of a step on a parabola, with rounding divided
+        // by that
         let bound = 1e-9;
         let ours = found.values[k];
         assert!(
@@ -115,7 +116,7 @@ fn what_a_switch_lets_in_for_a_while_is_differentiated_by_both_of_its_ends() {
     }
 }
 
-/// The joint of a link moves with a speed that is linear between points, so that its acceleration jumps there; a parameter stretches it.
+/// The joint of a link moves with a piecewise linear speed, so that its acceleration jumps at the points; a parameter stretches the curve.
 #[test]
 fn points_of_curves_that_a_parameter_stretches_are_events() {
     let (duration, span) = (1.0, 1.25);
@@ -130,7 +131,7 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
     ];
     let found = differentiated::<Links>(duration, within(TOLERANCE), &[("span", span)], &responses);
 
-    // twice the curve from 0.5 by 2 at 0.2 and −1 at 0.5 to 0.3 at 0.9, at t/span: slopes 7.5, −10, 3.25 of it, and at 0.8 it is −0.025
+    // twice the curve from 0.5 by 2 at 0.2 and −1 at 0.5 to 0.3 at 0.9, at t/span: its slopes are 7.5, −10, 3.25, and at 0.8 it is −0.025
     let x = duration / span;
     let speed = |x: f64| -1.0 + 3.25 * (x - 0.5);
     let area = 0.5 * 0.2 * 2.5 + 0.5 * 0.3 * 1.0 + 0.5 * (x - 0.5) * (speed(x) - 1.0);
@@ -142,7 +143,7 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
     ];
     for (k, (value, slope)) in known.into_iter().enumerate() {
         let [ours, rises] = [found.values[k], found.slopes[k]];
-        // motions are given in closed form: rounding, and that of an event's time over the step that finds it
+        // motions are given in closed form: rounding, and the error of an event's time divided by the step that locates it
         assert!(
             (ours - value).abs() < 1e-9,
             "{:?}: {ours}, not {value}",
@@ -155,7 +156,7 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
         );
     }
 
-    // how the link swings, nobody knows but by differences: the step to the square, and 1e-13 over it, times some hundred
+    // the swing of the link has no closed form: differences err by the square of the step, and by 1e-13 divided by it, times some hundred
     let step = 1e-5;
     let at = |by: f64| {
         differentiated::<Links>(duration, within(1e-13), &[("span", span + by)], &responses)
@@ -172,7 +173,7 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
     }
 }
 
-/// A point that a parameter stretches ends a step, and may be at the time of a sample: the end moves, the sample does not.
+/// A point that a parameter stretches ends a step, and may be at the time of a sample: the end of the step moves, the sample does not.
 #[test]
 fn samples_at_points_that_are_stretched_stay_where_they_are() {
     let responses = [0.25, 0.4, 0.625, 0.8].map(|at| ("jolted rate", Response::Value { at }));
@@ -183,7 +184,8 @@ fn samples_at_points_that_are_stretched_stay_where_they_are() {
     let found = differentiated::<Links>(1.0, pace, &parameters, &responses);
     for (k, response) in responses.iter().enumerate() {
         let (ours, expected) = (found.slopes[k], exact.slopes[k]);
-        // a pendulum of 6/s: (ωh)⁵, and what the sharp run leaves; the link turns by some rad/s², which times 0.2 s would be seen
+        // a pendulum of 6/s: (ωh)⁵, and the error of the sharp run; the link accelerates by some rad/s², so a shift of the sample by 0.2 s
+        // per unit would be visible
         let bound = 1e-8 * expected.abs().max(1.0);
         assert!(
             (ours - expected).abs() < bound,

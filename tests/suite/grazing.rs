@@ -1,10 +1,10 @@
-//! Switches whose quantity passes its threshold for a moment, within a step: each fires, in single runs and in lanes.
+//! Switches whose quantity exceeds its threshold for a moment within a step: each fires, in single runs and in lanes.
 
 use super::called::call;
 use super::json;
 use std::path::Path;
 
-/// φ = A cos(10 t + p). From the moment on at which φ passes `level` on its way up, 5 N·m push: φ swings about 0.05 instead of 0.
+/// φ = A cos(10 t + p). From the time when φ passes `level` upwards, a moment of 5 N·m acts: φ then swings about 0.05 instead of 0.
 const SWING: &str = "\
 model: swing
 dimension: 2
@@ -23,7 +23,7 @@ outputs: [{ name: angle, of: swing/body, what: angle }]
 run: { duration: 1 s, every: 0.1 s }
 ";
 
-/// Rows that pass their level by 1e-2 to 1e-4, at all phases: [start, speed, level].
+/// Rows that exceed their level by 1e-2 to 1e-4, at all phases: [start, speed, level].
 fn rows() -> Vec<[f64; 3]> {
     let mut rows = Vec::new();
     for over in [1e-2, 1e-3, 1e-4] {
@@ -40,7 +40,7 @@ fn rows() -> Vec<[f64; 3]> {
 /// The angle after 1 s.
 fn expected([start, speed, level]: [f64; 3]) -> f64 {
     let (amplitude, phase) = (start.hypot(0.1 * speed), (-0.1 * speed).atan2(start));
-    // on its way up, where the cosine is level / amplitude and the sine is negative
+    // upwards, where the cosine is level / amplitude and the sine is negative
     let there = -(level / amplitude).acos();
     let at = 0.1 * (there - phase).rem_euclid(2.0 * std::f64::consts::PI);
     let left = 10.0 * (1.0 - at);
@@ -75,7 +75,7 @@ fn every_method_feels_a_threshold_that_is_passed_for_a_moment() {
             let last = run["rows"].as_array().unwrap().last().unwrap();
             let angle = last[1].as_f64().unwrap();
             let error = (angle - expected(*row)).abs();
-            // a miss is 0.1 away; what is promised is 1e-3
+            // a missed switch changes the angle by 0.1; the promised error is 1e-3
             assert!(error < 1e-3, "{method:?} {row:?}: {angle}, {error}");
         }
     }

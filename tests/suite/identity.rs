@@ -1,7 +1,7 @@
-//! Balances as identities of the equations: the rate of a quantity, differentiated along the motion, is what it should be.
+//! Balances as identities of the equations: the rate of a quantity, differentiated along the motion, has the required value.
 //!
-//! Both are sums of the same size, so they agree within rounding of their terms: 10 κ ε of the accelerations, which is
-//! measured as their scatter.
+//! Both are sums of the same size, so they agree within the rounding of their terms: 10 κ ε of the accelerations, measured as their
+//! scatter.
 
 use crate::users::functions;
 use bryant_generator::dynamics::{Options, derive_with};
@@ -14,10 +14,10 @@ use bryant_tests::rounding::Rounded;
 use bryant_tests::trees::Random;
 
 const STATES: usize = 20;
-/// As in `compiled`: what eight samples of the scatter say of a largest difference.
+/// As in `compiled`: the factor from the scatter of eight samples to the largest difference.
 const C: f64 = 20.0;
 
-/// A model and its equations, to be looked at.
+/// A model with its equations, for the check of balances.
 pub struct Balance<'a> {
     model: &'a Model,
     /// Its equations.
@@ -25,7 +25,7 @@ pub struct Balance<'a> {
 }
 
 impl<'a> Balance<'a> {
-    /// Of a model.
+    /// The balance of a model.
     pub fn of(model: &'a Model) -> Self {
         let options = Options {
             matrices: false,
@@ -38,7 +38,7 @@ impl<'a> Balance<'a> {
     /// Checks at random states near the start that the quantities of these names have these rates.
     ///
     /// # Panics
-    /// Where one has not.
+    /// If one of them has another rate.
     pub fn holds(&self, names: &[&str], quantities: &[NodeId], rates: &[NodeId]) {
         let (model, equations) = (self.model, &self.equations);
         let graph = &equations.graph;
@@ -86,7 +86,7 @@ impl<'a> Balance<'a> {
                 let range = match i {
                     i if i < coordinates => near,
                     i if i < coordinates + velocities => fast,
-                    // what has not happened yet has happened in a third of the states
+                    // in a third of the states, an event that has not happened has happened
                     _ if x.abs() > 1e20 => {
                         *x = if k % 3 == 1 { 0.0 } else { *x };
                         0.0

@@ -1,8 +1,8 @@
-//! The laws do not know where the scene is: turned by a right angle about y and moved, every planar model has the same
-//! accelerations, turned, and every effect the same power.
+//! The laws do not depend on the place of the scene: every planar model, rotated by a right angle about y and moved, has the same
+//! accelerations, rotated, and every effect has the same power.
 //!
-//! A right angle maps (x, z) to (z, −x) exactly, so that curves of components change places and nothing is rounded by the
-//! turn; what is left is the rounding of positions further from the origin, measured as the scatter of both evaluations.
+//! A right angle maps (x, z) to (z, −x) exactly, so that curves of components are exchanged and the rotation rounds nothing. Only positions
+//! further from the origin are rounded, and this is measured as the scatter of both evaluations.
 
 use bryant::evaluation::functions;
 use bryant_generator::dynamics::{Options, derive_with};
@@ -19,7 +19,7 @@ use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::Inputs;
 
 const STATES: usize = 10;
-/// As in `compiled`: what eight samples of the scatter say of a largest difference.
+/// As in `compiled`: the factor from the scatter of eight samples to the largest difference.
 const C: f64 = 20.0;
 /// Where the origin goes \[m\].
 const MOVE: [f64; 2] = [0.7, -0.4];
@@ -60,7 +60,7 @@ fn move_attachment(attachment: &mut Attachment) {
     }
 }
 
-/// The scene elsewhere; `None` where a law is about absolute angles, or a function's that nobody can evaluate here.
+/// The scene elsewhere; `None` if a law depends on absolute angles, or is a user function that cannot be evaluated here.
 fn elsewhere(model: &Model) -> Option<Model> {
     let mut model = model.clone();
     if model.dimension != Dimension::Plane || !model.vehicles.is_empty() {
@@ -78,15 +78,15 @@ fn elsewhere(model: &Model) -> Option<Model> {
     }
     for force in &mut model.forces {
         match &mut force.kind {
-            ForceKind::Joint { child, about, .. } => {
-                let law = &mut about[1];
-                if child.element == 0 && (law.elastic.is_some() || law.stop.is_some()) {
+            ForceKind::Joint(joint) => {
+                let law = &joint.about[1];
+                if joint.child.element == 0 && (law.elastic.is_some() || law.stop.is_some()) {
                     return None;
                 }
             }
             // relative to what carries it, which turns too
-            ForceKind::Freedom { .. } => {}
-            ForceKind::Field { acceleration, .. } => turn_components(acceleration),
+            ForceKind::Freedom(_) => {}
+            ForceKind::Field(field) => turn_components(&mut field.acceleration),
             ForceKind::Load(load) => turn_components(&mut load.force),
             ForceKind::Contact(contact) => {
                 move_attachment(&mut contact.ellipsoid);
@@ -113,15 +113,23 @@ fn elsewhere(model: &Model) -> Option<Model> {
                 move_attachment(&mut spring.from);
                 move_attachment(&mut spring.to);
             }
+            ForceKind::Bushing(bushing) => {
+                for mount in [&mut bushing.from, &mut bushing.to] {
+                    move_attachment(&mut mount.on);
+                    if mount.on.on == Body::Frame {
+                        quarter(&mut mount.axes[1]);
+                    }
+                }
+            }
             ForceKind::Airbag(_) | ForceKind::User(_) => return None,
         }
     }
-    // what a switch looks at may be a component
+    // the quantity of a switch may be a component
     model.switches.is_empty().then_some(model)
 }
 
 #[test]
-fn a_scene_turned_and_moved_has_the_same_accelerations_and_powers() {
+fn a_turned_and_moved_scene_has_equal_accelerations_and_powers() {
     let mut compared = 0;
     for compiled in MODELS {
         let model = compiled.model();
@@ -170,7 +178,7 @@ fn a_scene_turned_and_moved_has_the_same_accelerations_and_powers() {
                 auxiliaries: z,
                 memory: m,
             };
-            // a free reference joint has two coordinates named x and z, one after the other
+            // a free reference joint has two successive coordinates named x and z
             let elsewhere =
                 |values: &[f64], names: &[bryant_generator::equations::Variable], place: bool| {
                     let mut turned = values.to_vec();

@@ -1,4 +1,4 @@
-//! Stops and locks of joints, flexion and torsion: against closed forms, the plane, and what every torque must keep.
+//! Stops and locks of joints, flexion and torsion: against closed forms, planar models, and invariants of every torque.
 
 use bryant::evaluation::functions;
 use bryant_generator::dynamics::{Options, derive_with};
@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 
 const TOLERANCE: f64 = 1e-11;
 
-/// Error of the integration where the mechanism has this largest rate \[1/s\], as in `laws`.
+/// Error of the integration if the largest rate of the mechanism is this \[1/s\], as in `laws`.
 fn integration(run: &Recording, rate: f64) -> f64 {
     run.steps * TOLERANCE * rate.max(1.0)
 }
@@ -90,7 +90,7 @@ fn a_lock_holds_the_angle_that_there_was() {
     let run = run(&stops(), &[], TOLERANCE);
     let (stiffness, omega) = (100.0, 10.0);
     for (k, t) in run.times.iter().enumerate() {
-        // released from the angle of the lock with the rate that there was
+        // released from the angle of the lock with the rate at that time
         let expected = match t - 0.1 {
             tau if tau <= 0.0 => *t,
             tau => 0.1 + (omega * tau).sin() / omega,
@@ -124,7 +124,7 @@ fn no_torque_jumps_where_damping_fades_in() {
         let speed = rate[k].abs().max(rate[k - 1].abs());
         // k θ̇ + d (θ̇²/fade + θ̈), with θ̈ = Q, over 1 ms
         let steepest = stiffness * speed + damping * (speed * speed / fade + most);
-        // the lock is allowed to begin, and the force to end, at once
+        // the lock may begin, and the force may end, at once
         let switched = [0.5, 0.9]
             .iter()
             .any(|t| (run.times[k] - t - 1e-3).abs() < 1e-9);
@@ -134,7 +134,7 @@ fn no_torque_jumps_where_damping_fades_in() {
             run.times[k]
         );
     }
-    // after it ended, nothing acts
+    // after the end of the lock nothing acts
     assert_eq!(torque[torque.len() - 1], 0.0);
 }
 
@@ -145,7 +145,7 @@ fn a_bent_spring_stores_what_it_takes_and_turns_nothing() {
         &[],
         TOLERANCE,
     );
-    // the fastest of both pairs swings with the square root of its stiffness over the smallest inertia
+    // the faster pair swings with the square root of its stiffness over the smallest inertia
     let error = integration(&run, f64::sqrt(45.0 / 0.004));
     let energy = |k: usize| {
         let [kinetic, bend, twist] =
@@ -155,7 +155,7 @@ fn a_bent_spring_stores_what_it_takes_and_turns_nothing() {
     for k in 0..run.times.len() {
         let bend = run.column("bend")[k];
         assert!((0.0..PI).contains(&bend), "{bend}");
-        // energies of a few joules, of which a velocity's error takes its momentum with it
+        // energies of a few joules; an error of a velocity changes them by its momentum
         close("energy", energy(k), energy(0), 10.0 * error);
         for name in ["lx", "ly", "lz", "rough lx", "rough ly", "rough lz"] {
             let momentum = run.column(name);
@@ -231,11 +231,12 @@ fn rates_are_those_of_their_angles() {
             };
             let slope = |h: f64, i: usize| {
                 let turn = angles(h)[i] - angles(-h)[i];
-                // an angle may pass from π to −π on the way
+                // an angle may pass from π to −π in between
                 (turn - 2.0 * PI * (turn / (2.0 * PI)).round()) / (2.0 * h)
             };
             for i in (0..outputs.len()).step_by(2) {
-                // central differences err by h²: the finer by a third of what it differs from the coarser, but for rounding
+                // central differences err by h²: the error of the finer one is a third of its difference from the coarser one, plus
+                // rounding
                 let (coarse, fine) = (slope(2e-5, i), slope(1e-5, i));
                 let bound = (coarse - fine).abs() + 1e-9;
                 close(
@@ -291,7 +292,7 @@ fn a_joint_does_not_know_where_the_frame_is() {
         };
         let [here, outputs, _] = at(&model, &equations, &q, &v);
         let [there, same, _] = at(&model, &equations, &moved, &turned(&v));
-        // a condition of S of 1e3 at most, and some ten roundings
+        // a condition of S of at most 1e3, and about ten roundings
         let size = here.iter().fold(1.0f64, |m, x| m.max(x.abs()));
         let bound = 1e4 * f64::EPSILON * size;
         for (ours, expected) in there.iter().zip(turned(&here)) {
@@ -341,7 +342,7 @@ fn bending_in_a_plane_is_a_hinge() {
         let bend = (angles[1] - angles[0]).abs();
         close("flexion", outputs[0], bend, 1e-14);
         stopped += usize::from(bend > 25.0 * PI / 180.0);
-        // the twist is none, but its neutral angle is not 0: that turns about z, and so out of the plane alone
+        // there is no twist, but its neutral angle is not 0: that angle is about z, and so only out of the plane
         close("torsion", outputs[2], 0.0, 1e-14);
     }
     assert!(stopped > 5);

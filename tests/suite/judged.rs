@@ -1,4 +1,4 @@
-//! `bryant criteria`: recordings with closed forms, by names and by channel codes.
+//! `bryant criteria`: recordings with closed forms, with places by names and by channel codes.
 
 use super::called::call;
 use super::directory;
@@ -21,7 +21,7 @@ fn table(path: &Path, every: f64, columns: &[(&str, &dyn Fn(f64) -> f64)]) {
     fs::write(path, text).unwrap();
 }
 
-/// A half-sine of this length from 20 ms on.
+/// A half-sine of this length that begins at 20 ms.
 fn half_sine(size: f64, length: f64) -> impl Fn(f64) -> f64 {
     move |t| match (0.02..=0.02 + length).contains(&t) {
         true => size * (PI * (t - 0.02) / length).sin(),
@@ -67,7 +67,7 @@ fn pulses_have_the_criteria_of_their_closed_forms() {
         "head=head",
     ];
     let found = judged(path, &of_head);
-    // without a filter: 829.29, 3 ms between 98.6 and 97.2 of each; CFC1000 and CFC180 take less than 0.1 % of pulses of 20 and 60 ms
+    // without a filter: 829.29, and 3 ms between 98.6 and 97.2 of each; CFC1000 and CFC180 reduce pulses of 20 and 60 ms by less than 0.1 %
     let near = |name: &str, exact: f64| {
         let found = value(&found, name);
         assert!(
@@ -108,7 +108,7 @@ fn pulses_have_the_criteria_of_their_closed_forms() {
     );
 }
 
-/// 100 g along x and z at once: the resultant of components, in the plane without y.
+/// 100 g along x and z at once: the resultant of the components, without y in the plane.
 #[test]
 fn a_resultant_is_of_filtered_components() {
     let directory = directory();
@@ -123,7 +123,7 @@ fn a_resultant_is_of_filtered_components() {
         ],
     );
     let arguments = ["--standard", "UN R94", "--dummy", "Hybrid III 50M"];
-    // y is missing, and nobody has said that it is 0
+    // y is missing, and the user has not said that it is 0
     let (_, error) = call(
         path,
         &[&["criteria", "test.csv"], &arguments[..]].concat(),
@@ -204,7 +204,7 @@ fn a_criterion_is_refused_where_it_would_be_wrong() {
     );
 }
 
-/// A run is judged by samples of its own, and by the words of a recording of it.
+/// A run is judged by its own samples, and with the same names as its recording.
 #[test]
 fn a_run_is_judged_as_its_recording_is() {
     let directory = directory();
@@ -246,7 +246,8 @@ fn a_run_is_judged_as_its_recording_is() {
         ]
         .concat(),
     );
-    // samples between the steps of the one, rows of the other, whose steps end on them: both within the 1e-4 that the default tolerance keeps
+    // one has samples between its steps, the other rows at the ends of its steps: both err by less than 1e-4, which the default tolerance
+    // keeps
     for name in ["HIC15", "chest 3 ms"] {
         let both = [&run["criteria"], &recording].map(|judged| value(judged, name));
         assert!((both[0] / both[1] - 1.0).abs() < 1e-4, "{name} {both:?}");
@@ -310,7 +311,7 @@ fn a_run_is_judged_as_its_recording_is() {
     }
 }
 
-/// A seat that says by what it is judged.
+/// A seat whose model names its regulation.
 const SEAT: &str = "criteria: { standard: FMVSS 208, dummy: Hybrid III 3YO, head: child/head, chest: chest accelerometer }\n";
 
 fn seat(path: &Path, more: &str) {
@@ -326,7 +327,7 @@ fn seat(path: &Path, more: &str) {
     fs::write(path.join("seat.yaml"), format!("{text}\n{more}")).unwrap();
 }
 
-/// One vocabulary for run, study and gradient, and the derivative is that of other runs.
+/// Run, study and gradient use the same names, and the derivative is that of differences of runs.
 #[test]
 fn criteria_of_a_model_are_the_same_in_every_command() {
     let directory = directory();
@@ -378,7 +379,8 @@ fn criteria_of_a_model_are_the_same_in_every_command() {
     let [below, here, above] = [0.0297, 0.03, 0.0303].map(hic);
     let slope = (above - below) / 6e-4;
     let found = numbers(&gradient);
-    // of numbers in the answer one is the value and one the slope; differences over 1 % of the slack bend by their square, and a sample is 1 % of a jump
+    // one of the numbers in the answer is the value and one the slope; differences over 1 % of the slack err by their square, and a sample
+    // is 1 % of a jump
     assert!(
         found.iter().any(|x| (x / here - 1.0).abs() < 1e-4),
         "{here} {text}"
@@ -390,7 +392,7 @@ fn criteria_of_a_model_are_the_same_in_every_command() {
     let in_rows = rows.lines().skip(1).flat_map(|line| line.split(','));
     let in_rows: Vec<f64> = in_rows.filter_map(|cell| cell.parse().ok()).collect();
     for value in [below, here, above] {
-        // the study is as accurate as 0.1 %
+        // the study is accurate to 0.1 %
         assert!(
             in_rows.iter().any(|x| (x / value - 1.0).abs() < 1e-3),
             "{value} {rows}"
@@ -398,7 +400,7 @@ fn criteria_of_a_model_are_the_same_in_every_command() {
     }
 }
 
-/// All numbers of a text in JSON.
+/// All numbers in a JSON text.
 fn numbers(of: &Value) -> Vec<f64> {
     match of {
         Value::Number(number) => number.as_f64().into_iter().collect(),
@@ -408,7 +410,7 @@ fn numbers(of: &Value) -> Vec<f64> {
     }
 }
 
-/// The column of an output with a filter is the filtered column of the output without it, whatever rows there are.
+/// The column of an output with a filter is the filtered column of the output without it, whatever the rows are.
 #[test]
 fn outputs_are_filtered_whatever_rows_are_shown() {
     use bryant_signal::Signal;
@@ -459,8 +461,9 @@ fn outputs_are_filtered_whatever_rows_are_shown() {
             .count();
         assert!(differ > 100, "the filter does nothing here");
         for (row, expected) in fine.iter().zip(&expected) {
-            // 20 samples in a row of 2 ms of the model, every 0.1 ms, are rows here; other rows make other steps, which the tolerance of 1e-7 keeps to 1e-4, and an
-            // average over the time of a filter closer. The two standards, whose frequencies are 0.28 % apart, differ by more
+            // the model's rows are 2 ms apart, with 20 samples in each, every 0.1 ms; here these samples are rows. Other rows cause other
+            // steps, which the tolerance of 1e-7 keeps to 1e-4, and an average over the time of a filter is closer. The two standards,
+            // whose frequencies differ by 0.28 %, differ by more
             assert!(
                 (row[2] - expected).abs() < 1e-5 * largest,
                 "{row:?} {expected}"
@@ -471,7 +474,7 @@ fn outputs_are_filtered_whatever_rows_are_shown() {
         let place = (row[0] / 1e-4).round() as usize;
         assert!((row[2] - fine[place][2]).abs() < 1e-6 * largest, "{row:?}");
     }
-    // what is wrong is told
+    // errors are reported
     for (from, to, told) in [
         (
             "component: y, filter: CFC60",
@@ -526,7 +529,7 @@ fn outputs_are_filtered_whatever_rows_are_shown() {
     assert!(rows.lines().nth(1).unwrap().ends_with("NaN"), "{rows}");
 }
 
-/// The filters of SAE J211-1 pass a little less, in a run and in its recording alike, by an option and by the key of a model.
+/// The filters of SAE J211-1 pass slightly less, both in a run and in its recording, by an option and by the key of a model.
 #[test]
 fn criteria_have_the_filters_of_either_standard() {
     let directory = directory();
@@ -546,7 +549,7 @@ fn criteria_have_the_filters_of_either_standard() {
         value(&run["criteria"], "chest 3 ms")
     };
     let (iso, sae) = (of_run(&[]), of_run(&["--filter-standard", "sae-j211"]));
-    // frequencies 0.28 % lower
+    // frequencies are lower by 0.28 %
     assert!(iso != sae && (sae / iso - 1.0).abs() < 3e-3, "{iso} {sae}");
     let fine = [
         "run",
@@ -645,7 +648,7 @@ fn criteria_that_a_model_cannot_have_are_refused() {
     );
 }
 
-/// A curve of a channel is that of the same numbers in a text file, whatever unit and spelling the channel has.
+/// A curve from a channel equals the one from the same numbers in a text file, whatever the unit of the channel and its spelling.
 #[test]
 fn pulses_come_from_channels_of_tests() {
     let directory = directory();
@@ -698,7 +701,7 @@ fn pulses_come_from_channels_of_tests() {
     };
     let (found, expected) = (last(&swing(of_channel)), last(&expected));
     assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
-    // the long form reads itself
+    // the long form can be read again
     let long = call(path, &["check", "sled.yaml", "--long"], 0).0;
     fs::write(path.join("long.yaml"), long).unwrap();
     call(path, &["check", "long.yaml"], 0);

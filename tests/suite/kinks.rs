@@ -1,9 +1,9 @@
-//! Every kink of every force law is told: where the derivative is not smooth along a line through the state, a kink or a
-//! guard changes its sign, or time passes a breakpoint.
+//! Every kink of every force law is known: if the derivative is not smooth along a line through the state, a switching function or an event
+//! function changes its sign, or time passes a breakpoint.
 //!
-//! Along the line y + s ẏ, memory held, the second difference of ẏ over a grid of width h is h² ẏ″ where it is smooth and of
-//! the order h times the jump of the slope at a kink, in the one or two differences that reach over it. A second difference
-//! that is many times those beside it, which the smooth part alone could not be on a grid that resolves it, is a kink.
+//! Along the line y + s ẏ, with memory held, the second difference of ẏ over a grid of width h is h² ẏ″ in smooth parts. At a kink it is
+//! about h times the jump of the slope, in the one or two differences that contain the kink. A second difference that is many times larger
+//! than its neighbours cannot come from the smooth part on a grid that resolves it, so it is a kink.
 
 use bryant_generator::model::{ForceKind, Model, read};
 use bryant_runtime::program::{Entry, Job};
@@ -13,18 +13,17 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-/// States along a run from which lines go out.
+/// Number of states along a run from which lines begin.
 const STATES: usize = 40;
-/// Cells of the grid on a line, which reaches as far as the next state.
+/// Number of cells of the grid on a line, which reaches as far as the next state.
 const CELLS: usize = 800;
-/// By how much a second difference sticks out at a kink: over a grid of which hundreds of cells lie between two samples the
-/// smooth part changes by a small share from one to the next.
+/// A second difference at a kink is this many times larger than its neighbours: hundreds of cells lie between two samples, so the smooth
+/// part changes little from one cell to the next.
 const STICKS_OUT: f64 = 30.0;
-/// A jump below this share of the largest rate of the run is not seen: a thousand times the rounding of equations of
-/// condition 10³.
+/// A jump below this share of the largest rate of the run is not seen: a thousand times the rounding of equations with condition 10³.
 const UNSEEN: f64 = 1e6 * f64::EPSILON;
 
-/// Kinks that alone tell of what some model does.
+/// Kinks that are the only sign of a non-smooth effect in some model.
 const NEEDED: [&str; 19] = [
     "begins to fade",
     "crosses an edge",
@@ -47,14 +46,14 @@ const NEEDED: [&str; 19] = [
     "upper stop pushes",
 ];
 
-/// What was seen on the lines of a model.
+/// The kinks on the lines of a model.
 #[derive(Debug, Default)]
 struct Seen {
-    /// Kinks that were told.
+    /// Number of known kinks.
     told: usize,
-    /// What alone told of one, without its force: "touches", "slides".
+    /// Switching functions that were the only sign of a kink, without the name of their force: "touches", "slides".
     alone: BTreeSet<&'static str>,
-    /// Where one was not: the line, the place on it, the entry of the derivative.
+    /// Unknown kinks: the line, the place on it, the entry of the derivative.
     untold: Vec<String>,
 }
 
@@ -103,7 +102,7 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
     let largest = |rates: &[Vec<f64>]| rates.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
     let of_states: Vec<_> = states.iter().map(|(t, y)| derivative(*t, y)).collect();
     let of_run = largest(&of_states);
-    // memory is that of the states: the lines go forward, as a step does
+    // memory is that of the states: the lines go forward, as steps do
     for ((t, y), rate) in states.iter().zip(&of_states) {
         let along = direction(&mut random, rate);
         let mut rates = Vec::new();
@@ -128,7 +127,7 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
             functions.push(kinks);
             times.push(t + s);
         }
-        // whether something tells of a kink between two points of the grid
+        // the functions that change sign between two points of the grid
         let told = |from: usize, to: usize| -> Vec<&'static str> {
             let changes = |k: &usize| (functions[from][*k] < 0.0) != (functions[to][*k] < 0.0);
             let mut told: Vec<_> = (0..signs).filter(changes).map(|k| names[k]).collect();
@@ -142,7 +141,7 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
         let largest = largest(&rates).max(of_run);
         for k in 0..moving {
             let second = second_differences(&rates, k);
-            // second[j] reaches from point j to j + 2; a kink in the cell from c to c + 1 is in second[c − 1] and second[c]
+            // second[j] contains the points j to j + 2; a kink in the cell from c to c + 1 is in second[c − 1] and second[c]
             for c in 4..second.len() - 4 {
                 let here = second[c - 1].max(second[c]);
                 let beside = [c - 4, c - 3, c - 2, c + 1, c + 2, c + 3];
@@ -180,9 +179,9 @@ fn no_kink_is_forgotten() {
     });
     let (mut told, mut alone, mut forgotten) = (0, BTreeSet::new(), Vec::new());
     for (entry, _) in compiled.chain(bundled).filter(|(_, users)| !users) {
-        // along the motion, and where it would go with other velocities
+        // along the motion, and along motions with other velocities
         let straight = look(&entry, |_, rate| rate.to_vec());
-        // coordinates go on as they went: what a belt has paid out does not come back
+        // coordinates continue as before: webbing that a belt has paid out does not come back
         let coordinates = entry.info.coordinates.len();
         let aside = look(&entry, |random, rate| {
             let factor = |i: usize| random.uniform(if i < coordinates { 0.2 } else { -2.0 }, 2.0);
@@ -205,14 +204,14 @@ fn no_kink_is_forgotten() {
         "kinks that nothing tells:\n{}",
         forgotten.join("\n")
     );
-    // whichever of these a law did not tell, a model would have missed
+    // without any of these functions, a model would have an unknown kink
     for name in NEEDED {
         assert!(alone.contains(name), "no model needs \"{name}\": {alone:?}");
     }
     assert!(told > 1000, "only {told} kinks were seen");
 }
 
-/// Whether functions of the user's act, of which nobody knows where they are smooth.
+/// Whether user functions act, whose kinks are not known.
 fn has_users(model: &Model) -> bool {
     let mut forces = model.forces.iter();
     forces.any(|force| matches!(force.kind, ForceKind::User(_)))

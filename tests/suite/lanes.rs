@@ -1,4 +1,5 @@
-//! Models in lanes: the same bits in registers of every width, and the motion of the ordinary time loop, with fixed steps to the last bit.
+//! Models in lanes: the same bits in registers of every width, and the motion of the ordinary time loop, which for fixed steps agrees to
+//! the last bit.
 
 use bryant_runtime::batch::rows::Entry as RowsEntry;
 use bryant_runtime::batch::rows::{Asked, Job};
@@ -13,15 +14,15 @@ use std::marker::PhantomData;
 
 /// Tolerance of the runs in lanes.
 const TOLERANCE: f64 = 1e-9;
-/// What they are compared with has a tenth of it. They may be as far away from that as a single run of a hundred times their tolerance is:
-/// errors fall like the tolerance, to a hundredth, and at the worst, where kinks are crossed, like its root, to a tenth. The rest is for
-/// the scatter of such crossings, in which no two runs are alike.
+/// Tolerance of the single runs for comparison, a tenth of that in lanes. The lanes may differ from them by as much as a single run with a
+/// hundred times their tolerance does. Errors fall like the tolerance, to a hundredth, or at worst, at kinks, like its root, to a tenth.
+/// The rest is for the scatter at kinks, where no two runs are alike.
 const FINE: f64 = 0.1 * TOLERANCE;
 const COARSE: f64 = 100.0 * TOLERANCE;
-/// Events are located to this share of a step, and a step is no longer than the run.
+/// Events are located to this share of a step, and a step is at most as long as the run.
 const LOCATED: f64 = 1e-13;
 
-/// Rows of all parameters, a few per cent from their defaults, within their bounds.
+/// Rows of all parameters within a few per cent of their defaults and within their bounds.
 fn rows(info: &Info, count: usize) -> Vec<f64> {
     let row = |i: usize| {
         info.parameters
@@ -56,7 +57,7 @@ fn job(info: &Info, duration: f64, width: Width) -> Job {
     }
 }
 
-/// All outputs of some rows, and how they ended, as bits.
+/// The bits of all outputs of some rows, and how the rows ended.
 fn bits(entry: RowsEntry, info: &Info, duration: f64, width: Width, count: usize) -> Vec<u64> {
     let all: Vec<usize> = (0..info.outputs.len()).collect();
     let job = job(info, duration, width);
@@ -89,7 +90,7 @@ fn the_same_in_every_width(entry: RowsEntry, info: &Info, duration: f64) {
     }
 }
 
-/// Some outputs of a single run, each at 101 samples, and what it took.
+/// Some outputs of a single run, each at 101 samples, and the cost of the run.
 fn single<M: Model<f64>>(
     model: &M,
     duration: f64,
@@ -119,7 +120,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     away.fold(0.0, |most, x| if x <= most { most } else { x })
 }
 
-/// Outputs in lanes against those of a single run: those named, which are continuous in time.
+/// Compares outputs in lanes with those of a single run; the named outputs are continuous in time.
 fn the_motion_of_a_single_run<M: Model<f64>>(duration: f64, continuous: &[&str]) {
     let (info, entry) = (M::INFO, RowsEntry::of::<M>());
     the_same_in_every_width(entry, info, duration);
@@ -140,8 +141,8 @@ fn the_motion_of_a_single_run<M: Model<f64>>(duration: f64, continuous: &[&str])
         let (coarse, _) = single(&model, duration, COARSE, &outputs);
         for (k, (fine, coarse)) in fine.iter().zip(&coarse).enumerate() {
             let ours = &samples[k * 101..(k + 1) * 101];
-            // Where a motion is a polynomial nothing is left but roundings, one of the state for each evaluation, and what follows of events
-            // that come a little early or late: they change the rate of an output by no more than twice the largest there is.
+            // If the motion is a polynomial, only rounding remains, one of the state for each evaluation, and the effect of events that
+            // come slightly early or late: they change the rate of an output by at most twice the largest rate.
             let largest = apart(fine, &vec![0.0; fine.len()]);
             let rounded = report.evaluations as f64 * f64::EPSILON * largest;
             let rate = 100.0 * apart(&fine[1..], &fine[..fine.len() - 1]) / duration;
@@ -187,7 +188,7 @@ fn events_and_memory_move_as_in_a_single_run() {
 }
 
 #[test]
-fn laws_of_joints_that_remember_and_drive_move_as_in_a_single_run() {
+fn joint_laws_with_memory_move_in_lanes_as_in_a_single_run() {
     type Drives = drives::Mechanism<f64>;
     let continuous = ["carriage", "yaw", "pitch", "fore"];
     the_motion_of_a_single_run::<Drives>(0.3, &continuous);
@@ -205,7 +206,7 @@ fn charts_change_as_in_a_single_run() {
     the_motion_of_a_single_run::<Poles>(0.5, &[]);
 }
 
-/// A single run over the scalar of a register with one lane, by fixed steps and without samples on the way.
+/// A single run over the scalar of a register with one lane, with fixed steps and without samples on the way.
 struct Single<'a, M> {
     row: &'a [f64],
     duration: f64,
@@ -214,7 +215,7 @@ struct Single<'a, M> {
 }
 
 impl<M: Model<f64>> OfAnyWidth for Single<'_, M> {
-    /// Steps, and the outputs at the end.
+    /// Number of steps, and the outputs at the end.
     type Output = (u32, Vec<f64>);
 
     fn run<T: Several<One = f64>>(self) -> (u32, Vec<f64>) {
@@ -239,14 +240,14 @@ impl<M: Model<f64>> OfAnyWidth for Single<'_, M> {
     }
 }
 
-/// Rows by fixed steps, each with a twin of twice the steps beside it and one row that fails among them, against single runs: steps and
-/// outputs at the end are the same to the last bit.
+/// Rows with fixed steps, each beside a twin with steps twice as long, with one failing row among them, against single runs: the numbers of
+/// steps and the outputs at the end agree to the last bit.
 fn fixed_steps_are_those_of_a_single_run<M: Model<f64>>(duration: f64, step: f64) {
     let (info, entry) = (M::INFO, RowsEntry::of::<M>());
     let across = info.parameters.len();
     let count = if across == 0 { 1 } else { 7 };
     let mut rows = rows(info, count);
-    // a parameter that is no number
+    // a parameter that is NaN
     let fails = (count > 1).then_some(3);
     if let Some(row) = fails {
         rows[row * across] = f64::NAN;

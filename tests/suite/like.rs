@@ -1,4 +1,4 @@
-//! Functions that like elements share: the same operations in the same order as one long function, so the same bits.
+//! Functions that similar elements share: the same operations in the same order as in one long function, so the same bits.
 
 use bryant_runtime::real::lanes::{OfAnyWidth, with_one_lane};
 use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Width};
@@ -22,7 +22,7 @@ module!(chains_shared, "/shared/chains.rs");
 module!(beads, "/whole/beads.rs");
 module!(beads_shared, "/shared/beads.rs");
 
-/// All that two modules compute at a state, one after the other.
+/// All results of two modules at a state, one after the other.
 struct Everything<'a, M, S> {
     model: &'a M,
     y: &'a S,
@@ -73,7 +73,7 @@ scenes! {
     BeadsShared: beads_shared,
 }
 
-/// Bits of everything at states about the start, at other parameters than the defaults.
+/// Bits of all results at states around the start, with other parameters than the defaults.
 fn bits<T: Several<One = f64>, S: Scene>() -> Vec<Vec<u64>> {
     let mut random = Random::new(3);
     let mut parameters = <S::Over<T> as Model<T>>::Parameters::defaults();
@@ -120,7 +120,7 @@ fn like_elements_share_functions_and_nothing_changes() {
     compare::<Beads, BeadsShared>();
 }
 
-/// The texts that calls in a method share, and the calls.
+/// The number of shared functions that a method calls, and the number of calls.
 fn shared(text: &str, method: &str, type_of_task: &str) -> (usize, usize) {
     let functions = text.matches(&format!("    fn {method}_like_")).count();
     let calls = text
@@ -156,7 +156,7 @@ fn what_is_made_of_inputs_is_not_kept_for_the_way_back() {
         of.and_then(|text| text.split("\n    }\n").next())
             .unwrap_or_default()
     };
-    // the axes on the way there and on the way back, and q̇ where those are at hand
+    // the axes on the way down and on the way back, and q̇ where they are available
     for number in [1, 2] {
         assert!(function(number).contains("// axes along it"), "{number}");
     }
@@ -164,7 +164,7 @@ fn what_is_made_of_inputs_is_not_kept_for_the_way_back() {
     assert!(function(2).contains("// rate of orientation"));
     let returned = links.split("struct MotionLike1<T> {").nth(1);
     let returned = returned.and_then(|text| text.split('}').next());
-    // 3 · 2 quotients of what is passed on by the pivots of two axes, 1 between these, 2 forces, and a product of speeds
+    // 3 · 2 quotients that the pivots of two axes pass on, 1 between these, 2 forces, and a product of speeds
     let fields = returned.map(|fields| fields.matches(": T,").count());
     assert_eq!(fields, Some(10));
 }
@@ -199,7 +199,7 @@ fn what_goes_from_call_to_call_stays_in_one_place() {
     assert!(variables(links).0 > 0 && variables(links).1);
     // one for each chain
     assert_eq!(variables(chains), (2, true));
-    // results are handed over where they are found: by calls, by the method
+    // results are written where they are computed: in the calls, and in the method
     let method = links
         .split("pub fn each_motion")
         .nth(1)

@@ -1,4 +1,4 @@
-//! Commands that take long: what they say meanwhile, and what is left of them after Ctrl-C.
+//! Commands that take long: their progress messages, and their results after Ctrl-C.
 
 use crate::called::{bryant, call, expect};
 use crate::{directory, json, numbers, without_a_toolchain};
@@ -19,9 +19,9 @@ fn begin(directory: &Path, arguments: &[&str]) -> Child {
     let mut command = bryant(directory);
     command.args(arguments);
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    // tests that run in the background of a shell have Ctrl-C ignored, and what they start has it from them
+    // tests in the background of a shell ignore Ctrl-C, and their child processes inherit this
     #[expect(unsafe_code, reason = "between fork and exec")]
-    // SAFETY: `signal` may be called between fork and exec, and no handler is set.
+    // SAFETY: `signal` may be called between fork and exec, and no handler is installed.
     unsafe {
         command.pre_exec(|| {
             libc::signal(libc::SIGINT, libc::SIG_DFL);
@@ -31,7 +31,7 @@ fn begin(directory: &Path, arguments: &[&str]) -> Child {
     command.spawn().unwrap()
 }
 
-/// The lines of a stream up to the first that contains a text.
+/// The lines of a stream up to the first one that contains a text.
 fn lines_until(stream: &mut impl BufRead, text: &str) -> String {
     let mut all = String::new();
     while !all.contains(text) {
@@ -49,7 +49,8 @@ fn interrupt(child: &Child) {
     assert!(killed.success());
 }
 
-/// Waits until standard error says something, presses Ctrl-C, and expects the end of an interrupted command. Standard output must fit a pipe.
+/// Waits until standard error contains a text, presses Ctrl-C, and expects the end of an interrupted command. Standard output must fit into
+/// a pipe.
 fn interrupted_when(directory: &Path, arguments: &[&str], said: &str) -> (String, String) {
     let mut child = begin(directory, arguments);
     let mut messages = BufReader::new(child.stderr.take().unwrap());
@@ -71,8 +72,8 @@ fn interrupted_when(directory: &Path, arguments: &[&str], said: &str) -> (String
     expect(output, arguments, 130)
 }
 
-/// Ten seconds pass before a line of progress: simulated time of the whole, and what is left. The table and the file have the same samples, up
-/// to the time that is said, and not the whole run's.
+/// A line of progress appears after ten seconds, with the simulated time, its total, and the time left. The table and the file have the
+/// same samples up to the time in the message, and not those of the whole run.
 #[test]
 fn a_run_that_is_interrupted_keeps_its_samples() {
     let directory = directory();
@@ -128,7 +129,7 @@ fn what_is_short_says_nothing_of_its_progress() {
     );
 }
 
-/// The costliest first, by operations and twenty for each call.
+/// The costliest effects come first; the cost is the number of operations plus twenty for each call.
 #[test]
 fn effects_are_in_the_order_of_their_cost() {
     let directory = directory();
@@ -144,7 +145,7 @@ fn effects_are_in_the_order_of_their_cost() {
         costs.len() > 20 && costs.is_sorted_by(|a, b| a >= b),
         "{costs:?}"
     );
-    // and those that have none stand behind them
+    // effects without operations come after them
     assert!(
         list[..costs.len()]
             .iter()
@@ -152,7 +153,8 @@ fn effects_are_in_the_order_of_their_cost() {
     );
 }
 
-/// Rows with their times come while others are still timed; after Ctrl-C the others come without times, and it is said how many.
+/// Rows with times appear while others are still being timed. After Ctrl-C the others appear without times, with a message about their
+/// number.
 #[test]
 fn effects_appear_as_they_are_timed() {
     let directory = directory();
@@ -193,7 +195,7 @@ fn effects_appear_as_they_are_timed() {
     assert!(stdout.contains("with nothing left out"), "{stdout}");
 }
 
-/// Ctrl-C leaves the report of the points that there are.
+/// Ctrl-C leaves a report of the points that exist.
 #[test]
 fn a_study_of_accuracy_that_is_interrupted_reports_what_it_has() {
     let directory = directory();
@@ -219,7 +221,7 @@ fn a_study_of_accuracy_that_is_interrupted_reports_what_it_has() {
     );
 }
 
-/// Whatever the scene: of 6 s and 5 s more, in which a busy machine finishes what it has begun.
+/// For any scene: after 6 s, plus 5 s in which a busy machine finishes the work that has begun.
 #[test]
 fn a_study_of_accuracy_keeps_to_its_budget() {
     let directory = directory();
@@ -246,7 +248,7 @@ fn a_study_of_accuracy_keeps_to_its_budget() {
     }
 }
 
-/// Blocks that were run stay; the same command does the rest.
+/// Finished blocks stay; the same command does the rest.
 #[test]
 fn a_sweep_that_is_interrupted_goes_on_from_there() {
     let directory = directory();
@@ -299,7 +301,7 @@ fn hard_cases_that_are_interrupted_are_not_said_to_have_run() {
     );
 }
 
-/// The same motion, up to rounding, and the name of what evaluated it.
+/// The same motion up to rounding, and the name of the engine.
 #[test]
 fn a_run_by_rustc_is_the_same_run() {
     let directory = directory();

@@ -1,4 +1,4 @@
-//! Tests of the whole line.
+//! End-to-end tests of the whole chain, from text to results.
 
 mod accuracy;
 mod changes;

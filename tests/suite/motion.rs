@@ -1,8 +1,8 @@
 //! Motion against closed forms and reference solutions.
 //!
-//! The bound of a comparison is the error theory of one-step methods: each accepted step errs by at most the tolerance, and
-//! an error grows until the time of comparison by the amplification of the motion itself, which is measured by starting
-//! from a disturbed state. So: error ≤ steps · tolerance · amplification · size of the state.
+//! Comparisons use the error theory of one-step methods: each accepted step errs by at most the tolerance, and an error grows until the
+//! time of comparison by the amplification of the motion itself, which is measured by a run from a disturbed state. So: error ≤ steps ·
+//! tolerance · amplification · size of the state.
 
 use bryant_runtime::simulate::{Method, Settings, simulate_from};
 use bryant_runtime::{Formula, Model, Tolerances, Vector};
@@ -116,7 +116,7 @@ pub(crate) fn close(what: &str, t: f64, ours: f64, expected: f64, bound: f64) {
         error <= bound,
         "{what} at {t} s: {ours} instead of {expected}, off by {error:e}, allowed {bound:e}"
     );
-    // A bound that allows anything proves nothing.
+    // a bound that allows everything would prove nothing
     assert!(
         bound < 1e-3 * expected.abs().max(1.0),
         "{what} at {t} s: the bound {bound:e} is empty"
@@ -148,7 +148,7 @@ fn double_pendulums_move_as_computed_elsewhere() {
         let (motion, bounds) = run_with_bound::<M>(0.25, 3.0);
         for row in rows(&classic(name)["rows"]) {
             let k = at(&motion, row[0]);
-            // Angles of the reference grow from the downward vertical towards +x, ours about +y the other way.
+            // Angles of the reference grow from the downward vertical towards +x, ours about +y in the other direction.
             for i in 0..4 {
                 close(name, row[0], -motion.states[k][i], row[i + 1], bounds[k]);
             }
@@ -182,7 +182,7 @@ fn a_free_asymmetric_top_turns_as_the_elliptic_functions_say() {
 
 #[test]
 fn a_heavy_top_moves_as_computed_elsewhere() {
-    // A spin of 150 rad/s turns an error of the state into a large one of the phase.
+    // a spin of 150 rad/s converts an error of the state to a large error of the phase
     let (motion, bounds) =
         run_with_tolerance::<models::heavy_top::Mechanism<f64>>(0.05, 0.5, 1e-14);
     let reference = classic("heavy_top_terze");
@@ -263,7 +263,7 @@ fn a_belt_is_a_spring() {
 }
 
 #[test]
-fn springs_about_the_three_angles_of_a_joint_store_what_they_take() {
+fn springs_about_the_three_angles_of_a_joint_conserve_energy() {
     const STIFFNESS: [f64; 3] = [4.0, 6.0, 3.0];
     let motion = run::<models::elastic_joint::Mechanism<f64>>(0.05, 2.0, TOLERANCE, 0.0);
     let energy = |outputs: &[f64]| {
@@ -274,7 +274,7 @@ fn springs_about_the_three_angles_of_a_joint_store_what_they_take() {
                 .sum::<f64>()
     };
     let first = &motion.outputs[0];
-    // As for free trees: errors of steps, times a mass of 3 kg, a lever of 0.3 m and a rate of 5 rad/s; stiffnesses up to 6.
+    // as for free trees: errors of the steps times a mass of 3 kg, a lever arm of 0.3 m and a rate of 5 rad/s; stiffnesses up to 6
     let bound = motion.steps * TOLERANCE * (3.0 * 0.3 * 5.0 + 6.0);
     for (&t, outputs) in motion.times.iter().zip(&motion.outputs) {
         close("energy", t, energy(outputs), energy(first), bound);
@@ -282,7 +282,7 @@ fn springs_about_the_three_angles_of_a_joint_store_what_they_take() {
             close("angular momentum", t, outputs[axis], first[axis], bound);
         }
     }
-    // All three springs have worked.
+    // all three springs have worked
     for angle in 1..4 {
         let largest = motion
             .outputs
@@ -297,8 +297,8 @@ fn free_trees_conserve_energy_and_momentum() {
     fn check<M: Model<f64>>() {
         let motion = run::<M>(0.1, 2.0, TOLERANCE, 0.0);
         for k in 0..motion.times.len() {
-            // What is conserved cannot be amplified by the motion: the errors of the steps add up, times the slope of the
-            // quantity by the state, at most a mass of 6.5 kg, a lever of 3 m and a speed of 5 m/s.
+            // The motion cannot amplify errors of a conserved quantity: the errors of the steps add up, times the derivative of the
+            // quantity with respect to the state: at most a mass of 6.5 kg, a lever arm of 3 m and a speed of 5 m/s.
             let size = motion.states[k].iter().fold(1.0f64, |m, x| m.max(x.abs()));
             let bound = motion.steps * TOLERANCE * size * 6.5 * 3.0 * 5.0;
             for (i, (now, before)) in motion.outputs[k].iter().zip(&motion.outputs[0]).enumerate() {
@@ -314,7 +314,7 @@ fn free_trees_conserve_energy_and_momentum() {
     }
     check::<models::free_tree::Mechanism<f64>>();
     check::<models::free_tree_bryant::Mechanism<f64>>();
-    // and both are the same motion, each within its own bound; a sharper tolerance, because this motion amplifies errors
+    // both are the same motion, each within its own bound; the tolerance is smaller because this motion amplifies errors
     let (quaternion, bounds) =
         run_with_tolerance::<models::free_tree::Mechanism<f64>>(0.1, 2.0, 1e-13);
     let (bryant, bounds_bryant) =

@@ -1,9 +1,8 @@
-//! How many operations one evaluation of the accelerations takes: what `bryant check` prints, a fused multiply-add being two.
+//! The number of operations in one evaluation of the accelerations, as `bryant check` prints it; a fused multiply-add counts as two.
 //!
-//! Counts are the same on every machine. The bounds are goals, not measurements: the snapshots have the figures.
+//! Counts are the same on every machine. The bounds are goals, not measurements: the snapshots have the actual counts.
 
 use bryant_generator::dynamics::{Options, derive_with};
-use bryant_generator::emit;
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
@@ -11,27 +10,28 @@ use bryant_generator::expression::passes::factor::factor;
 use bryant_generator::model::{
     Coordinates, Dimension, Model, Number, Parameter, Reference, read, read_str,
 };
+use bryant_generator::program;
 use bryant_tests::reference::load;
 use bryant_tests::trees::{Random, Shape, choices, random_charts, random_state, random_tree};
 use std::path::Path;
 
-/// Operations of `accelerations` as emitted.
+/// Number of operations in the emitted `accelerations`.
 fn operations(model: &Model) -> usize {
     let options = Options {
         matrices: false,
         ..Options::default()
     };
     let equations = derive_with(model, options);
-    let emitted = emit::Options {
+    let emitted = program::Options {
         matrices: false,
-        ..emit::Options::default()
+        ..program::Options::default()
     };
-    let costs = emit::costs(model, &equations, &emitted);
+    let costs = program::costs(model, &equations, &emitted);
     let found = costs.iter().find(|(method, _)| *method == "accelerations");
     found.map_or(0, |(_, table)| table.total.total())
 }
 
-/// Operations of S (its upper triangle) and r_s together.
+/// Number of operations for S (its upper triangle) and r_s together.
 fn operations_of_matrices(model: &Model) -> usize {
     let equations = derive_with(model, Options::default());
     let rows = equations.mass_matrix.iter().enumerate();
@@ -41,7 +41,7 @@ fn operations_of_matrices(model: &Model) -> usize {
     Count::of(&factored.graph, &factored.roots).total()
 }
 
-/// A mechanism of space that stands on the ground and falls, of these elements.
+/// A mechanism in space that stands on the ground and falls, with these elements.
 fn falling(reference: &str, elements: &str) -> Model {
     let text = format!(
         "model: falling\ndimension: 3\nsystems:\n  - name: s\n    reference: {reference}\n    elements:\n{elements}\
@@ -64,7 +64,7 @@ const ARM_OF_6: &str = "
       - { name: hand, on: wrist-2, at: [0, 0, -0.09465], joint: { hinge: y }, mass: 0.1879, cg: [0, 0, 0], inertia: [0.0171364731454, 0.0171364731454, 0.033822] }
 ";
 
-/// An arm of seven hinges, each square to the one before and meeting it, as of a KUKA LBR iiwa; bodies of any shape.
+/// An arm with seven hinges, each perpendicular to the one before and intersecting it, like a KUKA LBR iiwa; the bodies have any shape.
 fn arm_of_7() -> String {
     let mut random = Random::new(8);
     let mut text = String::new();
@@ -88,7 +88,7 @@ fn arm_of_7() -> String {
     text
 }
 
-/// The counts of a prototype of the formulation, plus 5 %: S and the bias, and the accelerations.
+/// The counts of a prototype of the formulation, plus 5 %: for S and the bias forces, and for the accelerations.
 #[test]
 fn arms_take_few_operations() {
     for (name, elements, matrices, accelerations) in [
@@ -129,7 +129,7 @@ fn a_chain_of_100_takes_less_than_34000() {
     at_most("chain100", &model("models/large/chain100.yaml"), 34_000);
 }
 
-/// Nothing vanishes here: lengths, centres of gravity and principal axes in all directions.
+/// Nothing vanishes here: lengths, centres of gravity and principal axes have all directions.
 #[test]
 fn a_chain_of_100_of_any_shape_takes_less_than_36000() {
     let (space, coordinates) = (Dimension::Space, Coordinates::Quaternion);
@@ -139,7 +139,7 @@ fn a_chain_of_100_of_any_shape_takes_less_than_36000() {
     at_most("random chain", &model, 36_000);
 }
 
-/// Robotran prints 763 for S and r_s alone of nine planar joints.
+/// Robotran prints 763 operations for only S and r_s of nine planar joints.
 #[test]
 fn nine_elements_in_the_plane_take_less_than_600() {
     let tree = load("planar9", Coordinates::Quaternion);
@@ -152,7 +152,7 @@ fn a_human_like_tree_of_adjustable_masses_takes_less_than_5400() {
     at_most("dummy15 of parameters", &model, 5_400);
 }
 
-/// Every mass a parameter with the value that it has.
+/// The model with every mass as a parameter with its present value.
 fn with_adjustable_masses(mut model: Model) -> Model {
     for system in &mut model.systems {
         for element in &mut system.elements {
@@ -172,9 +172,9 @@ fn with_adjustable_masses(mut model: Model) -> Model {
     model
 }
 
-/// A body of numbers is eliminated in its own axes, one of parameters in the absolute ones: two derivations of the same
-/// motion. Both solve S v̇ = r, so they differ by c·κ(S)·ε; κ(S) is below 1e6 for these trees (masses 0.5 to 5 kg, lengths up to
-/// 0.4 m, moments from 1e-4 kg m² on), and c = 10 as where elimination is compared with Cholesky.
+/// A body with constant masses is eliminated in its own axes, one with parameters in absolute axes: two derivations of the same motion.
+/// Both solve S v̇ = r, so they differ by c·κ(S)·ε; κ(S) is below 1e6 for these trees (masses 0.5 to 5 kg, lengths up to 0.4 m, moments
+/// from 1e-4 kg m² on), and c = 10 as in the comparison of elimination with Cholesky.
 #[test]
 fn numbers_and_parameters_give_the_same_accelerations() {
     let mut random = Random::new(6);

@@ -61,7 +61,7 @@ fn two_people_stand_and_sit_in_one_scene() {
     fs::write(path.join("two.yaml"), SCENE).unwrap();
     let (checked, told) = call(path, &["check", "two.yaml", "--json"], 0);
     let checked: Value = serde_json::from_str(&checked).unwrap();
-    // no joint comes near a position in which it is singular
+    // no joint comes close to a singular position
     assert_eq!(checked["warnings"], serde_json::json!([]), "{told}");
     let row = first_row(path);
     let value = |name: &str| {
@@ -70,12 +70,12 @@ fn two_people_stand_and_sit_in_one_scene() {
             .unwrap()
             .1
     };
-    // the seventh neck vertebra: the stature less 242.9 mm of 1741
+    // the seventh cervical vertebra: the stature less 242.9 mm of 1741
     assert!(
         (value("head") - (1.753 - 0.2429 * 1.753 / 1.741)).abs() < 5e-4,
         "{row:?}"
     );
-    // men have their centre of gravity at 55 to 57 % of the stature, from above the middle of the feet
+    // the centre of gravity of men is at 55 to 57 % of the stature, above the middle of the feet
     assert!(
         (0.55..0.57).contains(&(value("man centre z") / 1.753)),
         "{row:?}"
@@ -91,7 +91,7 @@ fn two_people_stand_and_sit_in_one_scene() {
     assert!(
         (value("left foot y") + value("right foot y")).abs() < 1e-12 && value("left foot y") > 0.05
     );
-    // she sits: the ankle is before the hip by the thigh, and below by the shank
+    // she sits: the ankle is in front of the hip by the thigh, and below it by the shank
     assert!(
         (value("left foot x") - (1.0 + 0.3685 * 1.62 / 1.735)).abs() < 1e-3,
         "{row:?}"
@@ -100,7 +100,7 @@ fn two_people_stand_and_sit_in_one_scene() {
         (value("left foot z") - (0.6 - 0.4386 * 1.62 / 1.735)).abs() < 1e-3,
         "{row:?}"
     );
-    // what the file prints adds up to the mass
+    // the masses that the file prints add up to the total mass
     let text = fs::read_to_string(path.join("woman.yaml")).unwrap();
     let masses = text.lines().filter_map(|line| {
         let mass = line
@@ -141,7 +141,7 @@ fn a_body_beyond_the_data_is_refused_with_the_reason() {
     }
 }
 
-/// A person by a key in a model is the one that the command writes.
+/// A person by a key in a model is the same as the one that the command writes.
 #[test]
 fn a_person_in_a_model_is_the_one_of_the_command() {
     let directory = directory();
@@ -206,7 +206,7 @@ run: {{ duration: 20 ms, every: 10 ms }}
     }
 }
 
-/// A person in the plane moves as the same person in space whose sides move alike.
+/// A person in the plane moves like the same person in space whose sides move alike.
 #[test]
 fn a_person_in_the_plane_moves_as_the_one_in_space() {
     let directory = directory();
@@ -261,7 +261,7 @@ run: {{ duration: 0.2 s, every: 20 ms }}
     }
 }
 
-/// Feet stand on the ground in every posture; what cannot be is refused in the words of who wrote it.
+/// The feet stand on the ground in every posture; impossible requests are refused with a message in the user's words.
 #[test]
 fn postures_are_angles() {
     let directory = directory();
@@ -316,7 +316,7 @@ run: {{ duration: 1 ms, every: 1 ms }}
     }
 }
 
-/// A driver in a seat before a bolster and a steering column, which are parts by name.
+/// A driver in a seat in front of a bolster and a steering column, which are parts by name.
 fn with_parts(dimension: u8, keys: &str) -> String {
     let v = |x: f64, z: f64| match dimension {
         2 => format!("[{x}, {z}]"),
@@ -365,7 +365,8 @@ fn parts_of_a_car_hold_who_meets_them() {
         let knee = super::tables::largest(&usual, "knee");
         assert!(knee > 0.0);
         assert!(super::tables::largest(&usual, "seat") > 0.0);
-        // it gives way, does not go through its end, and stays there but for what its unloading of 2 MN/m gives back: 20 mm of 40 kN
+        // the column gives way, does not go beyond its end, and stays there except for the elastic return of its unloading with 2 MN/m: 20
+        // mm of 40 kN
         let column = super::tables::column(&usual, "column");
         let (most, last) = (
             super::tables::largest(&usual, "column"),

@@ -1,4 +1,4 @@
-//! Pictures of a run and of a study: from where they show a model, and as what they are written.
+//! Pictures of a run and of a study: their views, and their formats.
 
 use super::called::call;
 use super::directory;
@@ -58,7 +58,7 @@ fn a_model_in_space_is_seen_from_where_asked() {
     }
     let planar = ["run", "clock.yaml", "--view", "top"];
     let (_, told) = call(directory.path(), &planar, 2);
-    assert!(told.contains("clock is planar") && told.contains("help: leave --view away"));
+    assert!(told.contains("clock is planar") && told.contains("help: leave out --view"));
     let (_, told) = call(
         directory.path(),
         &["run", "clock.yaml", "--view", "back"],

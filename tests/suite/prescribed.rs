@@ -3,8 +3,7 @@
 use crate::motion::{close, run_with_bound};
 use bryant_tests::models::{loads, prescribed};
 
-/// Velocity and displacement at the end of a ramp of acceleration from a to b, of length h: exact, as the acceleration is
-/// linear.
+/// Velocity and displacement at the end of a ramp of acceleration from a to b, of length h: exact, because the acceleration is linear.
 fn ramp([x, v]: [f64; 2], [a, b]: [f64; 2], h: f64) -> [f64; 2] {
     [
         x + v * h + (2.0 * a + b) * h * h / 6.0,
@@ -12,8 +11,8 @@ fn ramp([x, v]: [f64; 2], [a, b]: [f64; 2], h: f64) -> [f64; 2] {
     ]
 }
 
-/// Position and velocity at t from those at 0, where the acceleration runs through points and on after the last with a
-/// slope. The first point is not after 0.
+/// Position and velocity at t from those at 0; the acceleration goes through points, and after the last point continues with a slope. The
+/// first point is not after 0.
 fn follow(start: [f64; 2], points: &[[f64; 2]], slope: f64, t: f64) -> [f64; 2] {
     let mut state = start;
     for pair in points.windows(2) {
@@ -32,7 +31,7 @@ fn follow(start: [f64; 2], points: &[[f64; 2]], slope: f64, t: f64) -> [f64; 2] 
 }
 
 #[test]
-fn a_prescribed_joint_moves_by_the_integrals_of_its_acceleration() {
+fn a_prescribed_joint_follows_its_integrated_acceleration() {
     let (motion, _) = run_with_bound::<prescribed::Mechanism<f64>>(0.05, 1.2);
     let push = [[0.0, 0.0], [0.2, 3.0], [0.5, -2.0], [0.9, 1.0]].map(|[t, a]| [t, 1.5 * a]);
     let lift = [[-1.0, 0.5], [0.3, 0.5], [0.6, -1.5], [0.7, 2.0]];
@@ -47,7 +46,7 @@ fn a_prescribed_joint_moves_by_the_integrals_of_its_acceleration() {
         let [x, vx] = follow([0.3, 1.2], &push, 0.0, *t);
         let [z, vz] = follow([2.0, -0.4], &lift, 35.0, *t);
         let (ax, az) = (beyond(*t, &push, 0.0), beyond(*t, &lift, 35.0));
-        // Nothing is integrated numerically: a dozen roundings of numbers below 10.
+        // nothing is integrated numerically: a dozen roundings of numbers below 10
         for (ours, expected) in outputs.iter().zip([x, z, vx, vz, ax, az]) {
             let error = (ours - expected).abs();
             assert!(
@@ -70,7 +69,7 @@ fn a_moving_joint_is_a_field_seen_from_it() {
                 close(seen, *t, *road, *trolley, 2.0 * bounds[k]);
             }
         }
-        // An instrument does not know where it is seen from; accelerations change with the state as ω² and g.
+        // The place of observation does not affect an instrument; accelerations change with the state by ω² and g.
         let [road, trolley] = [motion.outputs[k][6], motion.outputs[k][7]];
         let size = motion.states[k].iter().fold(10.0f64, |m, x| m.max(x * x));
         close("accelerometer", *t, road, trolley, size * 2.0 * bounds[k]);
@@ -83,7 +82,7 @@ fn a_moving_joint_is_a_field_seen_from_it() {
 fn a_load_at_the_centre_of_gravity_is_a_field() {
     let (motion, bounds) = run_with_bound::<loads::Mechanism<f64>>(0.1, 1.2);
     for (k, t) in motion.times.iter().enumerate() {
-        // reference joint and two quaternions each, then the wheel's; velocities alike
+        // reference joint and two quaternions each, then those of the wheel; the same for velocities
         let (q, v) = motion.states[k].split_at(11 + 11 + 4);
         for (what, values, length) in [("coordinate", q, 11), ("velocity", v, 9)] {
             let (field, load) = (&values[..length], &values[length..2 * length]);

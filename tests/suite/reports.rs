@@ -1,4 +1,4 @@
-//! `bryant run --report`: one page, whole, with the numbers of the run in it.
+//! `bryant run --report`: one complete page with the numbers of the run.
 
 use super::called::call;
 use serde_json::Value;
@@ -20,12 +20,12 @@ fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], |list| list)
 }
 
-/// Belts and contacts are shown with the forces that the model's own outputs have.
+/// Belts and contacts are shown with the forces of the model's own outputs.
 #[test]
 fn forces_of_a_report_are_those_of_the_outputs() {
     let directory = tempfile::tempdir().unwrap();
     let (page, data) = report(directory.path(), "child-seat", &[]);
-    // the issue of a page that is sent around: a megabyte at most
+    // a page that is sent to others should be at most a megabyte
     assert!(page.len() < 1_000_000, "{} bytes", page.len());
     let column = |name: &str| -> Vec<f64> {
         let columns = list(&data["columns"]);
@@ -61,14 +61,14 @@ fn forces_of_a_report_are_those_of_the_outputs() {
         }
         assert_eq!(forces.len(), times.len());
     }
-    // where the cushion is pressed, something pushes
+    // while the cushion is compressed, a contact pushes
     let pushes = list(&scene["pushes"]);
     for (k, force) in column("cushion force").iter().enumerate() {
         assert!(*force == 0.0 || !list(&pushes[k]).is_empty(), "row {k}");
     }
 }
 
-/// A free rod falls as the output says, and the page moves it there.
+/// A free rod falls as the output says, and the page moves the rod to the same place.
 #[test]
 fn bodies_of_a_report_are_where_the_outputs_say() {
     let directory = tempfile::tempdir().unwrap();
@@ -105,7 +105,7 @@ run: { duration: 0.5 s, every: 50 ms }
     );
 }
 
-/// A run that cannot be trusted says so on its page; one that failed shows what there is.
+/// The page of a run that cannot be trusted says so; the page of a failed run shows the existing samples.
 #[test]
 fn a_report_of_a_failed_run_says_why() {
     let directory = tempfile::tempdir().unwrap();
@@ -122,7 +122,7 @@ fn a_report_of_a_failed_run_says_why() {
     assert!(page.contains("\"failure\":\""), "{page}");
 }
 
-/// More rows than a browser shows are refused before the run.
+/// If there are more rows than a browser can show, the command refuses before the run.
 #[test]
 fn a_report_of_too_many_rows_is_refused() {
     let directory = tempfile::tempdir().unwrap();
@@ -140,7 +140,7 @@ fn a_report_of_too_many_rows_is_refused() {
     assert!(!directory.path().join("report.html").exists());
 }
 
-/// A page is not printed.
+/// A page is not printed on standard output.
 #[test]
 fn a_report_to_standard_output_is_refused() {
     let directory = tempfile::tempdir().unwrap();
@@ -160,7 +160,7 @@ fn floats(value: &Value) -> Vec<f64> {
     list(value).iter().map(|x| x.as_f64().unwrap()).collect()
 }
 
-/// At each time, kinetic energy and the works of effects are those of the balance; the last are those of the end.
+/// At each time, kinetic energy and the works of effects fulfil the balance; the last values are those of the end.
 #[test]
 fn works_over_time_end_where_the_balance_is() {
     let directory = tempfile::tempdir().unwrap();
@@ -179,13 +179,13 @@ fn works_over_time_end_where_the_balance_is() {
         let values = floats(&effect["values"]);
         let end = whole[effect["name"].as_str().unwrap()].as_f64().unwrap();
         assert_eq!(values.len(), times.len());
-        // the last of them is up to 1/300 of the run before the end, where nothing is in a hurry
+        // the last value is up to 1/300 of the run before the end, when nothing changes fast
         let last = values.last().unwrap();
         assert!((last - end).abs() < 0.02 * largest, "{effect:?} {end}");
     }
 }
 
-/// The second run is that of the same command with other parameters; a test is shown in the units of the outputs.
+/// The second run equals that of the command with the other parameters; a test is shown in the units of the outputs.
 #[test]
 fn a_second_run_and_a_test_lie_beside_the_run() {
     let directory = tempfile::tempdir().unwrap();
@@ -201,7 +201,7 @@ fn a_second_run_and_a_test_lie_beside_the_run() {
     ];
     call(path, &other, 0);
     let table = std::fs::read_to_string(path.join("other.csv")).unwrap();
-    // a test has other units and other times
+    // the test has other units and other times
     let mut rows = String::from("time [s],sled/head [g]\n");
     for (index, line) in table
         .lines()
@@ -241,7 +241,7 @@ fn a_second_run_and_a_test_lie_beside_the_run() {
     let largest = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     assert_eq!(beside.len(), expected.len());
     for (found, expected) in beside.iter().zip(&expected) {
-        // six digits
+        // six digits are written
         assert!(
             (found - expected).abs() < 1e-5 * largest,
             "{found} {expected}"
@@ -339,6 +339,6 @@ fn a_study_has_a_page_whose_rows_can_be_run() {
     let run: Value = serde_json::from_str(&call(path, &words, 0).0).unwrap();
     let found = run["responses"][0]["value"].as_f64().unwrap();
     let expected = row.last().unwrap().as_f64().unwrap();
-    // the study is as accurate as 0.1 %
+    // the study is accurate to 0.1 %
     assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
 }

@@ -1,10 +1,10 @@
-//! Responses of a single run: those of a study of one row, whatever rows the table has.
+//! Responses of a single run equal those of a study with one row, whatever rows the table has.
 
 use super::called::call;
 use super::{directory, json};
 use serde_json::Value;
 
-/// One row of the pendulum, with every kind of response that it can have.
+/// One row of the pendulum, with every kind of response that it allows.
 const STUDY: &str = "\
 model: clock.yaml
 design: list
@@ -49,7 +49,7 @@ const RUN: [&str; 8] = [
 fn responses_are_those_of_a_study_of_one_row() {
     let directory = directory();
     let directory = directory.path();
-    // 4 ms is no part of 0.1 s, the time between the rows
+    // 0.1 s, the time between the rows, is not a multiple of 4 ms
     std::fs::write(directory.join("study.yaml"), STUDY).unwrap();
     call(directory, &["sweep", "study.yaml"], 0);
     let table = std::fs::read_to_string(directory.join("study-results/results.csv")).unwrap();
@@ -74,12 +74,12 @@ fn responses_are_those_of_a_study_of_one_row() {
     assert_eq!(found.len(), 10);
     for (name, value) in &found {
         let expected = column(name);
-        // what is smaller than 1 % of its signal, 0.5, is not taken relative to itself
+        // a response smaller than 1 % of its signal, 0.5, is measured by the signal
         let scale = expected.abs().max(5e-3);
         let error = (value - expected).abs() / scale;
         assert!(error <= estimate.max(1e-6), "{name}: {value}, {expected}");
     }
-    // the pendulum starts at its peak and loses no energy
+    // the pendulum starts at its peak and does not lose energy
     assert!((found[0].1 - 30f64.to_radians()).abs() < 1e-12);
     assert!((found[1].1 + 30f64.to_radians()).abs() < 1e-4);
 }
@@ -98,7 +98,7 @@ fn rows_of_the_table_leave_no_trace_in_responses() {
     };
     let plain = run(&[]);
     assert_eq!(plain, run(&["--every", "0.5 s"]));
-    // rows that are no part of the steps nor the samples: steps end on rows, and not on samples
+    // rows that agree neither with the steps nor with the samples: steps end on rows, and not on samples
     for every in ["0.1 s", "0.37 s"] {
         let fixed = run(&["--method", "rk4", "--step", "3 ms", "--every", every]);
         for ((name, a), (_, b)) in plain.iter().zip(&fixed) {
@@ -141,8 +141,8 @@ fn what_cannot_be_read_off_a_run_is_refused_before_it() {
     let run = ["run", "clock.yaml"];
     for (more, needle) in [
         (&["-r", "peak of swingg"][..], "did you mean \"swing\"?"),
-        (&["-r", "peak of arm"], "there is swing, bob height"),
-        (&["-r", "HIC15 of swing"], "of accelerations"),
+        (&["-r", "peak of arm"], "there are: swing, bob height"),
+        (&["-r", "HIC15 of swing"], "needs an acceleration"),
         (&["-r", "3 ms clap of swing"], "with one of peak, minimum"),
         (&["-r", "2 s clip of swing"], "beyond the run of 1 s"),
         (
@@ -152,11 +152,11 @@ fn what_cannot_be_read_off_a_run_is_refused_before_it() {
         (&["--sampling", "1 ms"], "--response"),
         (
             &["-r", "1 ms clip of swing", "--sampling", "2 ms"],
-            "shorter time by --sampling",
+            "shorter time with --sampling",
         ),
         (
             &["-r", "peak of swing", "--sampling", "0.1 us"],
-            "longer time by --sampling",
+            "longer time with --sampling",
         ),
         (
             &["--responses", "study.yaml", "--duration", "0.5 s"],
@@ -179,7 +179,7 @@ fn what_cannot_be_read_off_a_run_is_refused_before_it() {
     );
 }
 
-/// 1 kg on 10⁸ N/m that is lifted off before the run ends: neither its first row nor its last knows how it rings at rest.
+/// 1 kg on 10⁸ N/m that is lifted off before the run ends: neither its first row nor its last shows how it oscillates at rest.
 const LIFTED: &str = "\
 model: lifted
 dimension: 2
@@ -213,7 +213,7 @@ fn a_response_that_is_not_accurate_makes_the_run_sharper() {
         let value = run["responses"][0]["value"].as_f64().unwrap();
         (value / 9.81 - 1.0).abs()
     };
-    // the rows alone are content with the first run
+    // the rows alone accept the first run
     assert!(run(&[])["accuracy"]["before"].is_null());
     let unchecked = run(&[&at_rest[..], &["--no-verify"]].concat());
     assert!(error(&unchecked) > 1e-3, "this test has lost its subject");
@@ -222,7 +222,7 @@ fn a_response_that_is_not_accurate_makes_the_run_sharper() {
     assert!(!checked["accuracy"]["before"].is_null());
     let wanted = run(&[&at_rest[..], &["--accuracy", "0.1%"]].concat());
     assert!(error(&wanted) < 1e-3, "{wanted}");
-    // who chose a method is not given another one, but told
+    // if the user chose a method, the program does not change it, but says so
     let chosen = ["run", "lifted.yaml", "--no-files", "--tolerance", "1e-5"];
     let (_, told) = call(at, &[&chosen[..], &at_rest].concat(), 0);
     assert!(
@@ -235,7 +235,7 @@ fn a_response_that_is_not_accurate_makes_the_run_sharper() {
 fn a_response_of_what_is_nothing_does_not_count() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
-    // the horizontal velocity of a ball that falls straight is rounding, and its speed at rest shrinks with the tolerance
+    // the horizontal velocity of a ball that falls vertically is rounding, and its speed at rest shrinks with the tolerance
     let fixed = LIFTED.replace("[0.15, -9.81], [0.16, 100]", "[1, -9.81]");
     let text = fixed.replace(
         "outputs:",

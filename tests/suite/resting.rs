@@ -1,4 +1,4 @@
-//! `bryant settle`: states of rest as starts of runs.
+//! `bryant settle`: states of rest from which runs start.
 
 use super::called::call;
 use super::directory;
@@ -37,7 +37,7 @@ fn first_row(path: &Path, model: &str) -> Vec<(String, f64)> {
     names.zip(values).collect()
 }
 
-/// Somebody on a seat with a back, feet on the floor, in a car that moves.
+/// A person on a seat with a back, feet on the floor, in a moving car.
 const SITTER: &str = "model: sitter
 dimension: 2
 curves:
@@ -68,7 +68,7 @@ outputs:
 run: { duration: 0.1 s, every: 10 ms }
 ";
 
-/// What carries the body is its weight, and the run begins without a jerk.
+/// The seat carries the weight of the body, and the run begins without a jerk.
 #[test]
 fn somebody_on_a_seat_starts_without_a_jerk() {
     let directory = directory();
@@ -98,7 +98,7 @@ fn somebody_on_a_seat_starts_without_a_jerk() {
             .unwrap()
             .1
     };
-    // what an accelerometer reads at rest is gravity
+    // at rest an accelerometer reads gravity
     assert!(
         (value("head") - G).abs() < 0.01 * G && (value("torso") - G).abs() < 0.01 * G,
         "{row:?}"
@@ -116,7 +116,8 @@ fn somebody_on_a_seat_starts_without_a_jerk() {
     );
 }
 
-/// A scene of real size whose belts and seat do not hold its legs: its state of rest lies where a curve is left, and no run from there could be trusted.
+/// A scene of real size whose belts and seat do not hold its legs: in its state of rest a curve is exceeded, and no run from there could be
+/// trusted.
 #[test]
 fn a_state_of_rest_that_cannot_be_trusted_is_refused() {
     let directory = directory();
@@ -125,7 +126,7 @@ fn a_state_of_rest_that_cannot_be_trusted_is_refused() {
     fs::copy(scene, path.join("occupant.yaml")).unwrap();
     let (_, error) = call(path, &["settle", "occupant.yaml", "-o", "rest.json"], 3);
     assert!(
-        error.contains("cushion-right-thigh") && error.contains("is left by"),
+        error.contains("cushion-right-thigh") && error.contains("exceeds the last point"),
         "{error}"
     );
     assert!(!path.join("rest.json").exists());
@@ -188,7 +189,7 @@ fn a_ball_rests_in_a_corner_and_the_run_stays_there() {
         .skip(1)
         .map(|row| row.split(',').nth(1).unwrap().parse().unwrap())
         .collect();
-    // (√2 r − √2 d) above the corner, d = m g/(√2 k); 1e-6 g of ω² = k/m moves it by 5e-10 m, and a run is good to 0.1 % of 1 g/ω²
+    // (√2 r − √2 d) above the corner, d = m g/(√2 k); 1e-6 g over ω² = k/m moves it by 5e-10 m, and a run is accurate to 0.1 % of 1 g/ω²
     let exact = 2f64.sqrt() * (0.1 - 5.0 * 9.81 / (2f64.sqrt() * 1e5));
     assert!((heights[0] - exact).abs() < 1e-9, "{} {exact}", heights[0]);
     for height in &heights {
@@ -226,9 +227,9 @@ fn what_does_not_rest_is_said_and_nothing_is_written() {
     let stands = super::PENDULUM.replace("30 deg", "180 deg");
     fs::write(path.join("stands.yaml"), stands).unwrap();
     let (_, error) = call(path, &["settle", "stands.yaml", "-o", "rest.json"], 3);
-    assert!(error.contains("leaves that place at a touch"), "{error}");
+    assert!(error.contains("a slight push moves it away"), "{error}");
     assert!(!path.join("rest.json").exists());
-    // where no file is named the state is printed, and the rest is told beside it
+    // without a file name the state is printed, and the messages go to standard error
     let (state, told) = call(path, &["settle", "clock.yaml"], 0);
     let state: Value = serde_json::from_str(&state).unwrap();
     let angles = state["coordinates"].as_object().unwrap();

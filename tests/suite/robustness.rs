@@ -1,9 +1,9 @@
-//! The emitted text depends on the model and on nothing else: not on the run, not on the place of the file.
+//! The emitted text depends only on the model: not on the run, and not on the place of the file.
 
 use bryant_generator::{Config, Generated};
 use std::path::{Path, PathBuf};
 
-/// All models of the project, with the data they include, as paths relative to this crate.
+/// All models of the project with the data that they include, as paths relative to this crate.
 fn models() -> Vec<PathBuf> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut found = Vec::new();
@@ -42,7 +42,7 @@ fn a_model_gives_the_same_bytes_anywhere_and_any_time() {
     for path in models() {
         let here = path.parent().expect("a directory");
         let first = generate(&path, &elsewhere.path().join("first"));
-        // copied with all that it includes
+        // a copy with all files that it includes
         for read in &first.read {
             let copy = copied(read);
             std::fs::create_dir_all(copy.parent().expect("a directory")).expect("a directory");

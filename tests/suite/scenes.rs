@@ -1,10 +1,10 @@
-//! The bundled scenes of applications: that they run as their pages say.
+//! The bundled scenes of applications run as their pages say.
 
 use super::tables::{column, largest, run};
 
 #[test]
 fn the_driver_begins_at_rest_and_is_held() {
-    // accelerometers of what rests read gn; a reel of 1 N pulls the chest of 12 kg with 2 N at most, and its tension is all that is not in balance
+    // accelerometers at rest read gn; a reel of 1 N pulls the chest of 12 kg with at most 2 N, and only its tension is not in balance
     let (still, _) = run("frontal", &["--set", "slack=1 N", "--duration", "1 ms"]);
     let at_start = column(&still, "chest acceleration resultant")[0];
     assert!((at_start - 9.80665).abs() < 2.0 / 12.0, "{at_start}");
@@ -13,7 +13,7 @@ fn the_driver_begins_at_rest_and_is_held() {
     let reel = largest(&held, "belt at the reel");
     assert!((reel - 3000.0).abs() < 1e-6, "the limiter: {reel}");
     assert!(largest(&held, "bag on the head") > 0.0);
-    // each device does what it is for
+    // each device has its effect
     let chest = "chest acceleration resultant";
     let (loose, _) = run("frontal", &["--set", "pulled_in=0"]);
     assert!(largest(&loose, chest) > largest(&held, chest));
@@ -24,7 +24,8 @@ fn the_driver_begins_at_rest_and_is_held() {
     assert!(largest(&bare, "head excursion") > largest(&held, "head excursion"));
 }
 
-/// The sled of the belt is within the corridor of the regulation, the manikin begins at rest and is held within the limits, and each device does what it is for.
+/// The sled of the belt is in the corridor of the regulation, the manikin begins at rest and is held within the limits, and each device has
+/// its effect.
 #[test]
 fn the_belt_holds_its_manikin_within_the_corridor() {
     let (still, _) = run(
@@ -32,7 +33,7 @@ fn the_belt_holds_its_manikin_within_the_corridor() {
         &["--set", "reel_spring=1 N", "--duration", "1 ms"],
     );
     let at_start = column(&still, "chest acceleration resultant")[0];
-    // as of the driver
+    // as for the driver
     assert!((at_start - 9.80665).abs() < 2.0 / 12.0, "{at_start}");
     let (held, told) = run("belt-sled", &[]);
     assert!(!told.contains("warning"), "{told}");
@@ -48,7 +49,8 @@ fn the_belt_holds_its_manikin_within_the_corridor() {
     assert!(largest(&stiff, pelvis) < largest(&held, pelvis));
 }
 
-/// Searle and Searle (SAE 831622, 1983): who is thrown at the speed v and slides with μ comes to rest within v²/(2 μ g) and (1 + μ²) v²/(2 μ g).
+/// Searle and Searle (SAE 831622, 1983): a pedestrian who is thrown at the speed v and slides with μ comes to rest between v²/(2 μ g) and
+/// (1 + μ²) v²/(2 μ g).
 #[test]
 fn the_pedestrian_is_thrown_as_far_as_published_bounds_say() {
     let long = [
@@ -122,7 +124,7 @@ fn the_table_of_figure_5_is_met_in_all_four_columns() {
     }
 }
 
-/// The child restraint is within the limits of both fields, its harness and its belt are what hold it, and slack costs.
+/// The child restraint is within the limits of both fields, its harness and its belt hold it, and slack makes it worse.
 #[test]
 fn the_child_restraint_keeps_its_limits() {
     // limits as quoted in docs/applications/child-restraint.md
@@ -146,7 +148,7 @@ fn the_child_restraint_keeps_its_limits() {
     assert!(largest(&below, head) > largest(&held, head));
 }
 
-/// The infant begins at rest, stays in its cot, and straps, cover and padding do what docs/applications/carrycot.md says.
+/// The infant begins at rest and stays in its cot; straps, cover and padding have the effects in docs/applications/carrycot.md.
 #[test]
 fn the_carrycot_holds_its_infant() {
     let (still, _) = run("carrycot", &["--set", "pulse=0", "--duration", "20 ms"]);
@@ -154,7 +156,7 @@ fn the_carrycot_holds_its_infant() {
         "head acceleration resultant",
         "chest acceleration resultant",
     ] {
-        // what rests reads gn
+        // accelerometers at rest read gn
         let residual = column(&still, name).iter().map(|a| (a - 9.80665).abs());
         assert!(residual.fold(0.0, f64::max) < 0.0981, "{name}");
     }
@@ -174,7 +176,7 @@ fn the_carrycot_holds_its_infant() {
     assert!(bent(&bare) > bent(&held));
 }
 
-/// As [`the_pedestrian_is_thrown_as_far_as_published_bounds_say`], in the plane; his head comes down faster than the car goes.
+/// The same as [`the_pedestrian_is_thrown_as_far_as_published_bounds_say`], in the plane; his head comes down faster than the car's speed.
 #[test]
 fn the_pedestrian_in_the_plane_is_thrown_as_far_too() {
     let long = ["--duration", "4 s", "--every", "10 ms", "--no-verify"];

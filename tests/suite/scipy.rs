@@ -1,15 +1,14 @@
-//! child-seat against scipy's DOP853 and Radau: integrators that share neither text nor control of the error with ours.
+//! child-seat against scipy's DOP853 and Radau: these integrators share neither code nor error control with ours.
 //!
-//! `reference/child_seat_scipy.py` made the solutions and says how. Beside them stands the growth G of errors, of each entry of
-//! the state and each output at each sample: what it may be off by there, at most, after a single step has erred in
-//! every entry by 1 + |y|. An integrator that errs in each of n steps by τ (1 + |y|) is off by n τ G at most. Ours allow
-//! this in every entry; scipy allows a root mean square of it over N entries, so √N times that in one of them. Nothing here is a
-//! number that some run printed.
+//! `reference/child_seat_scipy.py` made the solutions and documents this. It also gives the growth G of errors, for each entry of the state
+//! and each output at each sample: the largest error there after a single step has erred in every entry by 1 + |y|. An integrator that errs
+//! in each of n steps by τ (1 + |y|) is off by at most n τ G. Ours allows this in every entry; scipy allows a root mean square of it over N
+//! entries, so √N times as much in one entry. No number here was printed by a run.
 //!
-//! **Kinks that are passed.** What is compared to estimate the error of a step over a kink differs by a function of where in
-//! the step the kink lies, and this function has zeros. At a random place an estimate that is such a difference is F times too
-//! small with a probability of about 1/F; that of DOP853, e₅²/√(e₅² + 0.01 e₃²), with 1/√F. Of K kinks the most hidden one
-//! errs like K steps, or K² of DOP853. K is what a run that locates kinks counts.
+//! **Kinks that are passed.** The error estimate of a step over a kink is a difference that depends on the position of the kink in the
+//! step, and this dependence has zeros. At a random position, such an estimate is too small by a factor F with a probability of about 1/F;
+//! for that of DOP853, e₅²/√(e₅² + 0.01 e₃²), with 1/√F. Among K kinks, the most hidden one errs like K steps, or K² for DOP853. K is the
+//! count of a run that locates kinks.
 
 use bryant_generated::find;
 use bryant_runtime::program::Job;
@@ -20,7 +19,7 @@ use std::ops::ControlFlow;
 /// A row for each sample.
 type Rows = Vec<Vec<f64>>;
 
-/// What scipy found.
+/// A solution by scipy.
 struct Solution {
     name: &'static str,
     states: Rows,
@@ -34,7 +33,7 @@ struct Data {
     solutions: [Solution; 2],
     state_growth: Rows,
     output_growth: Rows,
-    /// Of the model that was integrated.
+    /// Digest of the model that was integrated.
     digest: String,
     names: [Vec<String>; 2],
 }
@@ -80,7 +79,7 @@ fn data() -> Data {
     }
 }
 
-/// Where two solutions differ most, in what they are allowed to at most.
+/// The place where two solutions differ most, relative to the allowed difference.
 #[derive(Debug, Default)]
 struct Worst {
     share: f64,
@@ -88,7 +87,7 @@ struct Worst {
 }
 
 impl Worst {
-    /// Looks at the rows of all samples; `allowed` times the growth is what a sample may differ by.
+    /// Compares the rows of all samples; a sample may differ by `allowed` times the growth.
     fn look(
         &mut self,
         names: &[String],
@@ -99,12 +98,12 @@ impl Worst {
         allowed: &[f64],
     ) {
         assert_eq!([a.len(), b.len(), growth.len()], [times.len(); 3]);
-        // at the start both are given
+        // both have the same start
         for k in 1..times.len() {
             assert_eq!([a[k].len(), b[k].len(), growth[k].len()], [names.len(); 3]);
             for i in 0..names.len() {
                 let (difference, bound) = ((a[k][i] - b[k][i]).abs(), allowed[k] * growth[k][i]);
-                // an output that is 0 for both has no growth
+                // an output that is 0 in both has no growth
                 let share = if difference == 0.0 {
                     0.0
                 } else {
@@ -185,7 +184,7 @@ fn run(times: &[f64], formula: Formula, tolerance: f64, locate: bool, friction: 
         .unwrap_or_else(|error| panic!("{formula} at {tolerance:e}: {}", error.message));
     assert_eq!(ours.len(), times.len());
     for (ours, theirs) in ours.iter().zip(times) {
-        // products and decimals of the same times
+        // the times are products in one and decimals in the other
         assert!((ours - theirs).abs() <= f64::EPSILON, "{ours} {theirs}");
     }
     Run {
@@ -195,7 +194,7 @@ fn run(times: &[f64], formula: Formula, tolerance: f64, locate: bool, friction: 
     }
 }
 
-/// A run against what scipy found, where ours errs by so many tolerances.
+/// A run against a solution by scipy; our error is this many tolerances.
 fn against(data: &Data, solution: &Solution, run: &Run, tolerances: f64) -> Worst {
     let allowed: Vec<f64> = solution
         .allowed
@@ -217,7 +216,7 @@ fn every_method_agrees_with_scipy_on_child_seat() {
         .entry
         .info
         .digest;
-    // Heun's method, of order 2, needs so many steps that n τ G bounds nothing at tolerances that it can afford.
+    // Heun's method, of order 2, needs so many steps that n τ G is no useful bound at tolerances that it can reach
     let sharp = |f: &Formula| f.estimates_error() && *f != Formula::Heun;
     let at_one = Formula::ALL.into_iter().filter(sharp).map(|f| (f, 1e-9));
     for (formula, tolerance) in at_one.chain([(Formula::Dop853, 1e-11)]) {
@@ -253,7 +252,7 @@ fn every_method_agrees_with_scipy_on_child_seat() {
 fn a_little_more_friction_does_not_agree() {
     let data = data();
     let (formula, tolerance) = (Formula::Dop853, 1e-11);
-    // a ten-thousandth of what rubs on the cushion
+    // a ten-thousandth of the friction on the cushion
     let other = run(&data.times, formula, tolerance, true, 1.0001 * FRICTION);
     let allowed = other.report.steps as f64 * tolerance;
     for solution in &data.solutions {

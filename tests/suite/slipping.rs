@@ -1,11 +1,11 @@
-//! Belts that slip through rings, against the law of a rope on a drum.
+//! Belts that slip through rings, against the equation of a rope on a drum.
 
 use super::called::call;
 use super::directory;
 use super::tables::{column, energy, run};
 use std::fs;
 
-/// A rope of two segments of 1 m around a pin, at a right angle. Its end is pulled 100 mm and, where `back`, let go by 90 mm again.
+/// A rope of two segments of 1 m around a pin at a right angle. Its end is pulled by 100 mm and, with `back`, released by 90 mm again.
 fn rope(back: bool) -> String {
     // a triangle up and one down: 0.1 m within 0.4 s, at rest at both ends
     let pull = "[0, 0], [0.1, 5], [0.2, 0], [0.3, -5], [0.4, 0]";
@@ -39,7 +39,7 @@ run: {{ duration: 1 s, every: 0.1 s }}
     )
 }
 
-/// A run leaves an error of at most its steps times its tolerance: 2000 · 1e-11 m, on 70 kN/m of 3500 N 4e-7.
+/// A run has an error of at most its steps times its tolerance: 2000 · 1e-11 m, and 4e-7 of 3500 N at 70 kN/m.
 fn close(what: &str, ours: f64, expected: f64) {
     let error = (ours - expected).abs() / expected.abs();
     assert!(error < 1e-6, "{what}: {ours} instead of {expected}");
@@ -58,7 +58,7 @@ fn a_rope_around_a_pin_slips_to_the_ratio_of_tensions() {
         close("held", last("held"), held);
         // webbing comes from behind the pin
         close("slip", -last("slip"), slip);
-        // the frame has the pin and the other end: along x the pulled segment alone
+        // the frame holds the pin and the other end: only the pulled segment acts along x
         close("on the frame", last("on the pin"), pulled);
     }
 }
@@ -75,7 +75,7 @@ fn between_the_two_ratios_a_rope_sticks() {
     for k in 1..pulled.len() {
         let now = held[k] / pulled[k];
         if now > 1.02 / ratio && now < ratio / 1.02 {
-            // strictly between: not a bit of slip since the row before, where that was between too
+            // strictly between the two limits: no slip at all since the row before, if that was also between them
             let before = held[k - 1] / pulled[k - 1];
             if before > 1.02 / ratio && before < ratio / 1.02 {
                 assert_eq!(slip[k], slip[k - 1], "row {k}");
@@ -84,7 +84,7 @@ fn between_the_two_ratios_a_rope_sticks() {
         }
         slipped_back += usize::from(slip[k] > slip[k - 1] + 1e-9);
     }
-    // 90 mm let go: what was pulled is the looser side now, and the rope slips back
+    // after a release by 90 mm, the pulled side is the looser one, and the rope slips back
     assert!(stuck > 0 && slipped_back > 0, "{stuck} {slipped_back}");
     close(
         "the ratio at the end",
@@ -97,14 +97,14 @@ fn between_the_two_ratios_a_rope_sticks() {
 fn a_pin_takes_energy_and_never_gives_it() {
     let (_, printed) = run(&rope(true), &[]);
     assert!(energy(&printed, "belt rope: ring pin") < -1.0, "{printed}");
-    // the balance of energy closes to the tolerance: 200 J are in it
+    // the balance of energy closes to the tolerance: it contains 200 J
     assert!(
         energy(&printed, "not accounted for").abs() < 1e-5,
         "{printed}"
     );
 }
 
-/// A head that a strap over two rings stops, with all devices of a belt.
+/// A head that is stopped by a strap over two rings, with all devices of a belt.
 const STRAPPED: &str = "model: strapped
 dimension: 3
 parameters: { mu: 0.25 }
@@ -142,7 +142,7 @@ fn webbing_through_rings_keeps_its_length_and_its_energy() {
     let [one, payout] = ["one", "payout"].map(|name| column(&table, name));
     assert!(one.iter().all(|force| (0.0..=5000.0).contains(force)));
     assert!(one.iter().any(|force| *force > 1000.0));
-    // the reel gives until it locks
+    // the reel gives webbing until it locks
     assert!(
         payout[3] > 0.01 && payout.iter().all(|p| p.abs() < 0.1),
         "{payout:?}"
@@ -157,7 +157,7 @@ fn webbing_through_rings_keeps_its_length_and_its_energy() {
     }
 }
 
-/// s'(μ) of the rope that is pulled: f(s, μ) = 1.1/(1 + s) − 1 − R (1/(1 − s) − 1) = 0 with R = e^(μ π/2).
+/// s'(μ) of the pulled rope: f(s, μ) = 1.1/(1 + s) − 1 − R (1/(1 − s) − 1) = 0 with R = e^(μ π/2).
 #[test]
 fn gradients_go_through_rings() {
     let directory = directory();
@@ -182,7 +182,7 @@ fn gradients_go_through_rings() {
     close("derivative", found, expected);
 }
 
-/// The first number under a key, wherever it stands.
+/// The first number with a key, at any depth.
 fn find_number(value: &serde_json::Value, key: &str) -> Option<f64> {
     match value {
         serde_json::Value::Object(map) => map.iter().find_map(|(k, v)| match v.as_f64() {
@@ -234,7 +234,7 @@ fn what_is_wrong_with_a_ring_is_said() {
         let (_, printed) = call(path, &["check", "m.yaml"], 2);
         assert!(printed.contains(said), "{said}: {printed}");
     }
-    // a reel that gives without end, or pulls where it should give
+    // a reel that gives webbing without end, or pulls when it should give
     for times in ["0", "-1"] {
         let reel = STRAPPED.replace(
             "film_spool: { unit: [mm, N], points: [[0, 0], [40, 1000], [80, 5000]], extrapolate: linear }",
@@ -245,7 +245,7 @@ fn what_is_wrong_with_a_ring_is_said() {
         let (_, printed) = call(path, &["check", "m.yaml"], 2);
         assert!(printed.contains("film_spool"), "{printed}");
     }
-    // what a constant may not be, a parameter may not be either
+    // a parameter must not have a value that a constant must not have
     fs::write(path.join("m.yaml"), &model).unwrap();
     for wrong in ["mu=-1", "resistance=0", "resistance=-1"] {
         call(path, &["run", "m.yaml", "--set", wrong, "--no-files"], 2);

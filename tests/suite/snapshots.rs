@@ -1,4 +1,4 @@
-//! Texts that a person reviews: equations small enough to be checked by hand, and what the bundled models cost.
+//! Texts for review by a person: equations small enough to be checked by hand, and the costs of the bundled models.
 
 use bryant::notation::Notation;
 use bryant_generator::Config;
@@ -49,8 +49,8 @@ fn equations(yaml: &str) -> String {
     text(&equations.graph, &roots, &names)
 }
 
-/// With s = sin(φ_upper − φ_lower), c = cos(φ_upper − φ_lower) the text says, as every textbook does for point masses m1, m2
-/// on massless rods l1, l2 with absolute angles (Wells, *Lagrangian dynamics*; Goldstein, *Classical mechanics*, ch. 1):
+/// With s = sin(φ_upper − φ_lower) and c = cos(φ_upper − φ_lower), the text has the equations of the textbooks for point masses m1, m2 on
+/// massless rods l1, l2 with absolute angles (Wells, *Lagrangian dynamics*; Goldstein, *Classical mechanics*, ch. 1):
 ///
 /// (m1 + m2) l1² φ̈_upper + m2 l1 l2 c φ̈_lower = −m2 l1 l2 s φ̇_lower² − (m1 + m2) gravity l1 sin φ_upper
 /// m2 l1 l2 c φ̈_upper + m2 l2² φ̈_lower = m2 l1 l2 s φ̇_upper² − m2 gravity l2 sin φ_lower
@@ -74,14 +74,14 @@ forces:
     insta::assert_snapshot!("double_pendulum", text);
 }
 
-/// Two rods that hang from each other, with moments such that those of the augmented bodies are the same about all axes: 4
-/// and 2 kg m². Then, with b = 2 m kg and 1 m kg along −z of the element and u = −z of the upper one, times 1 m,
+/// Two rods, one hanging from the other. Their moments of inertia are chosen such that those of the augmented bodies are the same about all
+/// axes: 4 and 2 kg m². Then, with b = 2 m kg and 1 m kg along −z of the element, and u = −z of the upper one times 1 m,
 ///
 /// S_kk = J \[\[1, 0, sin φ₂\], \[0, 1, 0\], \[sin φ₂, 0, 1\]\], as of a spherical top in these angles (Wittenburg, ch. 2),
 /// S_jk = D_j(u)ᵀ D_k(w), the columns of D(v) being e₁ × v, e₂ × v, e₃ × v with e₁ = x, e₂ = Rx y, e₃ = Rx Ry z,
 ///
-/// r_s has no ω × Jω, only J times what φ̇ turns of the axes, and the moments of the centripetal accelerations; and r_k is
-/// (e_j × w)·gravity, which e₃ has none of: it is the rod.
+/// r_s has no term ω × Jω, but only J times the rates of the axes by φ̇, and the moments of the centripetal accelerations. r_k is (e_j ×
+/// w)·gravity, which is 0 for e₃: this axis is the rod.
 #[test]
 fn two_rods_in_space_have_equations_that_fit_a_page() {
     let text = equations(
@@ -112,7 +112,7 @@ fn bundled_models_cost_what_they_did() {
             .0;
         let source = Config::new().source(&model);
         let longest = functions(&source).map(|(_, lets)| lets).max();
-        // rustc crashes on functions of a few thousand
+        // rustc crashes on functions with a few thousand statements
         assert!(longest <= Some(1000), "{name}: {longest:?}");
         let name = format!("statistics_{}", name.replace('-', "_"));
         let statistics = statistics(&model, &source);
@@ -120,7 +120,7 @@ fn bundled_models_cost_what_they_did() {
     }
 }
 
-/// Sizes, effects and operations of a model and of its text.
+/// Sizes, effects and operations of a model, and the length of its text.
 fn statistics(model: &Model, source: &str) -> String {
     let equations = derive(model);
     let mut text = String::new();
@@ -206,7 +206,7 @@ fn statistics(model: &Model, source: &str) -> String {
     text
 }
 
-/// Functions of an emitted text: name and number of lets. Methods stand in an impl, their statements at eight spaces.
+/// Functions of an emitted text: name and number of lets. Methods are in an impl; their statements are indented by eight spaces.
 fn functions(source: &str) -> impl Iterator<Item = (&str, usize)> {
     let starts = |line: &&str| {
         let line = line.trim_start();
@@ -227,20 +227,10 @@ fn functions(source: &str) -> impl Iterator<Item = (&str, usize)> {
 }
 
 fn title(force: &Force) -> String {
-    let kind = match force.kind {
-        ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
-        ForceKind::Field { .. } => "field",
-        ForceKind::Contact(_) => "contact",
-        ForceKind::Belt(_) => "belt",
-        ForceKind::Spring(_) => "spring",
-        ForceKind::Airbag(_) => "airbag",
-        ForceKind::Load(_) => "load",
-        ForceKind::User(_) => "user",
-    };
-    format!("{kind} {}", force.name)
+    format!("{} {}", force.kind.key(), force.name)
 }
 
-/// What a force might have, and whether it has it.
+/// The optional terms of a force, and whether it has them.
 fn options(force: &Force) -> Vec<(&'static str, bool)> {
     let acts = |components: &[FieldComponent; 3], axis: usize| match &components[axis] {
         FieldComponent::Constant(value) => !value.is_zero(),
@@ -248,8 +238,8 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
     };
     let damps = |damping: &Option<Number>| damping.as_ref().is_some_and(|d| !d.is_zero());
     match &force.kind {
-        ForceKind::Joint { about, .. } => {
-            let any = |has: &dyn Fn(&JointTorque) -> bool| about.iter().any(has);
+        ForceKind::Joint(joint) => {
+            let any = |has: &dyn Fn(&JointTorque) -> bool| joint.about.iter().any(has);
             vec![
                 ("elastic", any(&|law| law.elastic.is_some())),
                 ("neutral angle", any(&|law| law.neutral.is_some())),
@@ -257,15 +247,15 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
                 ("friction", any(&|law| law.friction.is_some())),
             ]
         }
-        ForceKind::Freedom { law, .. } => vec![
-            ("elastic", law.elastic.is_some()),
-            ("neutral angle", law.neutral.is_some()),
-            ("damping", damps(&law.damping)),
-            ("friction", law.friction.is_some()),
+        ForceKind::Freedom(freedom) => vec![
+            ("elastic", freedom.law.elastic.is_some()),
+            ("neutral angle", freedom.law.neutral.is_some()),
+            ("damping", damps(&freedom.law.damping)),
+            ("friction", freedom.law.friction.is_some()),
         ],
-        ForceKind::Field { acceleration, .. } => ["x", "y", "z"]
+        ForceKind::Field(field) => ["x", "y", "z"]
             .into_iter()
-            .zip((0..3).map(|axis| acts(acceleration, axis)))
+            .zip((0..3).map(|axis| acts(&field.acceleration, axis)))
             .collect(),
         ForceKind::Contact(contact) => vec![
             ("elastic", contact.elastic.is_some()),
@@ -292,6 +282,13 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
             ("given length", spring.length.is_some()),
             ("damping", damps(&spring.damping)),
         ],
+        ForceKind::Bushing(bushing) => {
+            let laws = || bushing.along.iter().chain(&bushing.about);
+            vec![
+                ("elastic", laws().any(|law| law.elastic.is_some())),
+                ("damping", laws().any(|law| damps(&law.damping))),
+            ]
+        }
         ForceKind::Load(load) => vec![
             ("force", (0..3).any(|axis| acts(&load.force, axis))),
             ("moment", (0..3).any(|axis| acts(&load.moment, axis))),

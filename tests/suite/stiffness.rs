@@ -1,14 +1,14 @@
-//! Where a model is stiff, the method for stiff models is the cheapest by far: a hand pressed against a stop of 1e6 N·m/rad while the arm
+//! For a stiff model, the method for stiff models is by far the cheapest: a hand is pressed against a stop of 1e6 N·m/rad while the arm
 //! that carries it swings slowly (`models/joint-stop.yaml`).
 //!
-//! Work is counted, not timed, in evaluations of the derivative. A Jacobian takes an evaluation over dual numbers for each of the n
-//! entries of the state and one for the time; a product of dual numbers is three products and a sum, a sine takes its cosine along:
-//! four evaluations each. Each step, rejected ones too, factors a matrix and solves for eight stages, n³/3 + 8 n² products and as many
-//! sums; the accelerations of this model take 42 operations and 4 sines or cosines, at least 46.
+//! Work is counted in evaluations of the derivative, not timed. A Jacobian takes an evaluation over dual numbers for each of the n entries
+//! of the state and one for the time. A product of dual numbers is three products and a sum, and a sine also needs its cosine: each of
+//! these evaluations counts as four. Each step, including rejected ones, factors a matrix and solves for eight stages, which takes n³/3 + 8
+//! n² products and as many sums; the accelerations of this model take 42 operations and 4 sines or cosines, at least 46.
 //!
-//! The error of an output is the largest over the samples, relative to its largest magnitude, and of a run the worst of its outputs.
-//! Of explicit methods the cheapest setting that happens to meet an accuracy counts; of the method for stiff models the cheapest from
-//! which on all sharper tolerances meet it, too, as somebody must who does not know the solution.
+//! The error of an output is the largest over the samples, relative to its largest magnitude; the error of a run is the worst of its
+//! outputs. For explicit methods, the cheapest setting that happens to reach an accuracy counts. For the method for stiff models, the
+//! cheapest setting counts from which on all smaller tolerances reach it, too, because a user does not know the solution.
 
 use bryant_runtime::simulate::{Method, Report, Settings};
 use bryant_runtime::{
@@ -22,16 +22,16 @@ type State = <Arm as Model<f64>>::State;
 
 /// n
 const ENTRIES: u64 = <State as Vector<f64>>::LEN as u64;
-/// Evaluations that an evaluation over dual numbers is worth.
+/// An evaluation over dual numbers counts as this many evaluations.
 const DUAL: u64 = 4;
-/// Evaluations that the linear algebra of a step is worth.
+/// The linear algebra of a step counts as this many evaluations.
 const LINEAR_ALGEBRA: u64 = 2 * (ENTRIES.pow(3) / 3 + 8 * ENTRIES.pow(2)) / 46 + 1;
 
 const TOLERANCES: [f64; 7] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
-/// From the time between samples down to a fortieth of the period in which the hand would oscillate against the stop.
+/// From the time between samples down to a fortieth of the period with which the hand would oscillate against the stop.
 const STEPS: [f64; 7] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
 
-/// Sample from which on the hand lies against the stop.
+/// From this sample on, the hand lies against the stop.
 const PRESSED: usize = 10;
 
 /// A run to the end.
@@ -52,7 +52,7 @@ impl Run {
     }
 }
 
-/// From the start, or from a state later on, to the end.
+/// Runs from the start, or from a later state, to the end.
 fn run(method: Method, locate: bool, from: Option<(&State, f64)>) -> Result<Run, String> {
     let model = Arm::new(<<Arm as Model<f64>>::Parameters as ParameterSet<f64>>::defaults());
     let (start, passed) = from.map_or((model.initial_state(), 0.0), |(y, t)| (*y, t));
@@ -121,7 +121,7 @@ fn settings(formula: Formula, locate: bool) -> [Vec<(Method, bool)>; 2] {
     ]
 }
 
-/// Runs of all settings; why one failed.
+/// Runs with all settings, or why they failed.
 type Runs = Vec<Result<Run, String>>;
 
 fn all(settings: &[(Method, bool)]) -> Runs {
@@ -134,13 +134,13 @@ fn all(settings: &[(Method, bool)]) -> Runs {
 #[test]
 fn two_methods_agree_on_the_reference() {
     let (explicit, implicit) = (reference(), sharp(Formula::Rodas5, 1e-11));
-    // at the accuracies that are compared, two digits and more below
+    // at the compared accuracies, two digits and more below
     let apart = error(&explicit.outputs, &implicit.outputs);
     assert!(apart < 1e-5, "{apart:e}");
 }
 
 #[test]
-fn the_method_for_stiff_models_is_the_cheapest_where_a_hand_is_pressed_against_a_stop() {
+fn a_hand_pressed_on_a_stop_is_cheapest_by_the_stiff_method() {
     let reference = reference().outputs;
     let runs: Vec<(Formula, [Runs; 4])> = Formula::ALL
         .into_iter()
@@ -180,7 +180,7 @@ fn the_method_for_stiff_models_is_the_cheapest_where_a_hand_is_pressed_against_a
 }
 
 #[test]
-fn steps_of_the_method_for_stiff_models_are_a_hundred_times_longer_on_the_stop() {
+fn steps_of_the_stiff_method_on_the_stop_are_100_times_longer() {
     let reference = reference();
     let every = Arm::INFO.every;
     let from = (&reference.states[PRESSED], PRESSED as f64 * every);
@@ -202,9 +202,10 @@ fn steps_of_the_method_for_stiff_models_are_a_hundred_times_longer_on_the_stop()
     }
 }
 
-/// A step may err by the tolerance in an angle, relative to its magnitude. Where nothing runs away, some hundred such errors add up
-/// in the angles, as in any other run. In the rates it is ω_n of one: what the error of an angle presses the hand into the stop, with
-/// ω_n² = k (M₁₁ + 2 M₁₂ + M₂₂)/(M₁₁ M₂₂ − M₁₂²), it throws back with no more, and the damping takes that away before the next.
+/// A step may err in an angle by the tolerance, relative to its magnitude. The motion does not diverge, so some hundred such errors add up
+/// in the angles, as in any other run. In the rates there is ω_n times one error: the stop throws the hand back with no more than the speed
+/// that the error of an angle presses it in with, where ω_n² = k (M₁₁ + 2 M₁₂ + M₂₂)/(M₁₁ M₂₂ − M₁₂²), and the damping removes this before
+/// the next error.
 #[test]
 fn no_tolerance_lets_a_method_run_away_from_a_stop() {
     const SUM: f64 = 100.0;

@@ -1,4 +1,4 @@
-//! What a command prints and writes arrives, or the command says that it did not.
+//! The output of a command arrives, or the command says that it did not.
 
 use crate::called::{bryant, call, expect};
 use crate::{PENDULUM, directory};
@@ -7,11 +7,11 @@ use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::{Output, Stdio};
 
-/// The command with something done to its process before it begins.
+/// The command, with a function that is called in its process before it begins.
 fn with(at: &Path, arguments: &[&str], before: fn() -> std::io::Result<()>) -> Output {
     let mut command = bryant(at);
     command.args(arguments);
-    // SAFETY: what is done is one call of the system's, which may be made between `fork` and `exec`.
+    // SAFETY: the function makes a single system call, which is allowed between `fork` and `exec`.
     #[expect(unsafe_code, reason = "between fork and exec")]
     unsafe {
         command.pre_exec(before)
@@ -39,7 +39,7 @@ fn close() -> std::io::Result<()> {
     }
 }
 
-/// Files of this process have at most 512 bytes.
+/// Limits files of this process to 512 bytes.
 fn short_files() -> std::io::Result<()> {
     let limit = libc::rlimit {
         rlim_cur: 512,
@@ -79,7 +79,7 @@ fn a_standard_output_that_is_closed_is_an_error() {
 fn nothing_is_lost_where_standard_output_goes_nowhere() {
     let directory = directory();
     for arguments in PRINTING {
-        // for reading and writing, as the standard library opens it in the place of what is closed
+        // opened for reading and writing, as the standard library opens it in place of a closed descriptor
         let null = OpenOptions::new().read(true).write(true).open("/dev/null");
         let mut command = bryant(directory.path());
         command.args(arguments).stdout(null.unwrap());
@@ -113,14 +113,14 @@ fn a_limit_on_files_is_told_and_leaves_none() {
         .into_iter()
         .filter(|name| !before.contains(name))
         .collect();
-    // what fits is there and whole
+    // files that fit are there and complete
     assert!(
         written.iter().all(|name| name == "clock.csv"),
         "{written:?}"
     );
 }
 
-/// Two results in one place: nothing runs, both options are named, and the place.
+/// Two results go to one place: nothing runs, and the message has both options and the place.
 #[test]
 fn two_results_in_one_place_are_refused() {
     let directory = directory();
@@ -212,12 +212,12 @@ fn two_results_in_one_place_are_refused() {
         assert!(stderr.contains("help:"), "{stderr}");
     }
     assert_eq!(files(directory.path()), before, "nothing is written");
-    // a state is printed in the place of the table
+    // a state is printed in place of the table
     let state = ["run", "clock.yaml", "--no-files", "--final-state", "-"];
     let (stdout, _) = call(directory.path(), &state, 0);
     assert!(stdout.starts_with("{\n  \"model\": \"clock\""), "{stdout}");
     assert_eq!(files(directory.path()), before, "nothing is written");
-    // what takes everything takes two results
+    // the null device accepts two results
     let twice = ["run", "clock.yaml", "--no-files", "--csv", "/dev/null"];
     call(directory.path(), &twice, 0);
 }
@@ -239,7 +239,7 @@ fn a_picture_is_what_its_name_says() {
         assert!(stderr.contains(".svg or as .png"), "{stderr}");
         assert!(!directory.path().join(name).exists());
     }
-    // on standard output there is the picture, and nothing else
+    // standard output has only the picture
     let (stdout, stderr) = run("-", 0);
     assert_eq!(stdout.as_bytes(), read("a.SVG"));
     assert!(stderr.contains("evaluations") && !directory.path().join("-").exists());
@@ -266,7 +266,7 @@ fn plots_of_columns_are_told_before_anything_runs() {
     assert_eq!(files(directory.path()), before, "bad input writes nothing");
 }
 
-/// Whoever stops reading is told that a run cannot be trusted as anybody else is.
+/// A user who stops reading is also told that a run cannot be trusted.
 #[test]
 fn a_reader_who_leaves_does_not_make_a_run_good() {
     let directory = directory();
@@ -285,7 +285,7 @@ fn a_reader_who_leaves_does_not_make_a_run_good() {
     );
 }
 
-/// Files that are none: a device without an end, a pipe that nobody writes to, a folder.
+/// Names that are not regular files: a device without an end, a pipe that nobody writes to, a folder.
 fn endless(at: &Path) {
     std::os::unix::fs::symlink("/dev/zero", at.join("zero")).unwrap();
     let made = std::process::Command::new("mkfifo")

@@ -1,8 +1,8 @@
-//! Switches fire at the instants of closed forms, and what waits for them acts from there on.
+//! Switches fire at the times of closed forms, and forces that wait for them act from then on.
 //!
-//! The ball of `models/switches.yaml` moves by piecewise constant accelerations: polynomials of the second degree, which the
-//! integrator and its interpolant follow exactly. What is left is rounding, of order ε per step, and the width
-//! to which an event is located, 1e-13 of a step, divided by the rate at which the quantity passes its threshold.
+//! The ball of `models/switches.yaml` moves with piecewise constant accelerations: polynomials of the second degree, which the integrator
+//! and its interpolant follow exactly. The error is rounding, of order ε for each step, and the width to which an event is located, 1e-13
+//! of a step, divided by the rate at which the quantity passes its threshold.
 
 use bryant_runtime::program::{Entry, Job};
 use bryant_runtime::{Formula, Method};
@@ -21,8 +21,8 @@ fn last(run: &Recording, name: &str) -> f64 {
     column[column.len() - 1]
 }
 
-/// A bound on rounding of a run over numbers of order 1: 8 roundings per step, and where in a step an event is, a step
-/// being no longer than the run of 1 s.
+/// A bound on the rounding of a run over numbers of order 1: 8 roundings for each step, and the location of an event in a step, which is at
+/// most as long as the run of 1 s.
 fn rounding(run: &Recording) -> f64 {
     8.0 * f64::EPSILON * run.steps + 1e-13
 }
@@ -36,7 +36,7 @@ fn close(what: &str, ours: f64, expected: f64, bound: f64) {
 }
 
 #[test]
-fn switches_fire_at_times_heights_speeds_accelerations_and_by_each_other() {
+fn switches_fire_by_time_height_speed_acceleration_and_switch() {
     let run = run(&entry(), &[], TOLERANCE);
     let bound = rounding(&run);
     close("ignition", last(&run, "ignition"), 0.11, bound);
@@ -45,7 +45,7 @@ fn switches_fire_at_times_heights_speeds_accelerations_and_by_each_other() {
     close("high delayed", last(&run, "high delayed"), 0.23, bound);
     // −10 m/s² up to there, −6 from there on: 1.7 m/s − 6 m/s² t = −1 m/s
     close("falling", last(&run, "falling"), 0.68, bound);
-    // the thrust makes 3 m/s² at once, and the acceleration is seen when it begins
+    // the thrust causes 3 m/s² at once, and the acceleration is observed from its beginning
     close("hard", last(&run, "hard"), 0.11, bound);
     close("after hard", last(&run, "after hard"), 0.11, bound);
     // 3 m/s² between 0.11 s and 0.2 s
@@ -59,7 +59,7 @@ fn switches_fire_at_times_heights_speeds_accelerations_and_by_each_other() {
         .iter()
         .zip(run.column("on").into_iter().zip(run.column("high")))
     {
-        // what has happened has happened, what has not is at −1; what happens at a sample is on either side of it by rounding
+        // the time of an event that has happened is known, otherwise it is −1; for an event at a sample, rounding decides
         if (t - 0.68).abs() <= bound {
             continue;
         }
@@ -87,7 +87,7 @@ fn two_switches_may_fire_in_one_instant() {
     let bound = rounding(&run);
     close("ignition", last(&run, "ignition"), 0.2, bound);
     close("high", last(&run, "high"), 0.2, bound);
-    // in whichever order they came, the thrust had no time
+    // whatever their order, the thrust had no time to act
     close("speed", last(&run, "vx"), 1.0, 3.0 * bound);
 }
 
@@ -116,7 +116,7 @@ fn fixed_steps_end_at_a_switch_too() {
         })
         .unwrap_or_else(|error| panic!("{}", error.message));
     for (found, crossing) in [(row[high], 0.2), (row[delayed], 0.23)] {
-        // the motion is a parabola, of which the interpolant makes no more than rounding errors
+        // the motion is a parabola, which the interpolant follows up to rounding
         assert!((found - crossing).abs() < 1e-12, "{found}");
     }
 }

@@ -1,4 +1,4 @@
-//! Tables that runs write, by columns.
+//! The tables that runs write, by columns.
 
 use super::called::call;
 use super::directory;
@@ -28,12 +28,12 @@ pub fn column<'a>(columns: &'a [(String, Vec<f64>)], name: &str) -> &'a [f64] {
     &found.unwrap_or_else(|| panic!("no column {name}")).1
 }
 
-/// The largest value of a column, 0 at least.
+/// The largest value of a column, at least 0.
 pub fn largest(columns: &[(String, Vec<f64>)], name: &str) -> f64 {
     column(columns, name).iter().copied().fold(0.0, f64::max)
 }
 
-/// A run of a bundled model, or of the text of one, with options, which must be trusted: its table, and what it said beside it.
+/// A run of a bundled model, or of a model in a text, with options; it must be trusted. Returns its table, and its messages.
 pub fn run(model: &str, options: &[&str]) -> (Columns, String) {
     let directory = directory();
     let path = directory.path();
@@ -50,7 +50,7 @@ pub fn run(model: &str, options: &[&str]) -> (Columns, String) {
     (read(&path.join("run.csv")), told)
 }
 
-/// What a balance of energy says of an effect \[J\].
+/// The work of an effect in the printed balance of energy \[J\].
 pub fn energy(told: &str, effect: &str) -> f64 {
     let line = told.lines().find(|line| line.contains(effect));
     let line = line.unwrap_or_else(|| panic!("no {effect} in {told}"));

@@ -1,7 +1,7 @@
 //! The planar tree of `reference/tree2d.yaml`: S, right-hand side, accelerations, and the motion from there.
 //!
-//! It is written in an x–y plane with counter-clockwise angles α. With z = y and φ = −α all vectors stay what they are, and
-//! the rows and columns of the angles change sign: S = D S' D, r = D r', D = diag(1, 1, −1, −1, −1, −1).
+//! The reference uses an x–y plane with counter-clockwise angles α. With z = y and φ = −α all vectors stay the same, and the rows and
+//! columns of the angles change sign: S = D S' D, r = D r', D = diag(1, 1, −1, −1, −1, −1).
 
 use crate::motion::{at, close, run_with_bound};
 use bryant::evaluation::{self, State};
@@ -22,7 +22,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     list.iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
-/// Numbers of the reference, coordinates or velocities or both, in our convention.
+/// Numbers of the reference (coordinates, velocities or both), in our convention.
 fn turned(value: &Value) -> Vec<f64> {
     numbers(value)
         .iter()
@@ -94,11 +94,11 @@ fn the_tree_falls_as_computed_elsewhere() {
             close("state", t, *ours, expected, bounds[k]);
         }
     }
-    // at the start, and ever after: T + Σm g z with 14 kg
+    // at the start and at all later times: T + Σm g z with 14 kg
     let energy = reference["energy0"].as_f64().expect("a number");
     for (k, outputs) in motion.outputs.iter().enumerate() {
         let ours = outputs[0] + 14.0 * 9.81 * outputs[1];
-        // it changes with the height as m g = 137 N, with a velocity of at most 5 m/s as m v = 70 kg m/s
+        // an error of the height changes it by m g = 137 N, an error of a velocity of at most 5 m/s by m v = 70 kg m/s
         close(
             "energy",
             motion.times[k],

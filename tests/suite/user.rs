@@ -1,4 +1,4 @@
-//! Forces of the user's own: against built-in ones that do the same, and against closed forms.
+//! User forces: against built-in forces with the same law, and against closed forms.
 
 use crate::users::functions;
 use bryant_generated as bundled;
@@ -13,7 +13,7 @@ use bryant_tests::runs::{Recording, run};
 use bryant_tests::trees::Random;
 
 const STATES: usize = 40;
-/// As in `compiled`: what eight samples of the scatter say of a largest difference.
+/// As in `compiled`: the factor from the scatter of eight samples to the largest difference.
 const C: f64 = 20.0;
 const TOLERANCE: f64 = 1e-11;
 const G: f64 = 9.81;
@@ -23,7 +23,7 @@ fn named(name: &str) -> &'static Compiled {
     found.unwrap_or_else(|| panic!("{name} is no test model"))
 }
 
-/// v̇ and the outputs as compiled, and how much rounding does to each.
+/// v̇ and the outputs of the compiled model, and the effect of rounding on each.
 fn values(compiled: &Compiled, t: f64, state: &[f64]) -> Vec<(f64, f64)> {
     let model = compiled.model();
     let route = None;
@@ -56,8 +56,8 @@ fn values(compiled: &Compiled, t: f64, state: &[f64]) -> Vec<(f64, f64)> {
     values.zip(scatter).collect()
 }
 
-/// Every kind of port, in the plane by a function of this crate, in space by files beside the model, does what the
-/// built-in force does that has the same law. Both round differently: c κ ε, as in `compiled`.
+/// Every kind of port has the same effect as the built-in force with the same law: in the plane by a function of this crate, in space by
+/// files beside the model. Both round differently: c κ ε, as in `compiled`.
 #[test]
 fn functions_of_the_user_do_what_built_in_forces_do() {
     for (user, twin) in [
@@ -109,7 +109,7 @@ fn functions_of_the_user_do_what_built_in_forces_do() {
     }
 }
 
-/// Forces of the first output at the start: the belt must be taut there, or nothing of it was compared.
+/// Whether the first output has a force at the start: the belt must be taut there, or its law would not be compared.
 fn ours_taut(entry: &Entry) -> bool {
     let state = entry.initial_state(&[]).expect("a start");
     let mut outputs = vec![f64::NAN; entry.info.outputs.len()];
@@ -120,8 +120,8 @@ fn ours_taut(entry: &Entry) -> bool {
     true
 }
 
-/// v = v_t tanh(g t/v_t), v_t = √(2 m g/(ρ c_d A)), from rest. A step errs by at most the tolerance times the speed, and the
-/// drag lets errors shrink.
+/// v = v_t tanh(g t/v_t), v_t = √(2 m g/(ρ c_d A)), from rest. A step errs by at most the tolerance times the speed, and drag reduces
+/// errors.
 #[test]
 fn a_falling_body_tends_to_its_terminal_velocity() {
     let entry = Entry::of::<bundled::skydiver::Mechanism<f64>>();
@@ -148,15 +148,15 @@ fn a_falling_body_tends_to_its_terminal_velocity() {
     }
 }
 
-/// In wind the body drifts: seen from the air it falls as in still air, with the wind against it at the start, so that
-/// it ends at the speed of the wind.
+/// In wind the body drifts. Relative to the air it falls as in still air, with the wind against it at the start, so it ends at the speed of
+/// the wind.
 #[test]
 fn the_wind_takes_the_body_along() {
     let entry = Entry::of::<bundled::skydiver::Mechanism<f64>>();
     let run = run(&entry, &[("wind", 10.0), ("drag_area", 20.0)], TOLERANCE);
     let (speed, last) = (run.column("speed"), run.times.len() - 1);
     let terminal = (2.0 * 80.0 * G / (1.225 * 20.0)).sqrt();
-    // both components relax at least as exp(−g t/v_t)
+    // both components relax at least like exp(−g t/v_t)
     let left = (10.0 + terminal) * (-G * run.times[last] / terminal).exp();
     let expected = 10f64.hypot(terminal);
     let bound = run.steps * TOLERANCE * (1.0 + expected) + left;
@@ -182,7 +182,7 @@ fn activation_follows_excitation_as_its_closed_form_says() {
         let mut compared = 0;
         let samples = run.times.iter().zip(run.column("activation"));
         for ((&t, a), rate) in samples.zip(run.column("activation rate")) {
-            // where a rate is left to tell times apart
+            // while the rate is still large enough to determine times
             if rate < 1e-3 {
                 continue;
             }
@@ -237,7 +237,7 @@ fn a_muscle_holds_the_forearm_where_the_moments_balance() {
         assert!((at("activation") - u).abs() <= error);
         let length = span(angle).4;
         assert!((at("length") - length).abs() <= 1e-15);
-        // 5 kN/m is more than the stiffness of this muscle at these lengths, 1 kN of force for 1 of activation
+        // 5 kN/m is more than the stiffness of this muscle at these lengths; an activation of 1 is 1 kN of force
         let bound = 5e3 * error + 1e3 * error + 1e4 * speed.abs();
         assert!(bound < 1e-2 * isometric(u, length));
         assert!(
@@ -247,7 +247,7 @@ fn a_muscle_holds_the_forearm_where_the_moments_balance() {
             isometric(u, length)
         );
         let stiffness = ((moment(u, angle + 1e-4) - moment(u, angle - 1e-4)) / 2e-4).abs();
-        // what is left moves: 2 N m s of damping and that of the muscle, below 1 kN s/m · 45 mm
+        // the remaining motion: a damping of 2 N m s and that of the muscle, below 1 kN s/m · 45 mm
         let bound = (stiffness + 45.0) * error + (2.0 + 45.0) * speed.abs();
         let weight = 2.0 * G * 0.2;
         assert!(bound < 1e-2 * weight, "the bound {bound:e} is empty");
@@ -259,7 +259,7 @@ fn a_muscle_holds_the_forearm_where_the_moments_balance() {
     }
 }
 
-/// The power counted for the muscle is −T L̇: rounding aside, of a product.
+/// The power of the muscle in the balance is −T L̇, up to the rounding of a product.
 #[test]
 fn the_work_of_the_muscle_is_counted() {
     let entry = Entry::of::<models::elbow_hold::Mechanism<f64>>();
@@ -285,7 +285,7 @@ fn the_work_of_the_muscle_is_counted() {
     assert!(most > 1.0, "the muscle did work, {most} W");
 }
 
-/// One text for all scalars: f32 within its own rounding, c κ ε of the arguments and of the muscle's own twenty operations.
+/// One text serves all scalars: f32 agrees within its own rounding, c κ ε of the arguments and of the muscle's twenty operations.
 #[test]
 fn a_function_of_the_user_computes_in_single_precision() {
     let compiled = bryant_tests::compiled::Compiled {

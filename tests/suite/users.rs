@@ -1,4 +1,4 @@
-//! The functions of a model, those of the user's too: what an interpreted graph calls, compiled.
+//! The functions of a model, including user functions, compiled for the interpreted graph.
 
 use bryant_generator::expression::Function;
 use bryant_generator::model::Model;
@@ -7,7 +7,7 @@ use bryant_tests::models::{elbow_hold, user_joints, user_plane, user_space};
 /// The functions of a model at plain numbers.
 ///
 /// # Panics
-/// If the model has a function of the user's that is not listed here.
+/// If the model has a user function that is not listed here.
 pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
     let known = bryant::evaluation::functions(model);
     move |function, arguments| match function {

@@ -1,4 +1,4 @@
-//! Vehicles: what is attached to them moves as if seen from them, wherever they are.
+//! Vehicles: bodies attached to them move relative to them as expected, wherever the vehicles are.
 
 use crate::given::{compare_with_lagrange, scaled, wave};
 use crate::motion::{close, run_with_bound};
@@ -19,7 +19,7 @@ use bryant_tests::trees::{Random, Shape, random_charts, random_state, random_tre
 #[test]
 fn a_braking_sled_is_a_field_seen_from_it() {
     let (motion, bounds) = run_with_bound::<vehicle::Mechanism<f64>>(0.01, 0.25);
-    // road: x, z, lower, upper; seat alike; carried; pulled
+    // road: x, z, lower, upper; the seat in the same order; carried; pulled
     for (k, t) in motion.times.iter().enumerate() {
         let (q, v) = motion.states[k].split_at(10);
         let outputs = &motion.outputs[k];
@@ -51,14 +51,14 @@ fn a_turntable_is_a_centrifugal_field_seen_from_it() {
         close("angle", *t, q[8] - 3.0 * t, q[9], 2.0 * bounds[k]);
         close("rate", *t, v[8] - 3.0, v[9], 2.0 * bounds[k]);
         let outputs = &motion.outputs[k];
-        // the joint's law is against the table; a few roundings of numbers below 3
+        // the law of the joint is relative to the table; a few roundings of numbers below 3
         let (angle, rate) = (q[8] - 3.0 * t, v[8] - 3.0);
         let torque = -2.0 * angle - 0.05 * rate;
         assert!(
             (outputs[6] - torque).abs() <= 8.0 * 3.0 * f64::EPSILON,
             "at {t} s"
         );
-        // the rim at 0.8 m along (cos 3t, −sin 3t) is drawn inwards; a dozen roundings of 7.2
+        // the rim at 0.8 m along (cos 3t, −sin 3t) is pulled inwards; a dozen roundings of 7.2
         let (s, c) = (3.0 * t).sin_cos();
         for (ours, expected) in [(outputs[7], -7.2 * c), (outputs[8], 7.2 * s)] {
             assert!(
@@ -99,7 +99,7 @@ fn turning_and_moving_everything_leaves_the_motion() {
 }
 
 #[test]
-fn velocities_and_accelerations_of_a_vehicle_are_rates_of_its_positions() {
+fn the_motion_of_a_vehicle_is_the_rate_of_its_positions() {
     const H: f64 = 1e-4;
     let model = vehicle_turned::Mechanism::<f64>::new(Default::default());
     let state = model.initial_state();
@@ -111,8 +111,8 @@ fn velocities_and_accelerations_of_a_vehicle_are_rates_of_its_positions() {
             let (p, v, a) = (now[axis], now[axis + 3], now[axis + 6]);
             let rate = (after[axis] - before[axis]) / (2.0 * H);
             let bend = (after[axis] - 2.0 * p + before[axis]) / (H * H);
-            // h²/6 of a third derivative below 1000, and roundings of a position below 3 over h; h²/12 of a fourth
-            // derivative below 10⁴, and roundings over h²
+            // h²/6 of a third derivative below 1000, and rounding of a position below 3 over h; h²/12 of a fourth derivative below 10⁴, and
+            // rounding over h²
             assert!(
                 (v - rate).abs() <= H * H / 6.0 * 1e3 + 8.0 * f64::EPSILON / H,
                 "v at {t}"
@@ -174,7 +174,7 @@ fn joints_on_vehicles_obey_lagrange() {
     }
 }
 
-/// Two elements, the first on a vehicle that moves and turns by curves of time, each on a joint as written.
+/// Two elements, the first on a vehicle that moves and rotates by curves of time, each on a joint as written.
 fn riding(dimension: u32, joints: [&str; 2]) -> Model {
     let vector = |x: f64, y: f64, z: f64| match dimension {
         2 => format!("[{x}, {z}]"),
@@ -254,7 +254,7 @@ fn joints_of_every_kind_on_vehicles_that_turn_obey_lagrange() {
     }
 }
 
-/// v̇ by both routes solves S v̇ = r_s + r_k: what is left is rounding of S v̇ and of the forces.
+/// v̇ by both routes solves S v̇ = r_s + r_k: the residual is the rounding of S v̇ and of the forces.
 fn solve_their_equations(random: &mut Random, model: &Model) {
     for route in [Route::Elimination, Route::MassMatrix] {
         let options = Options {
@@ -287,7 +287,7 @@ fn solve_their_equations(random: &mut Random, model: &Model) {
             let sum = |f: &dyn Fn(usize) -> f64| (0..n).map(f).sum::<f64>();
             let terms =
                 |i: usize| sum(&|j| (s[n * i + j] * a[j]).abs()) + r_s[i].abs() + r_k[i].abs();
-            // forces of a system are of one size: so is their rounding, and some hundred operations have it
+            // forces of a system are of one size, so their rounding is, too, and there are some hundred operations
             let scale = (0..n).map(terms).fold(0.0, f64::max);
             for i in 0..n {
                 let left = sum(&|j| s[n * i + j] * a[j]) - r_s[i] - r_k[i];
@@ -301,8 +301,8 @@ fn solve_their_equations(random: &mut Random, model: &Model) {
     }
 }
 
-/// The car: 9 − 0.72 m/s at 48 ms, where the braking is 30 m/s², and 0 after 8.28/30 s more; along z 0.3 − 0.04 m/s at 40 ms, and 0 after
-/// 0.26/2 s more. What is pushed: 0.5 m/s at 50 ms, 2.5 m/s at 150 and at 250 ms, and 0 after 2.5/20 s more.
+/// The car: 9 − 0.72 m/s at 48 ms, with a deceleration of 30 m/s², and 0 after 8.28/30 s more; along z 0.3 − 0.04 m/s at 40 ms, and 0 after
+/// 0.26/2 s more. The pushed body: 0.5 m/s at 50 ms, 2.5 m/s at 150 and at 250 ms, and 0 after 2.5/20 s more.
 #[test]
 fn what_stops_stays_where_it_is() {
     let model = stops::Mechanism::<f64>::new(Default::default());
@@ -366,7 +366,7 @@ fn pictures_show_where_vehicles_stopped() {
                 at: [0.0; 3].map(Number::from),
             };
             let drawn = pose.point(&numbers, &origin)[axis];
-            // some dozen roundings of numbers below 5
+            // a few dozen roundings of numbers below 5
             let close = (drawn - outputs[output]).abs() <= 64.0 * 5.0 * f64::EPSILON;
             assert!(close, "{vehicle} at {t} s: {drawn}, {}", outputs[output]);
         }
@@ -404,7 +404,7 @@ fn pictures_show_vehicles_where_outputs_say() {
         for (attachment, from) in [(on_vehicle, 12), (rider, 6)] {
             let drawn = pose.point(&numbers, &attachment);
             for (drawn, output) in drawn.iter().zip(&outputs[from..from + 3]) {
-                // some dozen roundings of numbers below 2
+                // a few dozen roundings of numbers below 2
                 assert!(
                     (drawn - output).abs() <= 64.0 * 2.0 * f64::EPSILON,
                     "at {t} s"

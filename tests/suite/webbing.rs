@@ -1,21 +1,21 @@
 //! Belts that pay out and take in webbing, against closed forms.
 //!
-//! As in `laws`, the error of a run is at most steps · tolerance, times the largest rate ω of the mechanism where a coordinate
-//! becomes a velocity. What an event misses is less: it is located on the interpolant of a step.
+//! As in `laws`, the error of a run is at most steps · tolerance, times the largest rate ω of the mechanism if a coordinate becomes a
+//! velocity. The location of an event errs by less: it uses the interpolant of a step.
 
 use bryant_runtime::program::Entry;
 use bryant_tests::models;
 use bryant_tests::runs::{Recording, run};
 
 const TOLERANCE: f64 = 1e-11;
-/// Untensioned length of all belts but the reel's \[m\].
+/// Untensioned length of all belts except the reel's \[m\].
 const LENGTH: f64 = 0.5;
 
 fn entry() -> Entry {
     Entry::of::<models::webbing::Mechanism<f64>>()
 }
 
-/// Error of the integration where the mechanism has this largest rate \[1/s\].
+/// Error of the integration if the largest rate of the mechanism is this \[1/s\].
 fn integration(run: &Recording, rate: f64) -> f64 {
     run.steps * TOLERANCE * rate.max(1.0)
 }
@@ -40,13 +40,13 @@ fn a_limiter_absorbs_the_energy_that_it_is_given() {
     for limit in [3e3, 4e3, 6e3] {
         let run = run(&entry(), &[("limit", limit)], TOLERANCE);
         let error = integration(&run, omega);
-        // Up to F the webbing stores F ε_F ℓ/2. From there on the mass goes (1 + ε_F) for each metre paid out, against F.
+        // Up to F the webbing stores F ε_F ℓ/2. From there on the mass moves (1 + ε_F) for each metre paid out, against F.
         let strain = limit / stiffness;
         let stored = 0.5 * limit * strain * LENGTH;
         let energy = 0.5 * mass * speed * speed;
         let payout = (energy - stored) / (limit * (1.0 + strain));
         close("payout", last(&run, "crash payout"), payout, error);
-        // and what is stored in the longer webbing comes back
+        // and the energy stored in the longer webbing is returned
         let back = limit * strain * (LENGTH + payout);
         let rebound = -f64::sqrt(back / mass);
         close("rebound", last(&run, "crash v"), rebound, error);
@@ -55,7 +55,7 @@ fn a_limiter_absorbs_the_energy_that_it_is_given() {
         let mut limited = 0;
         for (k, tension) in run.column("crash tension").into_iter().enumerate() {
             assert!(tension <= limit, "{tension} N beyond {limit} N");
-            // the speed falls by F/m from v_F = √(v² − 2 E/m) on
+            // from v_F = √(v² − 2 E/m) on, the speed falls by F/m
             limited += usize::from(k < stop && (tension - limit).abs() <= 1e-12 * limit);
         }
         let braking = f64::sqrt(speed * speed - 2.0 * stored / mass) * mass / limit;
@@ -112,7 +112,7 @@ fn a_retractor_locks_at_the_tension_that_there_is() {
                 let untensioned = free / (1.0 + strain);
                 close("length", run.column("reel length")[k], untensioned, error);
             } else if tau < turn {
-                // m ẍ = −T, T = spool + k (x − x_lock): no jump of the tension, and none of the speed
+                // m ẍ = −T, T = spool + k (x − x_lock): neither the tension nor the speed jumps
                 let (s, c) = (omega * tau).sin_cos();
                 let expected = spool * c + spring * speed_there / omega * s;
                 close("tension", tension, expected, spring * error);
@@ -134,11 +134,11 @@ fn damping_begins_where_a_retractor_locks() {
     let k = run.at(lock);
     let tension = run.column("reel tension");
     assert_eq!(tension[k], 5.0);
-    // from one sample to the next the tension grows by its steepest at most: with full speed, and damping fading in over 1 mm
+    // between two samples the tension grows at most by its largest rate: at full speed, with damping that fades in over 1 mm
     let steepest = (40e3 / LENGTH + damping * speed / stretch) * speed * 0.2e-3;
     let step = tension[k + 1] - tension[k];
     assert!(0.0 < step && step <= steepest, "{step} N of {steepest} N");
-    // which is a small part of what would be there at once
+    // which is a small part of the damping without fading in
     assert!(tension[k + 1] < 5.0 + 0.5 * damping * speed);
 }
 
@@ -152,7 +152,7 @@ fn a_pretensioner_shifts_the_untensioned_length() {
         let untensioned = LENGTH + 0.02 - taken;
         let expected = stiffness * (LENGTH / untensioned - 1.0).max(0.0);
         pulling += usize::from(expected > 0.0);
-        // the firing is located to 1e-13 of a step, here of 120 ms at most, in which 6 m/s take little webbing in
+        // the firing is located to 1e-13 of a step of at most 120 ms here, in which 6 m/s take little webbing in
         let missed = 6.0 * 0.12 * 1e-13 + 4.0 * f64::EPSILON;
         let bound = stiffness * LENGTH / untensioned.powi(2) * missed + 1e-15 * stiffness;
         close("tension", run.column("tight tension")[k], expected, bound);

@@ -1,7 +1,8 @@
-//! The derivative of the state by the engine's machine code and by what rustc makes of the generated Rust: one state and eight lanes.
+//! The derivative of the state by the engine's machine code and by the generated Rust that rustc compiled: for one state and for eight
+//! lanes.
 //!
-//! `cd benches/beside-rustc && cargo run --release`. Both take turns, so that a processor that others slow down for a while slows both; the table has
-//! medians. The states are those at the start, moved a little at random, and both have the same bits.
+//! `cd benches/beside-rustc && cargo run --release`. Both take turns, so that a disturbance of the processor slows both; the table has
+//! medians. The states are near those at the start, with small random changes, and the results of both have the same bits.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -46,7 +47,7 @@ models! {
     pedestrian "pedestrian" "../scenes/pedestrian.yaml";
 }
 
-/// One evaluation by what rustc made, compiled for the instructions of the scalar.
+/// One evaluation by the code of rustc, compiled for the instructions of the scalar.
 struct Derivative<'a, T: Real, M: Model<T>> {
     model: &'a M,
     y: &'a M::State,
@@ -62,9 +63,9 @@ impl<T: Real, M: Model<T>> Task for Derivative<'_, T, M> {
     }
 }
 
-/// When \[s\].
+/// The time of the evaluation \[s\].
 const TIME: f64 = 0.01;
-/// How often everything is measured, and how often in a row.
+/// Number of measurements, and number of evaluations in each.
 const ROUNDS: usize = 301;
 const REPETITIONS: u32 = 20;
 
@@ -134,7 +135,7 @@ fn times<C: Compiled, T: Real>(engine: &Engine) -> [f64; 2] {
     })
 }
 
-/// One of several in a row \[µs\].
+/// The time of one evaluation, from several in a row \[µs\].
 fn measured(mut work: impl FnMut()) -> f64 {
     let start = Instant::now();
     for _ in 0..REPETITIONS {

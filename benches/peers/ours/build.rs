@@ -77,11 +77,11 @@ fn tree(model: &Model) -> Option<String> {
     let [force] = &model.forces[..] else {
         return None;
     };
-    let ForceKind::Field { acceleration, .. } = &force.kind else {
+    let ForceKind::Field(field) = &force.kind else {
         return None;
     };
     let mut gravity = [0.0; 3];
-    for (value, component) in gravity.iter_mut().zip(acceleration) {
+    for (value, component) in gravity.iter_mut().zip(&field.acceleration) {
         let FieldComponent::Constant(number) = component else {
             return None;
         };

@@ -1,15 +1,16 @@
-//! From a list to chains: operations of which each needs the one before, and nobody else does.
+//! Joins the operations of a list into chains. In a chain each operation uses the result of the one before, and no other
+//! operation does.
 //!
-//! a·b + c·d + e·f is one chain of three. Its intermediate results are never stored. Changes of sign that are operands of a fused
-//! operation become part of it.
+//! Example: a·b + c·d + e·f is one chain of three operations. Its intermediate results are never stored. A change of sign of an
+//! operand becomes part of the fused operation that uses it.
 
 use bryant_generator::expression::Function;
 use bryant_generator::program::{List, Operation, Value};
 
-/// Operations that one chain may have.
+/// The largest number of operations in a chain.
 pub const LONGEST: usize = 3;
 
-/// An operation, in words of the interpreter.
+/// The kind of an operation of the interpreter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
     Neg,
@@ -33,37 +34,37 @@ pub enum Kind {
     Call,
 }
 
-/// An operation with its operands; of a call these stand elsewhere.
+/// An operation with its operands. The operands of a call are stored in [`Call`].
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
     pub kind: Kind,
-    /// Values, as many as the kind has.
+    /// Indices of values, as many as the kind has operands.
     pub operands: [u32; 3],
-    /// The value that it defines first.
+    /// Index of the first value that it defines.
     pub defines: u32,
 }
 
-/// A call.
+/// A call of a function.
 #[derive(Clone, Debug)]
 pub struct Call {
     pub function: Function,
-    /// Values.
+    /// Indices of values.
     pub arguments: Vec<u32>,
-    /// How many values it defines.
+    /// The number of values that it defines.
     pub results: u32,
 }
 
-/// Links that are done one after the other. All but the first have the result of the one before as their addend.
+/// Operations that are done one after the other. Each except the first has the result of the one before as its addend.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain {
     links: [Link; LONGEST],
     length: usize,
-    /// Of a call, which.
+    /// The index of the call, if the chain is one.
     call: usize,
 }
 
 impl Kind {
-    /// Number of operands that are not those of a call.
+    /// Number of operands, without those of a call.
     pub fn operands(self) -> usize {
         match self {
             Kind::Call => 0,
@@ -82,7 +83,7 @@ impl Kind {
         }
     }
 
-    /// Whether a chain may begin with it.
+    /// Whether a chain may begin with this kind.
     fn begins(self) -> bool {
         matches!(
             self,
@@ -96,7 +97,7 @@ impl Kind {
         )
     }
 
-    /// Whether a chain may go on with it.
+    /// Whether a chain may continue with this kind.
     fn goes_on(self) -> bool {
         matches!(self, Kind::MulAdd | Kind::NegMulAdd | Kind::MulSub)
     }
@@ -107,12 +108,12 @@ impl Chain {
         &self.links[..self.length]
     }
 
-    /// Which call it is, if it is one.
+    /// The index of the call, if the chain is one.
     pub fn call(&self) -> Option<usize> {
         (self.links[0].kind == Kind::Call).then_some(self.call)
     }
 
-    /// All but the last operation, and that.
+    /// The chain without its last operation, and the last operation as a chain.
     pub fn split(&self) -> [Chain; 2] {
         let last = self.links[self.length - 1];
         let first = Chain {
@@ -127,7 +128,7 @@ impl Chain {
         [first, last]
     }
 
-    /// Calls `of` with every value that it needs from elsewhere.
+    /// Calls `of` with every value that the chain needs from elsewhere.
     pub fn needs(&self, calls: &[Call], mut of: impl FnMut(u32)) {
         for (place, link) in self.links().iter().enumerate() {
             let count = link.kind.operands() - usize::from(place > 0);
@@ -138,7 +139,7 @@ impl Chain {
         }
     }
 
-    /// The first value that it defines for others, and how many.
+    /// The first value that the chain defines for others, and the number of such values.
     pub fn defines(&self, calls: &[Call]) -> (u32, u32) {
         let last = self.links[self.length - 1];
         let count = match last.kind {
@@ -150,7 +151,7 @@ impl Chain {
     }
 }
 
-/// The chains of a list in the order of its operations, and its calls.
+/// The chains of a list, in the order of its operations, and the calls of the list.
 pub fn chains(list: &List) -> (Vec<Chain>, Vec<Call>) {
     let (links, calls) = links(list);
     let values = list.values();
@@ -174,7 +175,7 @@ pub fn chains(list: &List) -> (Vec<Chain>, Vec<Call>) {
     let mut found = Vec::with_capacity(links.len());
     for at in (0..links.len()).rev() {
         let (last, call) = links[at];
-        // A sign that became part of what needs it.
+        // A change of sign that became part of the operation that uses it.
         let unused = last.kind == Kind::Neg && uses[last.defines as usize] == 0;
         if taken[at] || unused {
             continue;
@@ -211,7 +212,7 @@ pub fn chains(list: &List) -> (Vec<Chain>, Vec<Call>) {
     (found, calls)
 }
 
-/// The operations, each with its call if it is one; signs of operands are part of fused operations.
+/// The operations, each with the index of its call if it is one. Changes of sign of operands are part of fused operations.
 fn links(list: &List) -> (Vec<(Link, usize)>, Vec<Call>) {
     let leaves = list.constants.len() + list.inputs.len();
     let mut negative_of: Vec<Option<u32>> = vec![None; leaves];

@@ -1,4 +1,4 @@
-//! From chains in order to code: places in the frame instead of values, runs of chains of one shape.
+//! Turns chains in order into code: values become places in the frame, and chains of one shape become runs.
 
 use super::Layout;
 use super::chain::{Call, Chain, chains};
@@ -8,33 +8,33 @@ use bryant_generator::expression::Function;
 use bryant_generator::program::{Input, List};
 use std::collections::HashMap;
 
-/// A list in the form that is interpreted.
+/// A list in the form that the interpreter runs.
 #[derive(Debug, Default)]
 pub struct Code {
     pub runs: Vec<Run>,
     pub groups: Vec<Group>,
     pub calls: Vec<Site>,
-    /// Where the arguments of calls are.
+    /// The places of the arguments of calls.
     pub arguments: Vec<u16>,
-    /// Where the results are.
+    /// The places of the results.
     pub results: Vec<u16>,
-    /// The end of the places that it has: private, so that nobody else says it.
+    /// One more than the largest place in the code. It is private, so that no other module can set it.
     end: usize,
 }
 
-/// So many chains of one shape.
+/// A number of chains of one shape, one after the other.
 #[derive(Clone, Copy, Debug)]
 pub struct Run {
     pub shape: u16,
     pub count: u32,
 }
 
-/// The places of one chain: of its result, of the operands of its first operation, three at most, and of the factors of those that follow.
-/// Of a call the first is its index.
+/// The places of one chain: of its result, of the operands of its first operation, at most three, and of the factors of the operations
+/// that follow. For a call, the first entry is its index.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Group(pub [u16; 8]);
 
-/// A call: where its arguments stand in the list of those, and where its results go.
+/// A call: the range of its arguments in the list of arguments, and the places of its results.
 #[derive(Clone, Copy, Debug)]
 pub struct Site {
     pub function: Function,
@@ -42,7 +42,7 @@ pub struct Site {
     pub results: (u16, u16),
 }
 
-/// The code of a list; `constants` says where each constant is, by its bits. `None` where it needs more places than there are.
+/// The code of a list. `constants` gives the place of each constant, by its bits. `None` if the list needs more places than there are.
 pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, u32>) -> Option<Code> {
     let (chains, calls) = chains(list);
     let mut supported = Vec::with_capacity(chains.len());
@@ -69,7 +69,7 @@ pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, u32>) -> Op
     Some(code)
 }
 
-/// Adds a chain with its shape, in parts where there is no loop for it as a whole.
+/// Adds a chain with its shape. If there is no loop for the whole chain, it is split.
 fn add_supported(chain: &Chain, to: &mut Vec<(Chain, usize)>) {
     let kinds: Vec<_> = chain.links().iter().map(|link| link.kind).collect();
     if let Some(shape) = shape_of(&kinds) {
@@ -82,7 +82,7 @@ fn add_supported(chain: &Chain, to: &mut Vec<(Chain, usize)>) {
 }
 
 impl Code {
-    /// The end of the places that it reads or writes.
+    /// One more than the largest place that the code reads or writes.
     pub fn end(&self) -> usize {
         self.end
     }
@@ -96,13 +96,13 @@ impl Code {
         lengths.max().unwrap_or(0) as usize
     }
 
-    /// Looks at all places.
+    /// Computes [`Code::end`] from all places.
     fn find_end(&mut self) {
         let mut rest = &self.groups[..];
         let mut last = 0;
         for run in &self.runs {
             let (groups, after) = rest.split_at(run.count as usize);
-            // Of a call the first is no place; the second value of a sine is one further.
+            // For a call the first entry is no place; the second value of a sine is one place further.
             if !is_call(run.shape) {
                 let places = groups.iter().flat_map(|group| group.0);
                 last = last.max(places.max().unwrap_or(0).into());
@@ -119,7 +119,7 @@ impl Code {
         self.end = 1 + last.max(others.unwrap_or(0).into());
     }
 
-    /// Adds a chain, the one of this step. `None` where a place is too far away.
+    /// Adds a chain as the current step. `None` if a place is too far away.
     fn add(&mut self, chain: &Chain, calls: &[Call], step: u32, places: &mut Places) -> Option<()> {
         let mut group = Group::default();
         let call = chain.call().map(|call| &calls[call]);
@@ -158,19 +158,19 @@ impl Code {
     }
 }
 
-/// Which value is where.
+/// The places of values.
 struct Places {
-    /// By value.
+    /// The place of each value.
     of: Vec<u32>,
-    /// By value: the step that needs it last, or the one that defines it where none does; never for results.
+    /// For each value, the step that uses it last, or the step that defines it if none does; [`NEVER`] for results.
     last_use: Vec<u32>,
-    /// Values before this one have places of their own.
+    /// Values before this one have fixed places.
     leaves: u32,
     free: Vec<u32>,
     next: u32,
 }
 
-/// The last step of what is never free.
+/// The last step of a value whose place is never free.
 const NEVER: u32 = u32::MAX;
 
 impl Places {
@@ -214,13 +214,13 @@ impl Places {
     /// Frees the place of a value if this is the last step that needs it.
     fn free_after(&mut self, value: u32, step: u32) {
         if value >= self.leaves && self.last_use[value as usize] == step {
-            // Once, though a step may need it twice.
+            // Only once, even if a step uses the value twice.
             self.last_use[value as usize] = NEVER;
             self.free.push(self.of[value as usize]);
         }
     }
 
-    /// Places for neighbouring values; those that nobody needs are free again.
+    /// Assigns places to neighbouring values. The places of values that nothing uses are free again.
     fn define(&mut self, first: u32, count: u32, step: u32) -> Option<u16> {
         let reused = (count == 1).then(|| self.free.pop()).flatten();
         let to = reused.unwrap_or_else(|| {

@@ -1,12 +1,12 @@
-//! The values that code works on.
+//! The frame: the values that code works on.
 
 use super::encode::Code;
 use crate::call::Library;
 use bryant_generator::expression::Function;
 use bryant_runtime::Real;
 
-/// The values of one scalar that a piece of code works on. All places of the code lie in it: that is checked once, when it is made, and not
-/// again at each access.
+/// The values of one scalar that a piece of code works on. All places of the code lie in it. This is checked once, when the frame is made,
+/// and not at each access.
 pub struct Frame<'a, T> {
     values: &'a mut [T],
     /// Room for the arguments of a call.
@@ -14,10 +14,10 @@ pub struct Frame<'a, T> {
 }
 
 impl<'a, T: Real> Frame<'a, T> {
-    /// Values for a piece of code, and room for the arguments of its longest call.
+    /// A frame of these values, with room for the arguments of the longest call of the code.
     ///
     /// # Panics
-    /// Where the code has places beyond the values.
+    /// If the code has places beyond the values.
     pub fn new(values: &'a mut [T], arguments: &'a mut [T], code: &Code) -> Self {
         assert!(code.end() <= values.len(), "a place beyond the frame");
         Frame { values, arguments }
@@ -28,11 +28,12 @@ impl<'a, T: Real> Frame<'a, T> {
     #[inline(always)]
     pub fn get(&self, place: u16) -> T {
         debug_assert!(usize::from(place) < self.values.len());
-        // SAFETY: `place` is one of the code that the frame was made for: below `Code::end`, which `new` compares with the length.
+        // SAFETY: `place` belongs to the code that the frame was made for. So it is below `Code::end`, which `new` compares with the
+        // length.
         unsafe { *self.values.get_unchecked(usize::from(place)) }
     }
 
-    /// Puts a value at a place of the code.
+    /// Writes a value to a place of the code.
     #[expect(unsafe_code, reason = "the place was checked with the code")]
     #[inline(always)]
     pub fn set(&mut self, place: u16, value: T) {
@@ -41,7 +42,7 @@ impl<'a, T: Real> Frame<'a, T> {
         unsafe { *self.values.get_unchecked_mut(usize::from(place)) = value };
     }
 
-    /// Calls a function with the values at some places, and puts its results at neighbouring ones: the first, and how many.
+    /// Calls a function with the values at these places. The results go to neighbouring places, given by the first place and their number.
     #[inline(always)]
     pub fn call(
         &mut self,

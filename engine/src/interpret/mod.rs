@@ -1,19 +1,19 @@
 //! The interpreter: runs lists over any scalar.
 //!
-//! A list becomes code once, for all scalars, when a method is first asked for:
+//! A list becomes code once, for all scalars, when its method is used for the first time:
 //!
 //! | step | where |
 //! |---|---|
-//! | operations that only the next one needs are joined into chains, signs become part of fused operations | `chain` |
-//! | chains are put into an order of long runs of one shape | `order` |
-//! | values get places in a frame; a place is used again when nothing needs its value any more | `encode` |
-//! | one loop does each run | `run` |
+//! | operations whose result only the next one uses are joined into chains; changes of sign become part of fused operations | `chain` |
+//! | chains are ordered such that runs of one shape are long | `order` |
+//! | values get places in a frame; a place is used again when nothing uses its value any more | `encode` |
+//! | one loop executes each run | `run` |
 //!
-//! All methods share one frame of values: constants, parameters, what is derived from them, time, state, what a method starts from, and
-//! room for what operations define. Of the operations, order and rounding are those of the list.
+//! All methods share one frame of values: constants, parameters, values derived from them, time, state, the inputs from earlier methods,
+//! and room for the results of operations. The operations, their order and their rounding are those of the list.
 //!
-//! Places have sixteen bits, which keeps the code in the first cache of a processor. A model that needs more places is done by a plain loop
-//! over operations (`plain`), which takes some times as long.
+//! Places have sixteen bits, which keeps the code in the first cache of a processor. A model that needs more places is run by a plain loop
+//! over operations (`plain`), which takes several times as long.
 
 mod chain;
 mod encode;
@@ -33,18 +33,18 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
-/// The methods of a model in the form that is interpreted. They are the same for all scalars.
+/// The methods of a model in the form that the interpreter runs. They are the same for all scalars.
 #[derive(Debug)]
 pub struct Programs {
     constants: Vec<f64>,
-    /// Where each constant is, by its bits.
+    /// The place of each constant, by its bits.
     place_of: HashMap<u64, u32>,
     layout: Layout,
-    /// By method, made when it is first asked for.
+    /// The program of each method, made when it is used for the first time.
     programs: [OnceLock<Program>; Method::ALL.len()],
 }
 
-/// Where the parts of the frame begin: constants first, then these.
+/// Where the parts of the frame begin. The constants come first, then these.
 #[derive(Clone, Copy, Debug)]
 struct Layout {
     parameters: u32,
@@ -52,11 +52,11 @@ struct Layout {
     time: u32,
     state: u32,
     before: u32,
-    /// What operations define.
+    /// The results of operations.
     rest: u32,
 }
 
-/// A method in the form that is interpreted.
+/// A method in the form that the interpreter runs.
 #[derive(Debug)]
 enum Program {
     Runs(Code),
@@ -108,7 +108,7 @@ impl Programs {
 }
 
 impl Program {
-    /// The end of the places that it has, and the arguments of its longest call.
+    /// One more than the largest place, and the number of arguments of the longest call.
     fn needs(&self) -> (usize, usize) {
         match self {
             Program::Runs(code) => (code.end(), code.most_arguments()),
@@ -117,7 +117,7 @@ impl Program {
     }
 }
 
-/// Evaluates lists over one scalar by interpreting them.
+/// Evaluates lists over one scalar by interpretation.
 #[derive(Debug)]
 pub struct Interpreter<T> {
     shared: Arc<Shared>,
@@ -191,7 +191,7 @@ impl<T: Real> Execute<T> for Interpreter<T> {
 }
 
 impl<T: Real> Values<T> {
-    /// Room for a method: nothing is allocated when it is run a second time.
+    /// Makes room for a method, so that nothing is allocated when it runs again.
     fn make_room(&mut self, program: &Program) {
         let (places, arguments) = program.needs();
         if self.frame.len() < places {

@@ -1,13 +1,14 @@
-//! The order in which chains are done: runs of chains of the same shape, so that one loop does each run.
+//! The order of chains: chains of the same shape form runs, so that one loop executes each run.
 
 use super::chain::{Call, Chain};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// How many chains a run may be ahead of the first one that is not done. Values that are made too early wait in memory.
+/// How far, in chains, a run may be ahead of the first chain that is not done. Values that are computed too early have to wait in
+/// memory.
 const WINDOW: usize = 400;
 
-/// The numbers of the chains in a new order, operands first. `shapes` says by number which chains are alike; shapes are small numbers.
+/// The numbers of the chains in a new order, in which operands come first. `shapes` gives the shape of each chain, a small number.
 pub fn in_runs(chains: &[Chain], calls: &[Call], values: usize, shapes: &[usize]) -> Vec<u32> {
     let users = Users::of(chains, calls, values);
     let mut waits_for = users.waits_for.clone();
@@ -46,13 +47,13 @@ pub fn in_runs(chains: &[Chain], calls: &[Call], values: usize, shapes: &[usize]
     order
 }
 
-/// Which chains need a chain.
+/// For each chain, the chains that use it.
 struct Users {
-    /// By chain: where its users begin; one more at the end.
+    /// For each chain, where its users begin; with one more entry at the end.
     starts: Vec<u32>,
-    /// A chain that needs a value twice is here twice.
+    /// A chain that uses a value twice stands here twice.
     users: Vec<u32>,
-    /// By chain: how often it is a user.
+    /// For each chain, how often it stands among the users.
     waits_for: Vec<u32>,
 }
 
@@ -100,11 +101,11 @@ impl Users {
     }
 }
 
-/// Chains that can be next.
+/// Chains whose operands are computed.
 struct Queue {
-    /// By shape, those within the window.
+    /// For each shape, those within the window.
     ready: Vec<BinaryHeap<Reverse<u32>>>,
-    /// Those beyond.
+    /// Those beyond the window.
     later: BinaryHeap<Reverse<u32>>,
     limit: usize,
 }

@@ -10,21 +10,21 @@ use std::collections::HashMap;
 /// A place in the frame.
 type Place = u32;
 
-/// A list in the form that is interpreted.
+/// A list in the form that this loop runs.
 #[derive(Debug)]
 pub struct Code {
     steps: Vec<Step>,
-    /// What is called, by the index in a step.
+    /// The calls, by the index in a step.
     calls: Vec<Call>,
-    /// Places of the arguments of calls.
+    /// The places of the arguments of calls.
     arguments: Vec<Place>,
-    /// Where the results are.
+    /// The places of the results.
     pub results: Vec<Place>,
-    /// The end of the places that it has.
+    /// One more than the largest place in the code.
     pub end: usize,
 }
 
-/// A call: its arguments, and where its results go.
+/// A call: its arguments, and the places of its results.
 #[derive(Clone, Copy, Debug)]
 struct Call {
     function: Function,
@@ -48,7 +48,7 @@ enum Kind {
     Call,
 }
 
-/// An operation on places. Of a call `a` is its index.
+/// An operation on places. For a call, `a` is its index.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     kind: Kind,
@@ -69,7 +69,7 @@ impl Code {
     }
 }
 
-/// The code of a list; `constants` says where each constant is, by its bits.
+/// The code of a list. `constants` gives the place of each constant, by its bits.
 pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> Code {
     let mut place: Vec<Place> = Vec::with_capacity(list.values());
     place.extend(list.constants.iter().map(|c| constants[&c.to_bits()]));
@@ -130,7 +130,7 @@ pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> 
         }
         let count = operation.defines() as u32;
         let start = place.len();
-        // Results of a call stand side by side; they are copied there when all arguments are read.
+        // The results of a call stand side by side. They are written there after all arguments are read.
         step.to = match count {
             1 => frame.one(),
             _ => frame.several(count),
@@ -157,7 +157,7 @@ pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> 
     found
 }
 
-/// Places that are free.
+/// The free places.
 struct Places {
     next: Place,
     free: Vec<Place>,
@@ -175,7 +175,8 @@ impl Places {
     }
 }
 
-/// By value: the operation that needs it last, or the one that defines it where none does; beyond the last one for results.
+/// For each value, the operation that uses it last, or the one that defines it if none does; beyond the last operation for
+/// results.
 fn last_uses(list: &List) -> Vec<usize> {
     let leaves = list.constants.len() + list.inputs.len();
     let mut last = vec![0; leaves];
@@ -191,7 +192,7 @@ fn last_uses(list: &List) -> Vec<usize> {
     last
 }
 
-/// The steps of a list, compiled for the instructions of the scalar.
+/// The steps of a list as a task, compiled for the instructions of the scalar.
 pub struct Steps<'a, T> {
     pub code: &'a Code,
     pub library: &'a Library,

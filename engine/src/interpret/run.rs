@@ -1,4 +1,4 @@
-//! The loops that do runs of chains, one for each shape.
+//! The loops that execute runs of chains, one for each shape.
 
 use super::chain::Kind;
 use super::encode::{Code, Group};
@@ -6,7 +6,7 @@ use super::frame::Frame;
 use crate::call::Library;
 use bryant_runtime::{Real, Task};
 
-/// Numbers of kinds, for loops that are made for certain ones.
+/// Kinds of operations as numbers, for loops that are compiled for certain kinds.
 const NONE: u8 = u8::MAX;
 const ADD: u8 = Kind::Add as u8;
 const SUB: u8 = Kind::Sub as u8;
@@ -22,13 +22,13 @@ const ATAN2: u8 = Kind::Atan2 as u8;
 const MAX: u8 = Kind::Max as u8;
 const MIN: u8 = Kind::Min as u8;
 
-/// All shapes, and the function that does a run of one.
+/// All shapes, and the function that executes a run of one.
 macro_rules! shapes {
     ($($number:literal: $first:ident $second:ident $third:ident;)*) => {
-        /// Kinds of the operations of each shape but the last two, which are sines and calls.
+        /// The kinds of the operations of each shape. The last two shapes, sines and calls, are not in this table.
         const SHAPES: &[[u8; 3]] = &[$([$first, $second, $third]),*];
 
-        /// Does a run of a shape.
+        /// Executes a run of a shape.
         #[inline(always)]
         fn run_of<T: Real>(
             shape: u16,
@@ -93,12 +93,12 @@ pub const SINES: u16 = SHAPES.len() as u16;
 /// The shape of a call.
 const CALLS: u16 = SINES + 1;
 
-/// Whether a shape is that of calls, which have no places but an index.
+/// Whether a shape is that of calls, which have an index in place of places.
 pub fn is_call(shape: u16) -> bool {
     shape == CALLS
 }
 
-/// The number of the shape of these kinds; `None` where there is no loop for it. There is one for each single operation.
+/// The shape of these kinds; `None` if there is no loop for it. Each single operation has a loop.
 pub fn shape_of(kinds: &[Kind]) -> Option<usize> {
     match kinds {
         [Kind::SinCos] => return Some(SINES.into()),
@@ -110,7 +110,7 @@ pub fn shape_of(kinds: &[Kind]) -> Option<usize> {
     SHAPES.iter().position(|shape| *shape == wanted)
 }
 
-/// A piece of code at a frame, compiled for the instructions of the scalar.
+/// A piece of code on a frame as a task, compiled for the instructions of the scalar.
 pub struct Runs<'a, T> {
     pub code: &'a Code,
     pub library: &'a Library,
@@ -135,7 +135,7 @@ impl<T: Real> Task for Runs<'_, T> {
     }
 }
 
-/// Chains of up to three operations.
+/// Executes chains of up to three operations.
 #[inline(always)]
 fn chains<T: Real, const FIRST: u8, const SECOND: u8, const THIRD: u8>(
     groups: &[Group],

@@ -1,4 +1,4 @@
-//! The laws and curves of C text against those of the runtime, to the last bit, at numbers of all kinds.
+//! The laws and curves of the C text, compared with those of the runtime to the last bit, at many kinds of numbers.
 
 use super::evaluate::{called, curves};
 use super::random::Random;
@@ -30,7 +30,7 @@ fn list(callee: Callee) -> List {
     }
 }
 
-/// Arguments that a function may be given: any numbers, places about the points of curves, bodies that overlap and that do not.
+/// Arguments for a function: any numbers, places near the points of curves, bodies that overlap and bodies that do not.
 fn arguments(callee: Callee, random: &mut Random) -> Vec<f64> {
     let arity = callee.arguments();
     let Callee::Function(function) = callee else {

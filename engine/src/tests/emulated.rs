@@ -1,4 +1,4 @@
-//! For every processor, on a machine in software. What a lane should be is evaluated by itself, over one lane.
+//! Code for every processor, run on an emulated one. Each lane is compared with a separate evaluation over one lane.
 
 use super::emulator::{Call, Machine, Region};
 use super::evaluate::{Given, called, curves, results};
@@ -41,11 +41,11 @@ const MIXES: [Mix; 6] = [
     },
 ];
 
-/// Where code is, and regions from there on.
+/// The address of the code; the regions follow it.
 const CODE: u64 = 0x1000_0000;
-/// Addresses of functions begin here.
+/// The address of the first function.
 const FUNCTIONS: u64 = 0x5000_0000;
-/// What contexts are, less the index of the function.
+/// The value of the first context; the index of the function is added.
 const CONTEXT: u64 = 0xc0de_0000;
 
 fn bits(value: f64) -> u64 {
@@ -73,15 +73,15 @@ fn numbers(precision: Precision, bytes: &[u8]) -> Vec<f64> {
         .collect()
 }
 
-/// The numbers of a lane as one lane.
+/// The number of a lane as a scalar of one lane.
 fn one<T: Several>(value: f64) -> T {
     T::of_lanes(&[T::One::from_f64(value); 16])
 }
 
-/// A scalar of one lane, by its numbers.
+/// How to make a scalar of one lane from numbers, and back.
 #[derive(Clone, Copy)]
 struct Scalar<T> {
-    /// A number, or a number and its slope.
+    /// Number of parts: 1, or 2 with a slope.
     parts: usize,
     of: fn(&[f64]) -> T,
     numbers: fn(T) -> Vec<f64>,
@@ -110,16 +110,16 @@ fn dual<T: Several>() -> Scalar<Dual<T>> {
     }
 }
 
-/// One scalar over all lanes by its numbers, part by part.
+/// The numbers of one scalar in all lanes, part by part.
 type Slot = Vec<f64>;
 
-/// What a slot holds of a lane.
+/// The scalar that a slot holds in one lane.
 fn of_lane<T: Real>(scalar: Scalar<T>, slot: &[f64], lanes: usize, lane: usize) -> T {
     let parts = slot.iter().skip(lane).step_by(lanes);
     (scalar.of)(&parts.copied().collect::<Vec<f64>>())
 }
 
-/// A list with code for some target, and the machine that runs it.
+/// A list, its code for some target, and the machine that runs the code.
 struct Emulated<'a> {
     list: &'a List,
     target: Target,
@@ -143,7 +143,7 @@ impl<'a> Emulated<'a> {
         }
     }
 
-    /// The results of code, by slots.
+    /// The results of the code, as slots.
     fn run<T: Real>(&self, scalar: Scalar<T>, inputs: [&[Slot]; 6]) -> Vec<Slot> {
         let mut regions = vec![Region {
             start: CODE,
@@ -190,7 +190,7 @@ impl<'a> Emulated<'a> {
             .collect()
     }
 
-    /// A function of the table: lane by lane.
+    /// Runs a function of the table, lane by lane.
     fn called<T: Real>(&self, scalar: Scalar<T>, machine: &mut Machine, call: &Call) {
         let index = call.function - FUNCTIONS;
         assert_eq!(call.context, CONTEXT + index);
@@ -216,7 +216,7 @@ impl<'a> Emulated<'a> {
         machine.write(call.results, &written);
     }
 
-    /// Compares the results of code with evaluation, lane by lane.
+    /// Compares the results of the code with a plain evaluation, lane by lane.
     fn check<T: Real>(&self, scalar: Scalar<T>, random: &mut Random, special: bool) {
         let mut some = |count: usize| -> Vec<Slot> {
             let mut slot = || -> Slot {
@@ -255,7 +255,7 @@ impl<'a> Emulated<'a> {
     }
 }
 
-/// All targets of one precision, with lanes that fuse or do not.
+/// All targets of one precision, with fused and unfused lanes.
 struct AllTargets {
     precision: Precision,
     fused: bool,
@@ -299,7 +299,7 @@ impl<F: Real> OfAnyWidth<F> for AllTargets {
     }
 }
 
-/// Every target, compared with one lane that fuses as it does. The lanes that fuse are only there where the processor at hand does.
+/// Every target, compared with one lane that fuses as it does. Fused lanes exist only if this processor fuses.
 #[test]
 fn doubles() {
     for (width, fused) in [(Width::Plain, false), (Width::One, true)] {

@@ -1,5 +1,5 @@
-//! A machine in software that knows the instructions that code may consist of. It checks every access to memory, what calls may change and what
-//! a function must restore.
+//! A processor in software with the instructions that code may contain. It checks every access to memory, which registers calls may change, and
+//! which a function must restore.
 
 use iced_x86::{Decoder, DecoderOptions, Instruction, Mnemonic, OpKind, Register};
 
@@ -17,11 +17,11 @@ pub struct Machine {
     pub regions: Vec<Region>,
     /// Mask register 1.
     mask: u64,
-    /// The flag of a result that is zero.
+    /// The zero flag.
     zero: bool,
-    /// Upper halves of registers may be something else than zero.
+    /// Whether upper halves of registers may differ from zero.
     upper: bool,
-    /// What changed registers are filled with.
+    /// The value that changed registers are filled with.
     garbage: u64,
 }
 
@@ -31,7 +31,7 @@ const RSI: usize = 6;
 const RDX: usize = 2;
 /// Registers that a function must restore: rbx, rsp, rbp, r12 to r15.
 const KEPT: [usize; 7] = [3, RSP, 5, 12, 13, 14, 15];
-/// Where a function returns to.
+/// The return address.
 const RETURN: u64 = 0x7777_0000;
 const STACK: u64 = 0x2_0000_0000;
 
@@ -44,7 +44,7 @@ pub struct Call {
     pub results: u64,
 }
 
-/// A number in a lane.
+/// The number in a lane.
 trait Number: Copy {
     const BYTES: usize;
     fn read(bytes: &[u8]) -> Self;
@@ -120,7 +120,7 @@ number!(f64, 8);
 number!(f32, 4);
 
 impl Machine {
-    /// With a stack, and registers full of anything.
+    /// A machine with a stack, whose registers are full of arbitrary values.
     pub fn new(mut regions: Vec<Region>) -> Self {
         regions.push(Region {
             start: STACK - 4096,
@@ -140,7 +140,7 @@ impl Machine {
         machine
     }
 
-    /// Calls the function at an address with one argument. `called` is what happens where it calls another one.
+    /// Calls the function at an address with one argument. `called` runs when the function calls another one.
     pub fn call(&mut self, function: u64, argument: u64, mut called: impl FnMut(&mut Self, Call)) {
         self.general[RSP] = STACK - 64;
         self.push(RETURN);
@@ -165,7 +165,7 @@ impl Machine {
         }
         assert!(!self.upper, "upper halves of registers are left");
         let mut restored = kept;
-        // the address to return to is gone
+        // the return address has been popped
         restored[1] += 8;
         assert_eq!(KEPT.map(|register| self.general[register]), restored);
     }
@@ -198,7 +198,7 @@ impl Machine {
         self.forget(changed.collect());
     }
 
-    /// Fills registers with anything, and all vector registers.
+    /// Fills these registers, and all vector registers, with arbitrary values.
     fn forget(&mut self, general: Vec<usize>) {
         let mut next = || {
             self.garbage = self
@@ -218,7 +218,7 @@ impl Machine {
         }
     }
 
-    /// The region that has these bytes, all of them, and where in it.
+    /// The region that contains all of these bytes, and the offset in it.
     fn region(&self, at: u64, bytes: usize) -> (usize, usize) {
         let inside = |region: &Region| {
             let end = region.start + region.bytes.len() as u64;
@@ -229,13 +229,13 @@ impl Machine {
         (region, (at - self.regions[region].start) as usize)
     }
 
-    /// Bytes of memory.
+    /// Reads bytes of memory.
     pub fn read(&self, at: u64, bytes: usize) -> &[u8] {
         let (region, offset) = self.region(at, bytes);
         &self.regions[region].bytes[offset..offset + bytes]
     }
 
-    /// Changes memory.
+    /// Writes bytes of memory.
     pub fn write(&mut self, at: u64, bytes: &[u8]) {
         let (region, offset) = self.region(at, bytes.len());
         assert!(self.regions[region].writable, "{at:x} may not be written");
@@ -331,9 +331,9 @@ impl Machine {
         }
     }
 
-    /// Less, or not less, into a register or a mask register.
+    /// Compares less or not less, into a register or a mask register.
     fn compare<N: Number>(&mut self, instruction: &Instruction, scalar: bool) {
-        // less, false where either is no number, or the contrary; quietly
+        // less (false where either is NaN) or not less (true there); only quiet comparisons
         let wanted = match instruction.immediate8() {
             0x11 => true,
             0x15 => false,
@@ -361,7 +361,7 @@ impl Machine {
         }
     }
 
-    /// The third operand where the mask says so, otherwise the second.
+    /// The third operand where the mask is set, otherwise the second.
     fn blend<N: Number>(&mut self, instruction: &Instruction, operation: &str) {
         let to = instruction.op0_register();
         let whole = to.size();
@@ -436,7 +436,7 @@ impl Machine {
         let destination = self.vectors[register.number()];
         let first = self.bytes::<N>(instruction, 1, length);
         let second = self.bytes::<N>(instruction, last, length);
-        // of scalars the rest is that of the first source, or of the destination of fused operations
+        // for scalars the other lanes come from the first source, or, in fused operations, from the destination
         let mut result = match operation.starts_with("Vfm") || operation.starts_with("Vfn") {
             true => destination,
             false => first,

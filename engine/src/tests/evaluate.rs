@@ -1,4 +1,4 @@
-//! Plain evaluation of a list.
+//! Plain evaluation of a list, to compare with.
 
 use bryant_generator::expression::Function;
 use bryant_generator::model::Extrapolate;
@@ -8,7 +8,7 @@ use bryant_runtime::Real;
 use bryant_runtime::curve::Table;
 use bryant_runtime::force::{belt, contact, friction, power, switch};
 
-/// Values of the inputs of lists, by regions.
+/// The inputs of lists, by regions.
 pub struct Given<T> {
     pub time: T,
     pub state: Vec<T>,
@@ -44,7 +44,7 @@ pub fn results<T: Real>(list: &List, given: &Given<T>) -> Vec<T> {
     results.collect()
 }
 
-/// What an operation defines.
+/// The values that an operation defines.
 pub fn evaluate<T: Real>(list: &List, values: &[T], operation: Operation) -> Vec<T> {
     let operands = list
         .operands(operation)
@@ -67,7 +67,8 @@ pub fn evaluate<T: Real>(list: &List, values: &[T], operation: Operation) -> Vec
     }]
 }
 
-/// Curves that lists call: lines of each way to go on, as many as are written out, more than that, and a cubic.
+/// Curves that lists call: lines with each extrapolation, with as many points as are written out and with more, and a
+/// cubic.
 pub fn curves() -> Vec<Curve> {
     let curve = |count: usize, extrapolate, cubic: bool| {
         let point = |k: usize| {
@@ -110,7 +111,8 @@ fn table(index: u32) -> Table {
     }
 }
 
-/// The results of a function. Those of searches and of the user are weighted sums here, with other weights for each.
+/// The results of a function. Searches and functions of the user are replaced by weighted sums, with other weights
+/// for each.
 pub fn called<T: Real>(callee: Callee, arguments: &[T]) -> Vec<T> {
     let a = arguments;
     match callee {

@@ -1,4 +1,4 @@
-//! Machine code against plain evaluation of the same list, bit for bit: on the processor at hand, and on a machine in software for every other.
+//! Machine code, compared with plain evaluation of the same list to the last bit: on this processor, and on an emulated one for every other.
 
 mod c;
 mod emulated;

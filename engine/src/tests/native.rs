@@ -1,4 +1,4 @@
-//! On the processor at hand.
+//! Tests on this processor.
 
 use super::evaluate::{Given, called, curves, results};
 use super::random::{INPUTS, Mix, Random, list};
@@ -11,11 +11,11 @@ use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width, with_width
 use bryant_runtime::real::{Array4, Array8};
 use bryant_runtime::{DoubleDouble, Dual, Real, Several, Width};
 
-/// A scalar whose numbers can be had.
+/// How to make a scalar from numbers, and how to read it.
 #[derive(Clone, Copy)]
 struct Probe<T> {
     of: fn(&[f64; MOST_LANES]) -> T,
-    /// The bits of all numbers; those that are none are one.
+    /// The bits of all numbers; all NaN are equal.
     bits: fn(T) -> Vec<u64>,
 }
 
@@ -36,7 +36,7 @@ fn lanes<T: Several>() -> Probe<T> {
     }
 }
 
-/// Of dual numbers; slopes are the other half of the numbers.
+/// The same for dual numbers, whose slopes are the other half of the numbers.
 fn duals<T: Several>() -> Probe<Dual<T>> {
     Probe {
         of: |numbers| {
@@ -65,7 +65,7 @@ impl<T: Real> Probe<T> {
             numbers.collect::<Vec<T>>()
         };
         let [state, accelerations, mut guards, parameters, derived] = INPUTS.map(&mut some);
-        // code is given either of them at one place
+        // code gets either of them at the same place
         let both = guards.len().min(accelerations.len());
         guards[..both].copy_from_slice(&accelerations[..both]);
         Given {
@@ -88,7 +88,7 @@ impl<T: Real> Call<T> for Tested {
     }
 }
 
-/// Runs code where inputs are.
+/// Runs code on these inputs.
 fn run<T: Real, C: Call<T>>(code: &Compiled<T, C>, given: &Given<T>, results: &mut [T]) {
     let point = Point {
         time: given.time,
@@ -98,7 +98,7 @@ fn run<T: Real, C: Call<T>>(code: &Compiled<T, C>, given: &Given<T>, results: &m
     code.run(point, &given.parameters, &given.derived, results);
 }
 
-/// Compares code with evaluation, and looks at what stands around the results.
+/// Compares code with plain evaluation, and checks the memory around the results.
 fn check<T: Real, C: Call<T>>(
     probe: Probe<T>,
     list: &List,
@@ -159,7 +159,7 @@ const MIXES: [Mix; 7] = [
     },
 ];
 
-/// Whether there is code for this scalar; if so, it is right.
+/// Returns whether there is code for this scalar, after checking the code.
 fn scalar<T: Real>(probe: Probe<T>) -> bool {
     if target::<T>().is_none() {
         return false;
@@ -279,7 +279,7 @@ fn a_list_may_be_evaluated_within_itself() {
     if target::<f64>().is_none() {
         return;
     }
-    // c(s)·s, where c evaluates the same at s − 1, down to 0
+    // the function computes c(s)·s, where c evaluates the same at s − 1, down to 0
     let user = UserCall {
         force: 0,
         arguments: 1,

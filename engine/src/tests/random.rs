@@ -1,10 +1,10 @@
-//! Straight-line programs and numbers at random.
+//! Random straight-line programs and numbers.
 
 use super::evaluate::{curves, evaluate};
 use bryant_generator::expression::{ApproachCall, Function, UserCall};
 use bryant_generator::program::{Input, List, Operation, Value};
 
-/// Xorshift.
+/// A xorshift generator.
 pub struct Random(pub u64);
 
 impl Random {
@@ -31,7 +31,7 @@ impl Random {
         (unit - 0.5) * 10_f64.powi(self.below(5) as i32 - 1)
     }
 
-    /// A number of any kind.
+    /// A number of any kind: ordinary, special, very large or very small.
     pub fn any(&mut self) -> f64 {
         const SPECIAL: [f64; 14] = [
             65_536.0,
@@ -56,21 +56,21 @@ impl Random {
     }
 }
 
-/// How often there is which operation.
+/// The mix of operations in a random list.
 #[derive(Clone, Copy)]
 pub struct Mix {
-    /// Operations.
+    /// Number of operations.
     pub length: usize,
-    /// One of so many is a call; none where 0.
+    /// One of this many operations is a call; 0: none is.
     pub calls: usize,
-    /// How far back most operands lie: the larger, the more values are needed at once.
+    /// How far back most operands lie. The larger it is, the more values are alive at once.
     pub reach: usize,
 }
 
 /// The inputs of a list, in regions.
 pub const INPUTS: [usize; 5] = [9, 4, 3, 20, 15];
 
-/// A list. Most of its values are of ordinary size at one point.
+/// A random list. Most of its values are of ordinary size at one point.
 pub fn list(random: &mut Random, mix: Mix) -> List {
     let mut list = List::default();
     for _ in 0..1 + random.below(12) {
@@ -166,7 +166,7 @@ fn call(random: &mut Random, list: &mut List, mix: Mix) -> Operation {
     Operation::Call { function, first }
 }
 
-/// A recent value most of the time.
+/// An operand, most of the time a recent value.
 fn operand(random: &mut Random, list: &List, mix: Mix) -> Value {
     let values = list.values();
     let given = list.constants.len() + list.inputs.len();

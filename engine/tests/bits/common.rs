@@ -1,4 +1,4 @@
-//! What is compared: every method of two models, at many states, to the last bit.
+//! The comparison: every method of two models, at many states, to the last bit.
 
 use bryant_engine::{Engine, UserFunctions};
 use bryant_generator::{Config, model};
@@ -11,7 +11,7 @@ use bryant_runtime::{
 use std::path::Path;
 use std::sync::Arc;
 
-/// The bits of a scalar. Whatever is no number has the same.
+/// The bits of a scalar. All NaN have the same bits.
 pub trait Bits {
     fn bits(&self) -> Vec<u64>;
 }
@@ -54,7 +54,7 @@ impl Bits for DoubleDouble {
     }
 }
 
-/// Numbers that look random.
+/// A generator of pseudo-random numbers.
 pub struct Random(u64);
 
 impl Random {
@@ -62,7 +62,7 @@ impl Random {
         Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
     }
 
-    /// Between −1 and 1.
+    /// A number between −1 and 1.
     pub fn next(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -71,7 +71,7 @@ impl Random {
     }
 }
 
-/// The functions of the users of bundled models.
+/// The user functions of bundled models.
 #[derive(Debug)]
 enum Users {
     Drag,
@@ -93,7 +93,7 @@ impl UserFunctions for Users {
 }
 
 impl Users {
-    /// Of one lane, over the scalar of a form.
+    /// Calls a function for one lane, over the scalar of a form.
     fn of_lane(&self, form: Form, arguments: &[f64], results: &mut [f64]) {
         let lane = Lane {
             users: self,
@@ -115,7 +115,7 @@ impl Users {
     }
 }
 
-/// A call of one lane, in words.
+/// The call of one lane, in words.
 struct Lane<'a> {
     users: &'a Users,
     arguments: &'a [f64],
@@ -147,7 +147,7 @@ impl OfAnyWidth for Lane<'_> {
     }
 }
 
-/// A call of one lane over dual numbers.
+/// The call of one lane over dual numbers.
 struct WithSlope<'a>(Lane<'a>);
 
 impl OfAnyWidth for WithSlope<'_> {
@@ -171,7 +171,7 @@ pub fn engine(name: &str, matrices: bool) -> Engine {
     Engine::with_functions(lists, users).expect("all functions of bundled models are known")
 }
 
-/// Asserts that two models do the same at many states and for several parameters.
+/// Asserts that two models give the same bits at many states and for several parameters.
 pub fn compare<T: Real, O: Of<T>>(expected: &mut dyn Adjustable<T>, found: &mut dyn Adjustable<T>) {
     let info = expected.info();
     assert_eq!(info, found.info());
@@ -198,7 +198,7 @@ pub fn compare<T: Real, O: Of<T>>(expected: &mut dyn Adjustable<T>, found: &mut 
                 }
             }
             if state % 5 == 3 {
-                // Zeros of both signs.
+                // Zeros of both signs are included.
                 for entry in y.iter_mut().step_by(3) {
                     *entry = O::near(
                         if random.next() < 0.0 { 0.0 } else { -0.0 },
@@ -310,7 +310,7 @@ fn compare_at<T: Real, O: Of<T>>(
     same::<T, O>(name, "renewed", &y, &renewed);
 }
 
-/// Compares what one model computes at once with what the methods of another give one by one.
+/// Compares what one model computes at once with what the methods of another return one by one.
 fn compare_at_once<T: Real, O: Of<T>>(
     expected: &dyn Dynamics<T>,
     found: &dyn Dynamics<T>,
@@ -379,9 +379,9 @@ fn arrival<T: Real>(model: &dyn Dynamics<T>, wanted: u8, t: T, y: &[T]) -> Vec<T
     [few, guards, onsets, renewed, curves, powers].concat()
 }
 
-/// A scalar that tests make of random numbers.
+/// A scalar that tests make from random numbers.
 pub trait Near: Real + Bits {
-    /// One that is at most so far from a value.
+    /// A scalar that differs from `value` by at most `size`.
     fn near(value: f64, size: f64, random: &mut Random) -> Self;
 }
 
@@ -422,15 +422,15 @@ impl Near for DoubleDouble {
     }
 }
 
-/// How tests make scalars and what they compare of them.
+/// How tests make scalars, and which bits they compare.
 pub trait Of<T> {
-    /// A scalar that is at most so far from a value.
+    /// A scalar that differs from `value` by at most `size`.
     fn near(value: f64, size: f64, random: &mut Random) -> T;
     /// Its bits.
     fn bits(scalar: &T) -> Vec<u64>;
 }
 
-/// Scalars that are one number.
+/// Scalars of one number.
 pub struct Single;
 
 impl<T: Near> Of<T> for Single {
@@ -443,7 +443,7 @@ impl<T: Near> Of<T> for Single {
     }
 }
 
-/// Scalars of several lanes, another number in each.
+/// Scalars of several lanes, with another number in each.
 pub struct InLanes;
 
 impl<T: Several<One: Near>> Of<T> for InLanes {
@@ -466,12 +466,12 @@ pub fn check<M: Model<f64>, T: Real, O: Of<T>>(name: &str) {
     let family = Compiled::<M>::new();
     let mut expected = family.over::<T>();
     compare::<T, O>(&mut *expected, &mut Engine::over::<T>(&engine));
-    // from the default parameters again
+    // starts again from the default parameters
     let mut expected = family.over::<T>();
     compare::<T, O>(&mut *expected, &mut engine.interpreted::<T>());
 }
 
-/// A test for each bundled model: `models!(f)` calls `f::<Mechanism>(name)`.
+/// Makes a test for each bundled model: `models!(f)` calls `f::<Mechanism>(name)`.
 macro_rules! models {
     ($check:ident: $($module:ident $name:literal;)*) => {
         $(

@@ -1,4 +1,5 @@
-//! Over dual numbers, every method of every bundled model has the bits of the generated Rust; over dual numbers of lanes, those of the interpreter.
+//! Over dual numbers, every method of every bundled model has the bits of the generated Rust. Over dual numbers of lanes, it has the bits
+//! of the interpreter.
 
 use crate::common::{self, InLanes, Single, compare, engine};
 use bryant_engine::Engine;

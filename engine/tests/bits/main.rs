@@ -1,8 +1,8 @@
-//! The bits of engines: every method of every bundled model over every scalar, beside the generated Rust.
+//! The bits of engines: every method of every bundled model over every scalar, compared with the generated Rust.
 //!
 //! | file | over |
 //! |---|---|
-//! | `doubles` | doubles, the Jacobian too |
+//! | `doubles` | doubles, with the Jacobian |
 //! | `singles` | singles |
 //! | `fast` | doubles with a fast sine |
 //! | `double_doubles` | double-doubles |

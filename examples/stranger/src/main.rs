@@ -24,7 +24,7 @@ fn main() -> Result<(), Failure> {
     let each = start.elapsed() / evaluations;
     println!("accelerations: {each:?} each");
 
-    // S v̇ = r_s + r_k, as matrices
+    // S v̇ = r_s + r_k as matrices: mass matrix S, bias forces r_s (`velocity_forces`), applied forces r_k
     let accelerations = SVector::from(pendulum.accelerations(0.0, &q, &v));
     let forces = pendulum.velocity_forces(&q, &v) + pendulum.applied_forces(0.0, &q, &v);
     let mass = pendulum.mass_matrix(&q);

@@ -75,6 +75,13 @@ impl Record for Freedom {
 
 impl Shape for Freedom {
     fn check(at: At<'_>, problems: &Problems) {
+        if !matches!(at.node.kind, Kind::Map(_)) {
+            problems.add(at.problem(
+                format!("here stands {}, but a joint of a list has keys", at.node.article()),
+                "write `{ hinge: z }` or `{ slider: x }`; `ball`, `weld` and the other words stand alone: `joint: ball`",
+            ));
+            return;
+        }
         check_record::<Freedom>(at, problems);
     }
 }

@@ -33,10 +33,10 @@ pub mod table;
 mod token;
 pub mod tree;
 pub mod unit;
-pub mod user;
 mod value;
 pub mod vehicle;
 
+use crate::law::LAWS;
 use shape::{Key, Record};
 
 /// Every record of the language: what it is called and its keys, in the order of the reference page.
@@ -44,7 +44,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
     fn of<R: Record>() -> (&'static str, &'static [Key]) {
         (R::TITLE, R::KEYS)
     }
-    vec![
+    let mut all = vec![
         of::<load::Model>(),
         of::<load::Included>(),
         of::<short::Instance>(),
@@ -66,40 +66,14 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<element::Element>(),
         of::<joint::Freedom>(),
         of::<joint::Follows>(),
-        of::<force::Joint>(),
-        of::<force::About>(),
-        of::<force::Torque>(),
-        of::<force::Flexion>(),
-        of::<force::Stop>(),
-        of::<force::Lock>(),
-        of::<force::Drive>(),
-        of::<force::Field>(),
-        of::<force::Contact>(),
-        of::<force::Ellipsoid>(),
-        of::<force::Plane>(),
-        of::<force::Edge>(),
-        of::<force::Belt>(),
-        of::<force::Attachment>(),
-        of::<force::Ring>(),
-        of::<force::Retractor>(),
-        of::<force::Pretensioner>(),
-        of::<force::Limiter>(),
-        of::<force::Spring>(),
-        of::<force::Airbag>(),
-        of::<force::Inflow>(),
-        of::<force::Gas>(),
-        of::<force::Vent>(),
-        of::<force::Air>(),
-        of::<force::Load>(),
-        of::<user::User>(),
-        of::<user::UserPoint>(),
-        of::<user::UserLine>(),
-        of::<user::UserFreedom>(),
-        of::<user::UserState>(),
+    ];
+    all.extend(LAWS.iter().flat_map(|law| (law.records)()));
+    all.extend([
         of::<switch::Switch>(),
         of::<switch::Trigger>(),
         of::<output::Output>(),
         of::<run::Run>(),
         of::<criteria::Criteria>(),
-    ]
+    ]);
+    all
 }

@@ -1,11 +1,12 @@
 //! Short forms as written: one entry that stands for several. [`expand`](super::expand) writes them out before serde reads,
 //! so that serde meets the long form only.
 
-use super::force::{Ellipsoid, LongAxis, Plane};
 use super::place::At;
 use super::quantity::Quantity;
 use super::shape::{Problems, Record, Shape, check_record, record, words};
 use super::tree::Kind;
+use crate::law::contact::keys::{Ellipsoid, Plane};
+use crate::law::joint::keys::LongAxis;
 use serde::de::{Deserialize, Deserializer, Error};
 use std::ops::Deref;
 

@@ -1,12 +1,12 @@
-//! The generalised forces of what acts, r_k in the paper, by virtual power, for trees of ball joints:
+//! The generalised applied forces, r_k in the paper, by virtual power, for trees of ball joints:
 //!
 //! r_x = F_out,root,   r_k = E_kᵀ (τ_k + Σ_c u_c × F_out,c)
 //!
-//! F_out = F + Σ_c F_out,c is summed from the leaves to the root, and τ_k is the moment about joint k of what acts on element k. A field a that is
-//! common to a whole system needs no sum: it acts as M a on the reference joint, and as w_k × a on element k. A given acceleration of the reference
-//! joint acts as its negative.
+//! F_out = F + Σ_c F_out,c is summed from the leaves to the root. τ_k is the moment about joint k of the forces that act on element k. A field a
+//! that is common to a whole system needs no sum: it acts as M a on the reference joint, and as w_k × a on element k. A given acceleration of the
+//! reference joint acts as a field with the opposite sign.
 //!
-//! Systems with other joints have r_k from the [power of wrenches](super::spatial).
+//! Systems with other joints get r_k from the [power of wrenches](super::spatial).
 
 use super::force::Loads;
 use super::kinematics::{path, reference_acceleration};
@@ -14,7 +14,7 @@ use super::spatial::{self, Spatial};
 use crate::expression::Expr;
 use crate::model::ElementId;
 
-/// r_k.
+/// r_k, by row.
 pub fn applied_forces<'g>(
     systems: &[Spatial<'g, '_>],
     loads: &Loads<'g>,
@@ -42,15 +42,19 @@ fn of_balls<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: &mut [Expr
         tree,
     } = *spatial;
     let system = spatial.of_system();
-    let field = loads.fields[s] - reference_acceleration(graph, system, motion);
-    let mut outboard: Vec<_> = loads.elements[s].iter().map(|load| load.force).collect();
+    let field = loads.wrenches.fields[s] - reference_acceleration(graph, system, motion);
+    let mut outboard: Vec<_> = loads.wrenches.elements[s]
+        .iter()
+        .map(|load| load.force)
+        .collect();
     for k in (0..system.elements.len()).rev() {
         let id = ElementId {
             system: s,
             element: k,
         };
         graph.section(format!("r_k[{}]", path(model, id)));
-        let mut moment = loads.elements[s][k].moment + tree.bodies[k].first_moment.cross(field);
+        let mut moment =
+            loads.wrenches.elements[s][k].moment + tree.bodies[k].first_moment.cross(field);
         for &c in &tree.children[k] {
             moment = moment + motion.systems[s][c].offset.cross(outboard[c]);
             outboard[k] = outboard[k] + outboard[c];

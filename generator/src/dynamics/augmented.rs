@@ -1,9 +1,9 @@
-//! The augmented body of each element, for trees of ball joints: the masses outboard act as points on its joints.   \[Wittenburg 1977\]
+//! The augmented body of each element, for trees of ball joints: the masses outboard of it act as points on its joints.   \[Wittenburg 1977\]
 //!
 //! M_k = Σ m_i,   b_k = m_k g_k + Σ_c M_c s_c,   J_k = I_k + m_k (g²·1 − g gᵀ) + Σ_c M_c (s_c²·1 − s_c s_cᵀ)
 //!
-//! The first sum is over element k and all elements outboard of it, the others are over its children c. M is mass, b first moment, and J inertia about
-//! the joint. All three are constant in the frame of the element, whatever moves. The equations take w = A b and A J Aᵀ in absolute axes.
+//! The first sum is over element k and all elements outboard of it; the others are over its children c. M is mass, b first moment, and J inertia
+//! about the joint. All three are constant in the frame of the element, in every motion. The equations use w = A b and A J Aᵀ in absolute axes.
 
 use super::kinematics::{Motion, children, constant_rotation, identifier, path};
 use super::numbers::{number, vector};
@@ -13,23 +13,22 @@ use crate::model::{Dimension, Element, ElementId, Model};
 
 /// One augmented body.
 pub struct AugmentedBody<'g> {
-    /// M, mass outboard of the joint \[kg\].
+    /// M, the mass of the element and of all elements outboard of it \[kg\].
     pub mass: Expr<'g>,
-    /// w = A b, first moment about the joint, absolute axes \[kg m\].
+    /// w = A b, the first moment about the joint, in absolute axes \[kg m\].
     pub first_moment: Vec3<'g>,
-    /// A J Aᵀ, inertia about the joint, absolute axes \[kg m²\].
+    /// A J Aᵀ, the inertia about the joint, in absolute axes \[kg m²\].
     pub inertia: Sym3<'g>,
-    /// False where ω × Jω is to be left out.
+    /// Whether ω × Jω is included.
     pub gyroscopic: bool,
 }
 
-/// The gyroscopic moment ω × Jω of an element that is left out, to see what it costs: equations without it are those of
-/// no body.
+/// The gyroscopic moment ω × Jω of an element that is left out, to measure what it costs. No real body has the equations without it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Omitted(pub ElementId);
 
 impl Omitted {
-    /// Leaves it out.
+    /// Leaves this moment out.
     pub fn omit(self, trees: &mut [AugmentedTree<'_>]) {
         let Omitted(id) = self;
         trees[id.system].bodies[id.element].gyroscopic = false;
@@ -52,7 +51,7 @@ impl<'g> AugmentedBody<'g> {
         }
     }
 
-    /// ω × Jω. A body whose moments are the same about all axes has none, and no node is made for it.
+    /// The gyroscopic moment ω × Jω. A body with equal moments about all axes has none; then no node is made.
     pub fn gyroscopic_moment(&self, graph: &'g Graph, omega: Vec3<'g>) -> Vec3<'g> {
         if !self.gyroscopic || is_spherical(&self.inertia) {
             Vec3::zero(graph)
@@ -64,7 +63,7 @@ impl<'g> AugmentedBody<'g> {
 
 /// The augmented bodies of one tree.
 pub struct AugmentedTree<'g> {
-    /// By element.
+    /// The body of each element.
     pub bodies: Vec<AugmentedBody<'g>>,
     /// Children of each element.
     pub children: Vec<Vec<usize>>,
@@ -78,7 +77,7 @@ impl<'g> AugmentedTree<'g> {
         graph.section("augmented bodies");
         let carried = match model.systems[system].has_balls_alone() {
             true => children.clone(),
-            // what is carried is no point of its carrier
+            // the carried body is no point of its carrier
             false => vec![Vec::new(); elements.len()],
         };
         let constants = constants(graph, model.dimension, elements, &carried);
@@ -97,13 +96,13 @@ impl<'g> AugmentedTree<'g> {
     }
 }
 
-/// True of J·1.
+/// Whether the matrix is J·1.
 fn is_spherical(inertia: &Sym3<'_>) -> bool {
     let [x, y, z] = inertia.diagonal.map(|moment| moment.id());
     x == y && y == z && inertia.off.iter().all(|product| product.is_zero())
 }
 
-/// M, b and J of every element, local frame.
+/// M, b and J of every element, in its local frame.
 pub fn constants<'g>(
     graph: &'g Graph,
     dimension: Dimension,
@@ -123,7 +122,7 @@ pub fn constants<'g>(
     bodies
 }
 
-/// M, b and J of an element with masses as points, about an origin of its local frame; the points are given from there.
+/// M, b and J of an element with additional point masses, about an origin in its local frame. The points are given from that origin.
 pub fn with_points<'g>(
     graph: &'g Graph,
     dimension: Dimension,
@@ -143,7 +142,7 @@ pub fn with_points<'g>(
         );
     }
     if dimension == Dimension::Plane {
-        // The plane knows one moment only.
+        // In the plane there is only one moment.
         let moment = body.2.diagonal[1];
         body.2 = Sym3::zero(graph);
         body.2.diagonal[1] = moment;
@@ -151,7 +150,7 @@ pub fn with_points<'g>(
     body
 }
 
-/// Inertia of an element about its centre of gravity, local frame: B diag(I₁, I₂, I₃) Bᵀ.
+/// The inertia of an element about its centre of gravity, in its local frame: B diag(I₁, I₂, I₃) Bᵀ.
 pub fn own_inertia<'g>(graph: &'g Graph, dimension: Dimension, element: &Element) -> Sym3<'g> {
     let principal = vector(graph, &element.inertia).0;
     let diagonal = Sym3 {
@@ -188,8 +187,8 @@ fn congruent<'g>(a: &Mat3<'g>, m: &Sym3<'g>) -> Sym3<'g> {
     Sym3::from_fn(|i, j| Vec3(a.0[i]).dot(half[j]))
 }
 
-/// A J Aᵀ of a constant J in fewer operations: with its smallest eigenvalue λ, J − λ·1 = d p pᵀ + e r rᵀ has rank two at
-/// most, so A J Aᵀ = λ·1 + d (A p)(A p)ᵀ + e (A r)(A r)ᵀ. An axisymmetric body has one of the terms, a spherical one none.
+/// A J Aᵀ of a constant J in fewer operations. With its smallest eigenvalue λ, J − λ·1 = d p pᵀ + e r rᵀ has at most rank two, so A J Aᵀ = λ·1 + d (A
+/// p)(A p)ᵀ + e (A r)(A r)ᵀ. An axisymmetric body has only one of the terms, a spherical one none.
 pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) -> Sym3<'g> {
     if is_spherical(inertia) {
         return *inertia;
@@ -207,7 +206,7 @@ pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) ->
     sum_of_squares(number(smallest), &terms, number(trace))
 }
 
-/// The entries, where all are numbers.
+/// The entries, if all are numbers.
 fn numbers(matrix: &Sym3<'_>) -> Option<[[f64; 3]; 3]> {
     let mut values = [[0.0; 3]; 3];
     for (i, row) in values.iter_mut().enumerate() {
@@ -218,8 +217,8 @@ fn numbers(matrix: &Sym3<'_>) -> Option<[[f64; 3]; 3]> {
     Some(values)
 }
 
-/// The symmetric matrix values − smallest·1 of rank two as d p pᵀ + e r rᵀ, whose `smallest` is the smallest eigenvalue of the
-/// values: d and p, e and r. The largest component of each vector is 1, and the second has a zero.
+/// Writes the symmetric matrix `values` − `smallest`·1 as d p pᵀ + e r rᵀ. `smallest` is the smallest eigenvalue of `values`, so the rank is at most
+/// two. Returns d and p, e and r. The largest component of each vector is 1, and the second vector has a zero.
 pub fn terms_of_rank_two(values: [[f64; 3]; 3], smallest: f64) -> Vec<(f64, [f64; 3])> {
     let mut rest = values;
     for (i, row) in rest.iter_mut().enumerate() {
@@ -232,7 +231,7 @@ pub fn terms_of_rank_two(values: [[f64; 3]; 3], smallest: f64) -> Vec<(f64, [f64
             .max_by(|&a, &b| rest[a][a].total_cmp(&rest[b][b]).then(b.cmp(&a)))
             .unwrap_or(0);
         let d = rest[pivot][pivot];
-        // What is left below rounding is not a direction of the body.
+        // A rest below rounding is no direction of the body.
         if d <= 8.0 * f64::EPSILON * scale {
             break;
         }
@@ -246,7 +245,7 @@ pub fn terms_of_rank_two(values: [[f64; 3]; 3], smallest: f64) -> Vec<(f64, [f64
         });
         for (i, row) in rest.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                // Exactly zero, whatever the rounding: the pivot's row and column are done with.
+                // Exactly zero in spite of rounding: the pivot's row and column are finished.
                 *entry = if i == pivot || j == pivot {
                     0.0
                 } else {
@@ -259,7 +258,7 @@ pub fn terms_of_rank_two(values: [[f64; 3]; 3], smallest: f64) -> Vec<(f64, [f64
     terms
 }
 
-/// λ·1 + Σ d p pᵀ, given its trace: of the diagonal two entries are enough.
+/// λ·1 + Σ d p pᵀ, given its trace, so that two entries of the diagonal are sufficient.
 pub fn sum_of_squares<'g>(
     isotropic: Expr<'g>,
     terms: &[(Expr<'g>, Vec3<'g>)],
@@ -277,7 +276,7 @@ pub fn sum_of_squares<'g>(
     sum
 }
 
-/// Smallest eigenvalue of a symmetric matrix, by Jacobi rotations (square roots only: the same bits on every machine).
+/// The smallest eigenvalue of a symmetric matrix, by Jacobi rotations. They use square roots only, so every machine gives the same bits.
 fn smallest_eigenvalue(mut a: [[f64; 3]; 3]) -> f64 {
     for _ in 0..32 {
         let mut off = 0.0;

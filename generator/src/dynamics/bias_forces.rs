@@ -1,14 +1,14 @@
-//! The bias forces with the sign reversed, r_s in the paper: what the bodies lack when v̇ = 0 and nothing acts. Newton's and Euler's equations of the
-//! augmented bodies, for trees of ball joints.
+//! The bias forces with the sign reversed, r_s in the paper: minus the forces that the bodies need when v̇ = 0 and no force acts. They follow from
+//! Newton's and Euler's equations of the augmented bodies, for trees of ball joints.
 //!
 //! r_x = −G_root,   r_k = −E_kᵀ (A J Aᵀ ε + ω × A J Aᵀ ω + Σ_c u_c × G_c + w_k × B_k)   \[MADYMO 1980\]
 //!
 //! | pass | |
 //! |---|---|
-//! | root to leaves: acceleration of the joints when v̇ = 0 | B_c = B + γ(u_c) |
-//! | leaves to root: inertia force of what is outboard | G = γ(w) + Σ_c G_c |
+//! | root to leaves: acceleration of the joints for v̇ = 0 | B_c = B + γ(u_c) |
+//! | leaves to root: inertia force of the bodies outboard | G = γ(w) + Σ_c G_c |
 //!
-//! Systems with other joints have r_s from the [recursive Newton–Euler algorithm](super::spatial).
+//! Systems with other joints get r_s from the [recursive Newton–Euler algorithm](super::spatial).
 
 use super::kinematics::path;
 use super::spatial::{self, Spatial};
@@ -16,7 +16,7 @@ use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::model::ElementId;
 
-/// r_s.
+/// r_s, by row.
 pub fn velocity_forces<'g>(
     systems: &[Spatial<'g, '_>],
     zero: Expr<'g>,
@@ -46,7 +46,7 @@ fn of_balls<'g>(spatial: &Spatial<'g, '_>, forces: &mut [Expr<'g>]) {
     let count = system.elements.len();
     let none = Vec3::zero(graph);
 
-    // from the root outwards: acceleration of the joints
+    // from the root outwards: the acceleration of the joints
     let mut joint_acceleration = vec![none; count];
     for (k, element) in system.elements.iter().enumerate() {
         if let Some(parent) = element.parent {
@@ -66,7 +66,7 @@ fn of_balls<'g>(spatial: &Spatial<'g, '_>, forces: &mut [Expr<'g>]) {
         }
     }
 
-    // from the leaves inwards: inertia forces outboard, and their moments
+    // from the leaves inwards: the inertia forces of the bodies outboard, and their moments
     let mut outboard = vec![none; count];
     for k in (0..count).rev() {
         let id = ElementId {

@@ -1,15 +1,16 @@
-//! What parameters must keep so that the model is one at all: what is required of each number of it, as far as parameters decide.
+//! The conditions that parameters must satisfy so that the model is valid: the requirements on its numbers, as far as parameters
+//! decide them.
 //!
-//! At the defaults the description was judged by the same requirements; what a run sets is judged before it begins.
+//! The default values were checked by the same requirements when the description was read. The values of a run are checked before
+//! it begins.
 
-use super::force::belt;
 use super::kinematics::Motion;
 use super::numbers::number;
 use crate::equations::Condition;
 use crate::expression::{Expr, Graph};
-use crate::model::{ForceKind, Model, Number, Rule};
+use crate::model::{Model, Number, Rule};
 
-/// Those that parameters decide, each once; `start` is the motion where a run starts.
+/// The conditions that parameters decide, each once; `start` is the motion at the start of a run.
 pub fn of<'g>(graph: &'g Graph, model: &Model, start: &Motion<'g>) -> Vec<Condition> {
     graph.section("what parameters must keep");
     let mut conditions = Vec::new();
@@ -28,17 +29,15 @@ pub fn of<'g>(graph: &'g Graph, model: &Model, start: &Motion<'g>) -> Vec<Condit
         }
     };
     for requirement in model.requirements() {
-        // parameters themselves are finite
+        // parameters themselves are checked to be finite
         if requirement.rule != Rule::Finite || !matches!(requirement.value, Number::Parameter(_)) {
             let value = number(graph, &requirement.value);
             add(requirement.sentence, value, requirement.rule);
         }
     }
     for force in &model.forces {
-        if let ForceKind::Belt(law) = &force.kind {
-            let length = belt::length_at_start(graph, start, law);
-            let name = belt::must_have_length(&force.name);
-            add(name, length, Rule::NotNegative);
+        if let Some((name, value)) = force.kind.condition(graph, start, &force.name) {
+            add(name, value, Rule::NotNegative);
         }
     }
     for number in model.clone().numbers_mut() {
@@ -50,7 +49,7 @@ pub fn of<'g>(graph: &'g Graph, model: &Model, start: &Motion<'g>) -> Vec<Condit
     conditions
 }
 
-/// What is required of any number that is made of parameters.
+/// The words for a condition on a number that depends on parameters.
 fn made_of(model: &Model, number: &Number) -> String {
     let mut names: Vec<&str> = Vec::new();
     number.for_each_parameter(&mut |index| {

@@ -1,10 +1,10 @@
-//! Which curves are functions of time, and how fast time runs in them: curve(rate · t).
+//! Finds the curves that are functions of time, curve(rate · t), and their rates.
 
 use crate::expression::live::{Dependence, Live};
 use crate::expression::{Function, Graph, Node, NodeId, Symbol};
 
-/// Curves that some results evaluate at multiples of time, each with the factor; without repetition, in the order of the
-/// graph.
+/// The curves that some results evaluate at multiples of time, each with its factor. Each pair occurs once, in the order
+/// of the graph.
 pub fn of(graph: &Graph, roots: &[NodeId]) -> Vec<(usize, NodeId)> {
     let live = Live::new(graph, roots);
     let mut found = Vec::new();
@@ -22,7 +22,7 @@ pub fn of(graph: &Graph, roots: &[NodeId]) -> Vec<(usize, NodeId)> {
     found
 }
 
-/// c of c · t.
+/// The factor c in c · t.
 fn factor_of_time(graph: &Graph, live: &Live, argument: NodeId) -> Option<NodeId> {
     let is_time = |id: NodeId| graph.node(id) == Node::Symbol(Symbol::Time);
     match graph.node(argument) {

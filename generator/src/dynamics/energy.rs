@@ -1,11 +1,11 @@
-//! Where the energy goes: dT/dt = Σ P, T the kinetic energy of all elements, P the power of each effect.
+//! The energy balance: dT/dt = Σ P, where T is the kinetic energy of all elements and P the power of each effect.
 //!
-//! A force between two bodies has the power F·(velocity of the one point less that of the other), so that what a
-//! contact or a belt takes does not depend on who looks at it. A field has the power Σ m a·v of what feels it. A reference
-//! joint that moves as prescribed is pushed by R = Σ m p̈ − Σ F, what its system's elements need beyond the forces that
-//! act on them, with the power R·ẋ; a vehicle that turns a root which does not turn at will needs M·ω too, M being the moment
-//! that their joint transmits. What moves a vehicle overcomes the forces F on it and their moment M about its origin, with the
-//! power −F·ẋ − M·ω.
+//! A force between two bodies has the power F·(velocity of one point minus that of the other), so the power of a contact or a
+//! belt does not depend on the observer. A field has the power Σ m a·v over the elements on which it acts. A prescribed
+//! reference joint exerts R = Σ m p̈ − Σ F, the force that the elements of its system need in addition to the forces on them,
+//! with the power R·ẋ. If a vehicle turns a root that is not on a ball joint, the power M·ω is added, where M is the moment
+//! that their joint transmits. The drive of a vehicle overcomes the forces F on it and their moment M about its origin, with
+//! the power −F·ẋ − M·ω.
 
 use super::force::Product;
 use super::numbers::{number, vector};
@@ -14,7 +14,7 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
 use crate::model::{Component, ElementId, Projection, Reference, SystemQuantity};
 
-/// T \[J\].
+/// The kinetic energy T \[J\].
 pub fn kinetic_energy<'g>(scene: &Scene<'g, '_>) -> Expr<'g> {
     scene.graph.section("kinetic energy");
     let systems = 0..scene.model.systems.len();
@@ -23,7 +23,7 @@ pub fn kinetic_energy<'g>(scene: &Scene<'g, '_>) -> Expr<'g> {
     sum(scene.graph, systems.map(of))
 }
 
-/// M·ω, M being the moment about the reference joint by which a vehicle that turns turns a root that does not turn at will.
+/// The power M·ω of a turning vehicle on a root that turns with it; M is the moment about the reference joint.
 fn turning_power<'g>(
     scene: &Scene<'g, '_>,
     system: usize,
@@ -40,7 +40,7 @@ fn turning_power<'g>(
     moment.dot(omega)
 }
 
-/// P of each effect by its name \[W\], in the order of the model's forces, prescribed motions last.
+/// The name and the power P of each effect \[W\], in the order of the model's forces; prescribed motions come last.
 pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
     let graph = scene.graph;
     let mut powers: Vec<(String, Expr<'g>)> = Vec::new();
@@ -76,9 +76,9 @@ pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
             };
             let motion = scene.motion.element(id);
             let offset = motion.rotation.times(vector(graph, &element.cg));
-            let acceleration = scene.acceleration(id, offset) - scene.loads.fields[s];
+            let acceleration = scene.acceleration(id, offset) - scene.loads.wrenches.fields[s];
             let force = number(graph, &element.mass) * acceleration;
-            reaction = reaction + force - scene.loads.elements[s][k].force;
+            reaction = reaction + force - scene.loads.wrenches.elements[s][k].force;
         }
         let mut power = reaction.dot(scene.motion.references[s]);
         if let Reference::Riding { vehicle, .. } = system.reference {
@@ -86,7 +86,11 @@ pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
         }
         powers.push((name, power));
     }
-    let vehicles = scene.model.vehicles.iter().zip(&scene.loads.vehicles);
+    let vehicles = scene
+        .model
+        .vehicles
+        .iter()
+        .zip(&scene.loads.wrenches.vehicles);
     for ((vehicle, load), motion) in vehicles.zip(&scene.motion.vehicles) {
         let name = format!("vehicle {}: prescribed motion", vehicle.name);
         graph.section(format!("power of {name}"));

@@ -1,12 +1,13 @@
 //! Factorisation of the mass matrix, S = L D Lᵀ, and the accelerations by it: v̇ = L⁻ᵀ D⁻¹ L⁻¹ (r_s + r_k).
 //!
-//! Rows go from the leaves to the root. So no entry fills in that the tree leaves empty: entry (i, j) is not 0 only if one of the two elements
-//! carries the other.   \[Featherstone 2008, ch. 6.5\]   There is no square root and one division per row. The pivots D are positive because S is.
+//! Rows go from the leaves to the root. So entries that the tree leaves empty stay empty: entry (i, j) is not 0 only if one of the two elements
+//! carries the other.   \[Featherstone 2008, ch. 6.5\]   There is no square root and one division per row. The pivots D are positive because S is
+//! positive definite.
 //!
-//! [`Ldl`] also serves the small matrices of single joints in the articulated-body algorithm, such as the 3×3 of a ball joint: it is factorised, no inverse is
-//! formed.
+//! [`Ldl`] also factorises the small matrices of single joints in the articulated-body algorithm, such as the 3×3 matrix of a ball joint. No inverse
+//! is formed.
 //!
-//! A pivot is the articulated inertia of its freedom: what is left of S_ii when the freedoms further out are free to move.
+//! A pivot is the articulated inertia of its degree of freedom: the rest of S_ii when the degrees of freedom further out are free to move.
 
 use super::layout::Layout;
 use crate::expression::{Expr, Graph};
@@ -15,16 +16,16 @@ use std::ops::{Mul, Range, Sub};
 
 /// L D Lᵀ of a symmetric positive definite matrix.
 pub struct Ldl<'g> {
-    /// Strictly below the diagonal, by rows.
+    /// L strictly below the diagonal, by rows.
     lower: Vec<Vec<Expr<'g>>>,
-    /// d
+    /// The diagonal d of D.
     diagonal: Vec<Expr<'g>>,
     /// 1/d
     inverse_diagonal: Vec<Expr<'g>>,
 }
 
 impl<'g> Ldl<'g> {
-    /// Factorises; `matrix` holds the lower triangle by rows, diagonal included.
+    /// Factorises a matrix, given its lower triangle by rows, with the diagonal.
     pub fn of(graph: &'g Graph, mut matrix: Vec<Vec<Expr<'g>>>) -> Self {
         let size = matrix.len();
         let mut inverse_diagonal = Vec::with_capacity(size);
@@ -55,7 +56,7 @@ impl<'g> Ldl<'g> {
         }
     }
 
-    /// L⁻¹ b, of numbers or of rows of a matrix.
+    /// L⁻¹ b, where b has numbers or rows of a matrix.
     pub fn forward<V>(&self, mut b: Vec<V>) -> Vec<V>
     where
         V: Copy + Sub<Output = V>,
@@ -100,9 +101,9 @@ impl<'g> Ldl<'g> {
     }
 }
 
-/// What is left of each diagonal entry of S when the rotations of the elements further out have been eliminated, as a share of it, with
-/// the path of its element: 0 where nothing resists a rotation, with the elements outboard free to move. Only where all
-/// moments of inertia are positive can that never be, and there are none.
+/// For each rotation, the share of its diagonal entry of S that remains after the rotations of the elements further out are eliminated, with the path
+/// of its element. It is 0 where nothing resists a rotation while the elements outboard move freely. If all moments of inertia are positive, that is
+/// impossible.
 pub fn pivots<'g>(
     graph: &'g Graph,
     model: &Model,
@@ -124,7 +125,7 @@ pub fn pivots<'g>(
     pivots
 }
 
-/// Freedoms up to which [`pivots`] are worth their statements.
+/// The largest number of degrees of freedom for which [`pivots`] are worth their statements.
 pub const MOST_PIVOTS: usize = 60;
 
 /// Whether an element has a moment of inertia of 0.
@@ -151,7 +152,7 @@ pub fn accelerations<'g>(
     accelerations
 }
 
-/// v̇ = S⁻¹ (r_s + r_k) of rows that no others are coupled to.
+/// v̇ = S⁻¹ (r_s + r_k), for rows that are not coupled to any others.
 pub fn accelerations_of<'g>(
     graph: &'g Graph,
     rows: Range<usize>,
@@ -171,12 +172,12 @@ pub fn accelerations_of<'g>(
     }
 }
 
-/// Indices of the velocities, elements before those that carry them.
+/// Indices of the velocities, with each element before the one that carries it.
 fn outboard_first(rows: Range<usize>) -> Vec<usize> {
     rows.rev().collect()
 }
 
-/// The lower triangle of a symmetric matrix, its rows in this order.
+/// The lower triangle of a symmetric matrix, with its rows in this order.
 fn triangle<'g>(
     graph: &'g Graph,
     order: &[usize],

@@ -1,9 +1,10 @@
-//! Forward kinematics: where every element is, how it is turned, and how fast, from the root of each tree to its leaves.
+//! Forward kinematics: position, orientation and velocity of every element, from the root of each tree to its leaves.
 //!
 //! p_c = p + u_c,   ṗ_c = ṗ + ω × u_c,   γ(v) = ω × (ω × v) + ε × v
 //!
-//! u_c = A s_c is the joint of child c on a ball joint, and ε the part of the angular acceleration that is there when v̇ = 0. How an element moves by its
-//! own joint is in the files of [joints](crate::joint): `ball`, `twist` of freedoms, `free` and `prescribed` of reference joints.
+//! u_c = A s_c is the position of the joint of child c on a ball joint. ε is the part of the angular acceleration that remains when v̇ = 0. The
+//! motion of an element by its own joint is in the files of [joints](crate::joint): `ball`; `twist` for joints with coordinates of their own; `free`
+//! and `prescribed` for reference joints.
 
 use super::layout::Layout;
 use super::numbers::{bryant, vector};
@@ -17,18 +18,18 @@ use crate::model::{
     Attachment, Body, Element, ElementId, Freedom, Joint, Model, Number, Reference,
 };
 
-/// q and v as expressions.
+/// The state q and v, as expressions.
 pub struct State<'g> {
     /// q
     pub q: Vec<Expr<'g>>,
     /// v
     pub v: Vec<Expr<'g>>,
-    /// The chart of each element's Bryant angles, the first of m; none in other coordinates.
+    /// The charts of all elements with Bryant angles, which come first in m; empty for other coordinates.
     pub charts: Vec<Expr<'g>>,
 }
 
 impl<'g> State<'g> {
-    /// The inputs of the equations.
+    /// The state as inputs of the equations.
     pub fn symbols(graph: &'g Graph, layout: &Layout) -> Self {
         State {
             q: (0..layout.coordinates.len())
@@ -43,7 +44,7 @@ impl<'g> State<'g> {
         }
     }
 
-    /// The inputs of the equations with all Bryant angles in chart 0.
+    /// The state as inputs of the equations, with all Bryant angles in chart 0.
     pub fn in_first_chart(graph: &'g Graph, layout: &Layout) -> Self {
         State {
             charts: vec![graph.constant(0.0); layout.charts()],
@@ -52,18 +53,18 @@ impl<'g> State<'g> {
     }
 }
 
-/// Motion of one element, absolute axes.
+/// The motion of one element, in absolute axes.
 #[derive(Clone)]
 pub struct ElementMotion<'g> {
-    /// A, local frame → absolute frame.
+    /// A, the rotation from the local frame to the absolute frame.
     pub rotation: Mat3<'g>,
     /// φ in the plane, 0 in space \[rad\].
     pub angle: Expr<'g>,
-    /// Axes e_j, by which its velocities v_j turn it: ω = Σ e_j v_j on a ball joint, else that and ω of the carrier.
+    /// The axes e_j about which its velocities v_j turn it. On a ball joint ω = Σ e_j v_j; on any other joint ω of the carrier is added.
     pub axes: Vec<Vec3<'g>>,
-    /// s_j, by which its velocities v_j move its origin against the carrier; none on a ball joint.
+    /// The vectors s_j by which its velocities v_j move its origin relative to the carrier; empty on a ball joint.
     pub slides: Vec<Vec3<'g>>,
-    /// q and q̇ of the freedoms of its joint; none on a ball joint.
+    /// q and q̇ of the degrees of freedom of its joint; empty on a ball joint.
     pub freedoms: Vec<(Expr<'g>, Expr<'g>)>,
     /// Whether it turns with its carrier.
     pub turns_with_carrier: bool,
@@ -71,21 +72,21 @@ pub struct ElementMotion<'g> {
     pub omega: Vec3<'g>,
     /// ω · ω
     omega_squared: Expr<'g>,
-    /// ε, the angular acceleration when v̇ = 0 \[rad/s²\]: Σ ė_j v_j on a ball joint, zero but for Bryant angles.
+    /// ε, the angular acceleration when v̇ = 0 \[rad/s²\]. On a ball joint it is Σ ė_j v_j, which is zero except for Bryant angles.
     pub bias: Vec3<'g>,
-    /// Acceleration of the origin less that of the carrier's, when v̇ = 0 \[m/s²\]; of the root, less that of the reference joint. Zero on ball joints, where
-    /// [`ElementMotion::gamma`] of the carrier says it.
+    /// The acceleration of the origin minus that of the carrier's origin, when v̇ = 0 \[m/s²\]; for the root, minus that of the reference joint. It
+    /// is zero on ball joints, where [`ElementMotion::gamma`] of the carrier gives it.
     pub slide_bias: Vec3<'g>,
-    /// Position of the joint \[m\].
+    /// Position of the joint, in absolute axes \[m\].
     pub position: Vec3<'g>,
-    /// Velocity of the joint \[m/s\].
+    /// Velocity of the joint, in absolute axes \[m/s\].
     pub velocity: Vec3<'g>,
-    /// Position of the origin relative to the parent's, u = A_parent s on a ball joint; of the root, relative to the reference joint.
+    /// Position of the origin relative to that of the parent, u = A_parent s on a ball joint; for the root, relative to the reference joint \[m\].
     pub offset: Vec3<'g>,
 }
 
 impl<'g> ElementMotion<'g> {
-    /// A body at rest in the absolute frame.
+    /// The motion of a body at rest in the absolute frame.
     pub(crate) fn frame(graph: &'g Graph) -> Self {
         let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
         let none = Vec3::zero(graph);
@@ -106,7 +107,7 @@ impl<'g> ElementMotion<'g> {
         }
     }
 
-    /// Sets ω.
+    /// Sets the angular velocity ω.
     pub(crate) fn turns(&mut self, omega: Vec3<'g>) {
         self.omega = omega;
         self.omega_squared = omega.squared();
@@ -122,7 +123,7 @@ impl<'g> ElementMotion<'g> {
         self.omega_squared
     }
 
-    /// γ(v): acceleration of the tip of v, fixed in the element, when v̇ = 0.
+    /// γ(v): the acceleration of the tip of v, a vector fixed in the element, when v̇ = 0.
     pub fn gamma(&self, v: Vec3<'g>) -> Vec3<'g> {
         self.centripetal(v) + self.bias.cross(v)
     }
@@ -132,7 +133,7 @@ impl<'g> ElementMotion<'g> {
         self.axes.iter().map(|e| e.cross(v)).collect()
     }
 
-    /// Velocity of a point at offset ρ from the joint.
+    /// Velocity of a point at the offset ρ from the joint.
     pub fn velocity_at(&self, offset: Vec3<'g>) -> Vec3<'g> {
         self.velocity + self.omega.cross(offset)
     }
@@ -140,22 +141,22 @@ impl<'g> ElementMotion<'g> {
 
 /// Motion of all elements.
 pub struct Motion<'g> {
-    /// By system and element.
+    /// For each system, the motion of each element.
     pub systems: Vec<Vec<ElementMotion<'g>>>,
-    /// By system: the velocity of its reference joint.
+    /// For each system, the velocity of its reference joint.
     pub references: Vec<Vec3<'g>>,
-    /// By vehicle.
+    /// For each vehicle, its motion.
     pub vehicles: Vec<VehicleMotion<'g>>,
     frame: ElementMotion<'g>,
 }
 
 impl<'g> Motion<'g> {
-    /// The motion at the inputs t, q, v.
+    /// The motion as a function of the inputs t, q, v.
     pub fn of(graph: &'g Graph, model: &Model, layout: &Layout, state: &State<'g>) -> Self {
         Self::new(graph, model, layout, state, Some(time(graph)))
     }
 
-    /// The motion at the start of a run, where q and v are functions of parameters.
+    /// The motion at the start of a run, where q and v depend on parameters.
     pub fn at_start(graph: &'g Graph, model: &Model, layout: &Layout, start: &State<'g>) -> Self {
         Self::new(graph, model, layout, start, None)
     }
@@ -235,7 +236,7 @@ impl<'g> Motion<'g> {
         }
     }
 
-    /// Offset from the body's joint, position and velocity of an attachment, absolute axes.
+    /// A point at which forces attach: its offset from the body's joint, its position and its velocity, in absolute axes.
     pub fn attachment(&self, graph: &'g Graph, attachment: &Attachment) -> Point<'g> {
         let body = self.body(attachment.on);
         let offset = body.rotation.times(vector(graph, &attachment.at));
@@ -247,20 +248,20 @@ impl<'g> Motion<'g> {
     }
 }
 
-/// A system whose motion is made.
+/// A system while its motion is derived.
 struct Tree<'a, 'g> {
     graph: &'g Graph,
     model: &'a Model,
     layout: &'a Layout,
     state: &'a State<'g>,
-    /// Whether what is made has names, for the reader.
+    /// Whether expressions get names, for the reader.
     named: bool,
-    /// What carries the root: the frame or a vehicle, its origin in the reference joint.
+    /// The carrier of the root: the absolute frame or a vehicle, with its origin in the reference joint.
     reference: ElementMotion<'g>,
 }
 
 impl<'g> Tree<'_, 'g> {
-    /// The motion of each element, root to leaves.
+    /// The motion of each element, from the root to the leaves.
     fn motions(&self, system: usize) -> Vec<ElementMotion<'g>> {
         let mut motions: Vec<ElementMotion<'g>> = Vec::new();
         for (element, of) in self.model.systems[system].elements.iter().enumerate() {
@@ -350,18 +351,18 @@ impl<'g> Tree<'_, 'g> {
     }
 }
 
-/// A point of a body, absolute axes.
+/// A point of a body, in absolute axes.
 #[derive(Clone, Copy)]
 pub struct Point<'g> {
-    /// From the body's joint \[m\].
+    /// Offset from the body's joint \[m\].
     pub offset: Vec3<'g>,
-    /// \[m\]
+    /// Position \[m\].
     pub position: Vec3<'g>,
-    /// \[m/s\]
+    /// Velocity \[m/s\].
     pub velocity: Vec3<'g>,
 }
 
-/// "head", with the system's name before it where there are several systems.
+/// "head"; if there are several systems, with the name of the system before it.
 pub fn path(model: &Model, id: ElementId) -> String {
     let system = &model.systems[id.system];
     let element = &system.elements[id.element].name;
@@ -377,7 +378,7 @@ pub fn identifier(model: &Model, id: ElementId) -> String {
     path(model, id).replace(['/', '-'], "_")
 }
 
-/// W⁻¹ ν with W = \[e_x, second, third\]: φ̈ from α − ε, or φ̇ from ω; W is singular where cos φ₂ = 0.
+/// W⁻¹ ν with W = \[e_x, second, third\]. It gives φ̈ from α − ε, or φ̇ from ω. W is singular where cos φ₂ = 0.
 pub fn inverse_rates<'g>(
     second: Vec3<'g>,
     third: Vec3<'g>,
@@ -390,12 +391,12 @@ pub fn inverse_rates<'g>(
     [x - third.0[0] * rate_3, c1 * y + s1 * z, rate_3]
 }
 
-/// A principal-axes frame as a constant rotation relative to the element's frame.
+/// The constant rotation of a frame of principal axes relative to the frame of the element.
 pub fn constant_rotation<'g>(graph: &'g Graph, axes: &[Number; 3]) -> Mat3<'g> {
     bryant(graph, vector(graph, axes).0).0
 }
 
-/// Children of every element of a system.
+/// The children of every element of a system.
 pub fn children(elements: &[Element]) -> Vec<Vec<usize>> {
     let mut children = vec![Vec::new(); elements.len()];
     for (k, element) in elements.iter().enumerate() {

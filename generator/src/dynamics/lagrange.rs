@@ -1,12 +1,11 @@
-//! The paper's own route, slow and independent: the kinetic energy differentiated.
+//! Lagrange's equations, the route of the paper: differentiates the kinetic energy. It is slow, but independent of the other routes.
 //!
 //! T = ½ Σ m ṙ·ṙ + ½ Σ ω'ᵀ I ω',   S = ∂²T/∂q̇²,   r_s = ∂T/∂q − (∂²T/∂q̇∂q) q̇ − ∂²T/∂q̇∂t
 //!
-//! Nothing is shared with the rest of the formalism but the rotation matrices and the numbers of the model: positions are
-//! composed by the tree, velocities are ṙ = Σ (∂r/∂q_i) q̇_i by differentiation, and the angular velocity is read off
-//! Aᵀ Ȧ = ω̂'. Where a reference joint is moved as given, T depends on time, and r_s holds what the equations count to
-//! r_k: the inertia against the given acceleration. It serves to test the equations, in the plane and in Bryant coordinates (where v = q̇, in
-//! whatever chart).
+//! It shares with the rest of the generator only the rotation matrices and the numbers of the model. Positions are composed along the tree,
+//! velocities are ṙ = Σ (∂r/∂q_i) q̇_i by differentiation, and the angular velocity is read from Aᵀ Ȧ = ω̂'. If a reference joint is moved as
+//! given, T depends on time, and r_s contains the inertia against the given acceleration, which the other routes count in r_k. Tests use it
+//! to check the equations, in the plane and with Bryant angles (where v = q̇ in either chart).
 
 use super::kinematics::constant_rotation;
 use super::layout::{Layout, Orientation};
@@ -25,11 +24,11 @@ pub struct Lagrange {
     pub graph: Graph,
     /// S, by rows.
     pub mass_matrix: Vec<Vec<NodeId>>,
-    /// r_s, with the inertia against given accelerations
+    /// r_s, including the inertia against given accelerations.
     pub velocity_forces: Vec<NodeId>,
 }
 
-/// Why a model has no Lagrange's equations here.
+/// Why Lagrange's equations of a model cannot be derived here.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoLagrange {
     /// The velocities are not the rates of the coordinates.
@@ -37,7 +36,7 @@ pub enum NoLagrange {
         "Lagrange's equations need v = q̇, which is not so of quaternions: derive the model in `coordinates: bryant`"
     )]
     Quaternions,
-    /// Never of a model as described: its kinetic energy holds nothing but algebra, sines, cosines and curves of time.
+    /// Cannot happen for a model: its kinetic energy contains only algebra, sines, cosines and curves of time.
     #[error(transparent)]
     NotDifferentiable(#[from] NotDifferentiable),
 }
@@ -155,7 +154,8 @@ fn energy_of<'g>(
     Ok(energy + sum(graph, turns))
 }
 
-/// Where the freedoms of a joint put an element in the frame of what carries it, by products of matrices: Rodrigues' formula of each.
+/// Position and rotation that the degrees of freedom of a joint give an element, in the frame of its carrier, by products of matrices:
+/// Rodrigues' formula for each.
 fn placed<'g>(graph: &'g Graph, freedoms: &[Freedom], q: &[Expr<'g>]) -> (Vec3<'g>, Mat3<'g>) {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let mut turn = Mat3([[one, zero, zero], [zero, one, zero], [zero, zero, one]]);
@@ -209,13 +209,13 @@ fn vehicle_angles<'g>(graph: &'g Graph, vehicle: &Vehicle) -> [Expr<'g>; 3] {
     })
 }
 
-/// R Ry(−90° c), c being 0 or 1: a blend of its columns in both charts, which can be differentiated.
+/// R Ry(−90° c) for c = 0 or 1, as a sum of the columns in both charts, which can be differentiated.
 fn in_chart<'g>(r: &Mat3<'g>, chart: Expr<'g>) -> Mat3<'g> {
     let other = chart.graph().constant(1.0) - chart;
     Mat3(r.0.map(|[x, y, z]| [other * x + chart * z, y, other * z - chart * x]))
 }
 
-/// Where a reference joint is that is not free.
+/// The position of a reference joint that is not free.
 fn reference_position<'g>(graph: &'g Graph, model: &Model, system: &System) -> Vec3<'g> {
     match &system.reference {
         Reference::Prescribed(translation) => {
@@ -233,7 +233,7 @@ fn reference_position<'g>(graph: &'g Graph, model: &Model, system: &System) -> V
     }
 }
 
-/// d/dt of three functions of q and t.
+/// The time derivative of three functions of q and t.
 fn rate<'g>(graph: &'g Graph, of: [Expr<'g>; 3]) -> Result<[Expr<'g>; 3], NotDifferentiable> {
     let rates = differentiate_along(graph, &of.map(|e| e.id()), |symbol| {
         following(graph, symbol)
@@ -241,7 +241,7 @@ fn rate<'g>(graph: &'g Graph, of: [Expr<'g>; 3]) -> Result<[Expr<'g>; 3], NotDif
     Ok(std::array::from_fn(|i| graph.expr(rates[i])))
 }
 
-/// The direction in which q moves with q̇, and time with itself.
+/// The direction in which q moves with q̇, and time with 1.
 fn following(graph: &Graph, symbol: Symbol) -> Expr<'_> {
     match symbol {
         Symbol::Coordinate(i) => graph.symbol(Symbol::Velocity(i)),

@@ -1,8 +1,8 @@
-//! Which coordinates and velocities a model has, in which order, and how the one follow from the other.
+//! The coordinates and velocities of a model, their order, and how q̇ follows from v.
 //!
-//! System by system: the reference joint's coordinates (where it is free), then each element's: the freedoms of its joint, or its
-//! orientation on a ball joint. q̇ = v except for quaternions, where q̇ = ½ ω ∘ q. Bryant angles are in one of two
-//! [charts](super::chart), which is the first of the memory.
+//! The order is system by system. First come the reference joint's coordinates, if it is free, then those of each element: the
+//! coordinates of its joint, or its orientation on a ball joint. q̇ = v except for quaternions, where q̇ = ½ ω ∘ q. Bryant angles are in
+//! one of two [charts](super::chart), which come first in m.
 
 use super::kinematics::State;
 use super::numbers::number;
@@ -14,14 +14,14 @@ use crate::joint::{ball, free};
 use crate::model::{Dimension, ElementId, Freedom, Joint, Model, Reference};
 use std::ops::Range;
 
-/// Positions of everything in q and v.
+/// The positions of all coordinates and velocities in q and v.
 #[derive(Clone, Debug)]
 pub struct Layout {
     /// q, in order.
     pub coordinates: Vec<Variable>,
     /// v, in order.
     pub velocities: Vec<Variable>,
-    /// How orientation is described, of all elements on ball joints.
+    /// The description of the orientation of all elements on ball joints.
     pub orientation: Orientation,
     /// Absolute axes along which a free reference joint moves: (0, 2) in the plane, (0, 1, 2) in space.
     pub directions: &'static [usize],
@@ -35,12 +35,12 @@ struct SystemLayout {
     elements: Vec<ElementLayout>,
 }
 
-/// Where the coordinates of an element stand.
+/// The positions of the coordinates of an element.
 #[derive(Clone, Debug)]
 struct ElementLayout {
-    /// In q.
+    /// Range in q.
     coordinates: Range<usize>,
-    /// In v.
+    /// Range in v.
     velocities: Range<usize>,
     /// Index of the chart of its Bryant angles in m.
     chart: Option<usize>,
@@ -48,16 +48,16 @@ struct ElementLayout {
     quaternion: bool,
 }
 
-/// A velocity of a joint as a share of one in v: q = ratio · q_i + offset, q̇ = ratio · v_j.
+/// A velocity of a joint as a share of one entry of v: q = ratio · q_i + offset, q̇ = ratio · v_j.
 #[derive(Clone, Copy)]
 pub struct Share<'g> {
-    /// i; of a ball joint, its first coordinate.
+    /// i; for a ball joint, its first coordinate.
     pub coordinate: usize,
     /// j
     pub velocity: usize,
-    /// 1 of a velocity of its own.
+    /// 1 for a velocity of its own.
     pub ratio: Expr<'g>,
-    /// 0 of a coordinate of its own.
+    /// 0 for a coordinate of its own.
     pub offset: Expr<'g>,
 }
 
@@ -70,7 +70,7 @@ impl Layout {
         let mut systems = Vec::new();
         let mut charts = 0;
         for (s, system) in model.systems.iter().enumerate() {
-            // their places in q and in v
+            // their positions in q and in v
             let mut add = |owner: &str, element, variables: Variables| {
                 let first = (coordinates.len(), velocities.len());
                 let variable = |(name, unit)| Variable {
@@ -115,21 +115,21 @@ impl Layout {
         }
     }
 
-    /// Indices in v of a free reference joint.
+    /// Range in v of a free reference joint; `None` if it is not free.
     pub fn reference_velocities(&self, system: usize) -> Option<Range<usize>> {
         self.systems[system]
             .reference
             .map(|(_, v)| v..v + self.directions.len())
     }
 
-    /// Indices in q of a free reference joint.
+    /// Range in q of a free reference joint; `None` if it is not free.
     pub fn reference_coordinates(&self, system: usize) -> Option<Range<usize>> {
         self.systems[system]
             .reference
             .map(|(q, _)| q..q + self.directions.len())
     }
 
-    /// Indices in v of a system.
+    /// Range in v of a system.
     pub fn system_velocities(&self, system: usize) -> Range<usize> {
         let of = |s: &SystemLayout| {
             let first = s.reference.map(|(_, v)| v);
@@ -142,18 +142,18 @@ impl Layout {
         of(&self.systems[system])
     }
 
-    /// Indices in v of an element's rotation.
+    /// Range in v of the joint of an element.
     pub fn element_velocities(&self, id: ElementId) -> Range<usize> {
         self.element(id).velocities.clone()
     }
 
-    /// Indices in q of an element's coordinates.
+    /// Range in q of the joint of an element.
     pub fn element_coordinates(&self, id: ElementId) -> Range<usize> {
         self.element(id).coordinates.clone()
     }
 
-    /// The velocities of an element's joint, each as a share of one in v: its index, and how much of it. What follows another freedom has
-    /// no entry of its own, and is a share of the leader's.
+    /// The velocities of an element's joint, each as a share of an entry of v. A degree of freedom that follows another has no entry of
+    /// its own; it is a share of the leader's entry.
     pub fn shares<'g>(&self, graph: &'g Graph, model: &Model, id: ElementId) -> Vec<Share<'g>> {
         let whole = |(coordinate, velocity)| Share {
             coordinate,
@@ -167,7 +167,7 @@ impl Layout {
             .map(whole);
         let system = &model.systems[id.system];
         let Joint::Freedoms(freedoms) = &system.elements[id.element].joint else {
-            // coordinates and velocities of a ball joint differ in number
+            // a ball joint may have more coordinates than velocities
             let first = self.element_coordinates(id).start;
             return self
                 .element_velocities(id)
@@ -193,17 +193,17 @@ impl Layout {
         freedoms.iter().filter_map(share).collect()
     }
 
-    /// Index in m of the chart that an element's Bryant angles are in; `None` in other coordinates.
+    /// Index in m of the chart of an element's Bryant angles; `None` for other coordinates.
     pub fn element_chart(&self, id: ElementId) -> Option<usize> {
         self.element(id).chart
     }
 
-    /// Number of charts, which are the first of m.
+    /// Number of charts, which come first in m.
     pub fn charts(&self) -> usize {
         self.elements().filter(|e| e.chart.is_some()).count()
     }
 
-    /// Indices in q that form unit quaternions.
+    /// Ranges in q that form unit quaternions.
     pub fn quaternions(&self) -> Vec<Range<usize>> {
         let quaternions = self.elements().filter(|e| e.quaternion);
         quaternions.map(|e| e.coordinates.clone()).collect()
@@ -217,7 +217,7 @@ impl Layout {
         &self.systems[id.system].elements[id.element]
     }
 
-    /// q, v and charts where a run starts.
+    /// q, v and charts at the start of a run.
     pub fn start<'g>(&self, graph: &'g Graph, model: &Model) -> State<'g> {
         graph.section("initial state");
         let (mut q, mut v, mut charts) = (Vec::new(), Vec::new(), Vec::new());
@@ -237,7 +237,7 @@ impl Layout {
         State { q, v, charts }
     }
 
-    /// q̇.
+    /// q̇ as a function of q and v.
     pub fn coordinate_rates<'g>(
         &self,
         graph: &'g Graph,

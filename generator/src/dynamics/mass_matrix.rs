@@ -2,11 +2,11 @@
 //!
 //! S_xx = M·1,   S_xk = D_k(w_k),   S_kk = E_kᵀ (A J Aᵀ) E_k,   S_jk = D_j(u_c)ᵀ D_k(w_k)   \[MADYMO 1980\]
 //!
-//! x are the velocities of a free reference joint and k those of element k. j is inboard of k, and c is the child of j on the way to k. E holds the
+//! x are the velocities of a free reference joint, and k those of element k. j is inboard of k, and c is the child of j on the way to k. E holds the
 //! columns e_j, and D_k(v) the columns e_j × v. M, w and J are mass, first moment and inertia of the [augmented body](super::augmented). Elements on
-//! different branches do not couple, and systems do not: these entries are absent.
+//! different branches, and different systems, are not coupled; these entries are absent.
 //!
-//! Systems with other joints have S from [composite bodies](super::spatial).
+//! Systems with other joints get S from [composite bodies](super::spatial).
 
 use super::kinematics::path;
 use super::spatial::{self, Spatial};
@@ -14,7 +14,7 @@ use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::model::ElementId;
 
-/// S by rows; `None` where the tree says that the entry is 0 in every state.
+/// S by rows; `None` where the tree shows that the entry is 0 in every state.
 pub fn mass_matrix<'g>(systems: &[Spatial<'g, '_>], size: usize) -> Vec<Vec<Option<Expr<'g>>>> {
     let mut matrix = vec![vec![None; size]; size];
     for spatial in systems {

@@ -1,4 +1,4 @@
-//! From a model to its equations of motion: S(q) v̇ = r_s(q, v) + r_k(t, q, v)   \[MADYMO 1980, eq. 2\]
+//! Derives the equations of motion of a model: S(q) v̇ = r_s(q, v) + r_k(t, q, v)   \[MADYMO 1980, eq. 2\]
 //!
 //! | here | standard words | file |
 //! |---|---|---|
@@ -11,9 +11,9 @@
 //! | D = Hᵀ I H | joint-space inertia, I being the articulated one | there |
 //! | L D Lᵀ | factorisation of S | `factorization` |
 //!
-//! Everything is written once, for space, in vectors of absolute axes; `link/` alone is in the frames of links. In the plane the components along y and
-//! the rotations about x and z are the number 0 and leave no node behind. What distinguishes the coordinates of an orientation is only the list of
-//! [axes] by which an element's angular velocity is made from its generalised velocities: ω = Σ e_j v_j with
+//! All derivations are written once, for space, in vectors of absolute axes; only `link/` uses the frames of links. In the plane the components along
+//! y and the rotations about x and z are the number 0, so they leave no node behind. The coordinates of an orientation differ only in the list of
+//! [axes] that give an element's angular velocity from its generalised velocities: ω = Σ e_j v_j with
 //!
 //! | | axes e_j |
 //! |---|---|
@@ -21,10 +21,10 @@
 //! | space, quaternion | e_x, e_y, e_z |
 //! | space, Bryant | e_x, Rx e_y, Rx Ry e_z |
 //!
-//! Bryant angles are in one of two [charts](chart), which differ in the order of the columns of A alone.
+//! Bryant angles are in one of two [charts](chart), which differ only in the order of the columns of A.
 //!
-//! Notation: m, g, I of an element; s a joint on its parent; A rotation, local → absolute; u = A s; w = A b; γ(v) the
-//! velocity-squared acceleration of a vector fixed in an element; D(v) the columns e_j × v.
+//! Notation: m, g, I are mass, centre of gravity and inertia of an element; s is the place of a joint on its parent; A is the rotation local →
+//! absolute; u = A s; w = A b; γ(v) is the velocity-product (bias) acceleration of a vector fixed in an element; D(v) has the columns e_j × v.
 //!
 //! [axes]: kinematics::ElementMotion::axes
 
@@ -61,12 +61,12 @@ use layout::Layout;
 use outputs::Scene;
 use spatial::Spatial;
 
-/// What to derive, and how.
+/// Options of the derivation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Derive S, r_s and r_k too. Their size grows as elements times depth, that of the accelerations as elements.
+    /// Whether to derive S, r_s and r_k, too. Their size grows as elements times depth of the tree, that of the accelerations as elements.
     pub matrices: bool,
-    /// The route of the accelerations; `None` takes the one with fewest operations.
+    /// The route of the accelerations; `None` takes the route with the fewest operations.
     pub route: Option<Route>,
 }
 
@@ -79,7 +79,7 @@ impl Default for Options {
     }
 }
 
-/// Freedoms up to which the factorised mass matrix is tried as a route: beyond, elimination always wins.
+/// Number of degrees of freedom up to which the factorised mass matrix is tried. Beyond, the articulated-body algorithm always wins.
 const LARGEST_FACTORIZED: usize = 12;
 
 /// Derives the equations of a model: S, r_s, r_k, and the accelerations by the cheapest route.
@@ -92,21 +92,21 @@ pub fn derive_with(model: &Model, options: Options) -> Equations {
     derive_without(model, options, None)
 }
 
-/// Derives the equations of a model, but for an effect of inertia.
+/// Derives the equations of a model without an effect of inertia.
 pub fn derive_without(model: &Model, options: Options, omitted: Option<Omitted>) -> Equations {
     derive_in(model, options, omitted, |graph, layout| {
         State::symbols(graph, layout)
     })
 }
 
-/// Derives the equations of a model to be read: Bryant angles are in chart 0, the charts no symbols.
+/// Derives the equations of a model for reading: Bryant angles are in chart 0, and charts are no symbols.
 pub fn derive_in_first_chart(model: &Model) -> Equations {
     derive_in(model, Options::default(), None, |graph, layout| {
         State::in_first_chart(graph, layout)
     })
 }
 
-/// The symbols that equations are of.
+/// A function that makes the symbols of the equations.
 type Symbols = for<'g> fn(&'g Graph, &Layout) -> State<'g>;
 
 fn derive_in(
@@ -126,7 +126,7 @@ fn derive_in(
                 return elimination;
             }
             let factorized = by_route(model, options, Route::MassMatrix, omitted, symbols);
-            // Angles and calls are the same by both routes: what the factoring pass makes smaller is all there is to compare.
+            // Angles and calls are the same by both routes, so only the operations that the factoring pass reduces are compared.
             let cost = |e: &Equations| factor::cost(&Count::of(&e.graph, &e.accelerations));
             if cost(&factorized) < cost(&elimination) {
                 factorized
@@ -234,7 +234,7 @@ fn by_route(
     let curves = loads.curves(&graph);
     let conditions = conditions::of(&graph, model, &start);
     let renewed = chart::renewed(&graph, model, &layout, &motion, &state);
-    for (memory, chart) in loads.memory.iter_mut().zip(&renewed.charts) {
+    for (memory, chart) in loads.states.memory.iter_mut().zip(&renewed.charts) {
         memory.next = *chart;
     }
     let states = |states: &[force::LawState<'_>]| -> Vec<LawState> {
@@ -256,7 +256,7 @@ fn by_route(
 
     let mut needed = [&accelerations[..], &outputs, &applied_forces].concat();
     needed.extend(powers.iter().map(|(_, power)| *power));
-    needed.extend(loads.auxiliaries.iter().map(|state| state.next));
+    needed.extend(loads.states.auxiliaries.iter().map(|state| state.next));
     let needed = ids(&needed);
     let mass_matrix = matrix
         .iter()
@@ -271,12 +271,12 @@ fn by_route(
         applied_forces: ids(&applied_forces),
         accelerations: ids(&accelerations),
         route,
-        auxiliaries: states(&loads.auxiliaries),
-        memory: states(&loads.memory),
+        auxiliaries: states(&loads.states.auxiliaries),
+        memory: states(&loads.states.memory),
         charts: layout.charts(),
         renewed_coordinates: ids(&renewed.q),
         renewed_velocities: ids(&renewed.v),
-        guards: named(&loads.guards),
+        guards: named(&loads.events.guards),
         kinks: named(&kinks),
         onsets: (onsets.iter())
             .map(|(name, onset)| Onset {

@@ -1,9 +1,9 @@
-//! Where the momentum goes: ṗ = Σ F and L̇ = Σ (r × F + M), of all systems whose reference joint is free together.
+//! The momentum balance: ṗ = Σ F and L̇ = Σ (r × F + M), for all systems together whose reference joint is free.
 //!
-//! p = Σ m v is their linear momentum and L = Σ (r × m v + I ω) the angular one about the origin of the absolute frame, v of
-//! the centres of gravity at r. F are the forces that laws and fields exert on their elements, at r, M moments. What acts
-//! between two of their elements is counted on both and cancels; the systems that are held or moved, vehicles and the frame
-//! are outside.
+//! p = Σ m v is their linear momentum, and L = Σ (r × m v + I ω) their angular momentum about the origin of the absolute
+//! frame, with the velocities v of the centres of gravity at r. F are the forces of laws and fields on their elements, at r,
+//! and M moments. A force between two of their elements counts on both and cancels. Systems that are held or moved, vehicles
+//! and the absolute frame are outside.
 
 use super::numbers::{number, vector};
 use super::outputs::Scene;
@@ -11,12 +11,12 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
 use crate::model::{Component, ElementId, Projection, Reference, SystemQuantity};
 
-/// The systems whose reference joint is free, and whose root turns at will.
+/// The systems whose reference joint is free and whose root turns freely.
 fn free(scene: &Scene<'_, '_>) -> Vec<usize> {
     let systems = scene.model.systems.iter().enumerate();
     systems
         .filter(|(_, system)| {
-            // a root that the frame keeps from turning is held
+            // a root whose joint does not let it turn freely is held by the frame
             let held = system.elements[0].joint.turns_with_carrier();
             matches!(system.reference, Reference::Free) && !held
         })
@@ -24,7 +24,7 @@ fn free(scene: &Scene<'_, '_>) -> Vec<usize> {
         .collect()
 }
 
-/// p \[N s\] and L \[N m s\], absolute axes; nothing where no system is free.
+/// p \[N s\] and L \[N m s\], in absolute axes; empty if no system is free.
 pub fn momentum<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
     let free = free(scene);
     if free.is_empty() {
@@ -42,7 +42,7 @@ pub fn momentum<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
         .collect()
 }
 
-/// Σ F \[N\] and Σ (r × F + M) \[N m\], the rates of [`momentum`]; nothing where no system is free.
+/// Σ F \[N\] and Σ (r × F + M) \[N m\], the rates of [`momentum`]; empty if no system is free.
 pub fn external_wrench<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
     let free = free(scene);
     if free.is_empty() {
@@ -52,15 +52,15 @@ pub fn external_wrench<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
     graph.section("external_wrench");
     let (mut force, mut moment) = (Vec3::zero(graph), Vec3::zero(graph));
     for s in free {
-        // laws act by their resultants at the joints; a field of the whole system on all centres of gravity at once
-        let field = scene.loads.fields[s];
+        // laws act by their resultants at the joints; a field of the whole system acts on all centres of gravity at once
+        let field = scene.loads.wrenches.fields[s];
         let (mut mass, mut first_moment) = (graph.constant(0.0), Vec3::zero(graph));
         for (k, element) in scene.model.systems[s].elements.iter().enumerate() {
             let motion = scene.motion.element(ElementId {
                 system: s,
                 element: k,
             });
-            let load = &scene.loads.elements[s][k];
+            let load = &scene.loads.wrenches.elements[s][k];
             force = force + load.force;
             moment = moment + load.moment + motion.position.cross(load.force);
             let own = number(graph, &element.mass);

@@ -32,7 +32,7 @@ pub fn curve<'g>(graph: &'g Graph, curve: &ScaledCurve, argument: Expr<'g>) -> E
     derivative(graph, curve, Function::Curve, argument)
 }
 
-/// A derivative or an integral of a scaled curve at an argument: c(x) = times · curve(x/stretch) has the slope
+/// A derivative or an integral of a scaled curve at an argument. c(x) = times · curve(x/stretch), so its slope is
 /// times/stretch · curve'(x/stretch), and so on.
 pub fn derivative<'g>(
     graph: &'g Graph,
@@ -52,25 +52,25 @@ pub fn derivative<'g>(
     factor * graph.call(function, &[argument * rate])
 }
 
-/// A function whose sign changes where a scaled curve is not smooth, at an argument.
+/// The breakpoint indicator of a scaled curve at an argument: its sign changes where the curve is not smooth.
 pub fn zigzag<'g>(graph: &'g Graph, curve: &ScaledCurve, argument: Expr<'g>) -> Expr<'g> {
     let function = Function::CurveZigzag(curve.curve as u32);
     graph.call(function, &[argument * rate(graph, curve)])
 }
 
-/// By what the argument of a scaled curve is multiplied: 1/stretch.
+/// The factor on the argument of a scaled curve: 1/stretch.
 pub fn rate<'g>(graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
     number(graph, &curve.stretch).recip()
 }
 
-/// The argument at which a scaled curve has a value.
+/// The argument at which a scaled curve has this value.
 pub fn inverse<'g>(graph: &'g Graph, curve: &ScaledCurve, value: Expr<'g>) -> Expr<'g> {
     let ordinate = value / number(graph, &curve.times);
     let x = graph.call(Function::CurveInverse(curve.curve as u32), &[ordinate]);
     x * number(graph, &curve.stretch)
 }
 
-/// Rx(φ₁) Ry(φ₂) Rz(φ₃) and the columns of W, by which φ̇ makes the angular velocity in absolute axes.
+/// Rx(φ₁) Ry(φ₂) Rz(φ₃), and the columns of W, with which φ̇ gives the angular velocity in absolute axes.
 pub fn bryant<'g>(graph: &'g Graph, angles: [Expr<'g>; 3]) -> (Mat3<'g>, [Vec3<'g>; 3]) {
     let [(s1, c1), (s2, c2), (s3, c3)] = angles.map(|a| (a.sin(), a.cos()));
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));

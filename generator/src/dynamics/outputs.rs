@@ -1,32 +1,32 @@
-//! The quantities that a scene asks to see.
+//! The outputs of a scene.
 //!
-//! Acceleration of a point at offset ρ: p̈ + ω̇ × ρ + ω × (ω × ρ), the joints' p̈ from the reference joint outwards.
-//! An accelerometer reads that less the fields, which act on its own mass as well.
+//! The acceleration of a point at the offset ρ is p̈ + ω̇ × ρ + ω × (ω × ρ), where p̈ of the joints is summed from the reference joint
+//! outwards. An accelerometer reads this minus the fields, which act on its own mass, too.
 //!
-//! An observer who rides on a body b, with its origin at o, sees of a point p, with r = p − o and all in absolute axes,
+//! An observer rides on a body b with its origin at o. With r = p − o, all in absolute axes, he sees the point p move with
 //!
 //! r,   ṙ − ω_b × r,   r̈ − ω̇_b × r − ω_b × (ω_b × r) − 2 ω_b × (ṙ − ω_b × r)
 //!
-//! and of a rotation with ω the angular velocity ω − ω_b and the angular acceleration ω̇ − ω̇_b − ω_b × (ω − ω_b).
+//! and a rotation ω with the angular velocity ω − ω_b and the angular acceleration ω̇ − ω̇_b − ω_b × (ω − ω_b).
 //!
-//! A joint transmits to the element that it carries the force Σ (m a − m g − F), summed over that element and all that it carries.
-//! A ball joint turns freely: it transmits the moment of the laws in it. Any other transmits Σ (r × (m a − m g − F) + I α + ω × I ω − M),
-//! with r from the element's origin.
+//! A joint transmits the force Σ (m a − m g − F) to the element that it carries, summed over that element and all that this carries. A
+//! ball joint turns freely, so it transmits only the moment of its laws. Any other joint transmits
+//! Σ (r × (m a − m g − F) + I α + ω × I ω − M), with r from the element's origin.
 
 use super::augmented::{own_inertia, rotated};
-use super::force::{Loads, Measures, UserMeasures};
+use super::force::Loads;
 use super::kinematics::{ElementMotion, Motion, reference_acceleration};
 use super::layout::{Layout, Orientation};
 use super::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
+use crate::law::Value;
 use crate::model::{
-    AirbagQuantity, BeltQuantity, Body, Component, ContactQuantity, ElementId, FreedomQuantity,
-    JointLoadQuantity, JointQuantity, Model, PointQuantity, Projection, Quantity, RotationQuantity,
-    SpringQuantity, Switch, SwitchQuantity, SystemQuantity, UserQuantity,
+    Body, Component, ElementId, FreedomQuantity, JointLoadQuantity, Model, PointQuantity,
+    Projection, Quantity, RotationQuantity, Switch, SwitchQuantity, SystemQuantity,
 };
 
-/// Values of the model's outputs, in its order.
+/// The values of the model's outputs, in their order.
 pub fn outputs<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
     scene
         .model
@@ -39,11 +39,11 @@ pub fn outputs<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
         .collect()
 }
 
-/// Everything that is known of a model in motion.
+/// All derived quantities of a model in motion.
 pub struct Scene<'g, 'a> {
-    /// Where expressions are made.
+    /// The graph of the expressions.
     pub graph: &'g Graph,
-    /// What is in motion.
+    /// The model.
     pub model: &'a Model,
     /// Its coordinates.
     pub layout: &'a Layout,
@@ -51,14 +51,14 @@ pub struct Scene<'g, 'a> {
     pub motion: &'a Motion<'g>,
     /// The motion at the start of a run.
     pub start: &'a Motion<'g>,
-    /// What acts.
+    /// The applied forces.
     pub loads: &'a Loads<'g>,
     /// v̇
     pub accelerations: &'a [Expr<'g>],
 }
 
 impl<'g> Scene<'g, '_> {
-    /// What the switches look at; nothing for a time.
+    /// The quantities that trigger switches; `None` for a switch at a time.
     pub fn triggers(&self) -> Vec<Option<Expr<'g>>> {
         let of = |switch: &Switch| {
             self.graph.section(format!("switch {}", switch.name));
@@ -119,90 +119,37 @@ impl<'g> Scene<'g, '_> {
                 on_second,
                 projection,
             } => {
-                let on_first = match &self.loads.measures[*force] {
-                    Measures::Contact(m) => m.on_first,
-                    Measures::Belt(m) => m.on[0],
-                    Measures::Spring(m) => m.on_first,
-                    _ => Vec3::zero(self.graph),
-                };
+                let on = self.loads.measures[*force].on();
+                let on_first = on.first().copied();
+                let on_first = on_first.unwrap_or_else(|| Vec3::zero(self.graph));
                 self.of(*projection, if *on_second { -on_first } else { on_first })
             }
-            Quantity::Joint { force, about, what } => match &self.loads.measures[*force] {
-                Measures::Joint(measures) => measures[*about].map_or(zero, |m| match what {
-                    JointQuantity::Torque => m.torque,
-                    JointQuantity::Angle => m.angle,
-                    JointQuantity::Rate => m.rate,
-                }),
-                _ => zero,
-            },
-            Quantity::Contact { force, what } => match &self.loads.measures[*force] {
-                Measures::Contact(m) => match what {
-                    ContactQuantity::Force => m.force,
-                    ContactQuantity::Normal => m.normal,
-                    ContactQuantity::Friction => m.friction,
-                    ContactQuantity::Penetration => m.penetration,
-                    ContactQuantity::PermanentSet => m.permanent_set,
-                },
-                _ => zero,
-            },
-            Quantity::Belt { force, part, what } => match &self.loads.measures[*force] {
-                Measures::Belt(m) => match what {
-                    BeltQuantity::Force => m.segments[*part].tension,
-                    BeltQuantity::Length => m.segments[*part].length,
-                    BeltQuantity::Elongation => m.segments[*part].elongation,
-                    BeltQuantity::UntensionedLength => m.segments[*part].untensioned,
-                    BeltQuantity::Payout => m.payout,
-                    BeltQuantity::PermanentSet => m.segments[*part].permanent_set,
-                    BeltQuantity::Slip => m.slipped[*part],
-                },
-                _ => zero,
+            Quantity::OfForce { force, what } => match self.loads.measures[*force].value(what) {
+                Some(Value::Scalar(value)) => value,
+                Some(Value::Along(projection, vector)) => self.of(projection, vector),
+                None => zero,
             },
             Quantity::ForceOnPoints {
                 force,
                 points,
                 projection,
             } => {
-                let on = match &self.loads.measures[*force] {
-                    Measures::Belt(m) => &m.on[..],
-                    Measures::Airbag(m) => &m.on[..],
-                    _ => &[],
-                };
+                let on = self.loads.measures[*force].on();
                 let on = points.iter().filter_map(|&point| on.get(point).copied());
                 let on = on.reduce(|sum, force| sum + force);
                 let on = on.unwrap_or_else(|| Vec3::zero(self.graph));
                 self.of(*projection, on)
             }
-            Quantity::Airbag { force, what } => match &self.loads.measures[*force] {
-                Measures::Airbag(m) => match what {
-                    AirbagQuantity::Pressure => m.pressure,
-                    AirbagQuantity::Temperature => m.temperature,
-                    AirbagQuantity::Mass => m.mass,
-                    AirbagQuantity::Volume => m.volume,
-                    AirbagQuantity::Outflow => m.outflow,
-                    AirbagQuantity::Area => m.area,
-                },
-                _ => zero,
-            },
-            Quantity::Spring { force, what } => match &self.loads.measures[*force] {
-                Measures::Spring(m) => match what {
-                    SpringQuantity::Force => m.force,
-                    SpringQuantity::Length => m.length,
-                    SpringQuantity::Elongation => m.elongation,
-                    SpringQuantity::Rate => m.rate,
-                },
-                _ => zero,
-            },
             Quantity::Switch { switch, what } => {
-                let (one, switch) = (self.graph.constant(1.0), self.loads.switches[*switch]);
+                let (one, switch) = (
+                    self.graph.constant(1.0),
+                    self.loads.states.switches[*switch],
+                );
                 match what {
                     SwitchQuantity::Acts => switch.once(one, zero),
                     SwitchQuantity::Time => switch.once(switch.since, -one),
                 }
             }
-            Quantity::User { force, what } => match &self.loads.measures[*force] {
-                Measures::User(measures) => self.user(measures, *what).unwrap_or(zero),
-                _ => zero,
-            },
             Quantity::System {
                 system,
                 what,
@@ -211,7 +158,7 @@ impl<'g> Scene<'g, '_> {
         }
     }
 
-    /// One number of a vector in absolute axes.
+    /// The required component of a vector, which is given in absolute axes.
     fn of(&self, projection: Projection, v: Vec3<'g>) -> Expr<'g> {
         let axis = match projection.component {
             Component::X => 0,
@@ -245,7 +192,7 @@ impl<'g> Scene<'g, '_> {
         }
     }
 
-    /// What an observer sees who rides on a body, absolute axes.
+    /// The motion of a point as seen by an observer on a body, in absolute axes.
     fn point_seen(
         &self,
         observer: Body,
@@ -298,13 +245,14 @@ impl<'g> Scene<'g, '_> {
         }
     }
 
-    /// The angle in the plane; in space a Bryant angle, or the angle of the one turn from the observer's axes to those of the body.
+    /// In the plane the angle; in space a Bryant angle, or the angle of the single rotation from the observer's axes to those of the
+    /// body.
     fn angle(&self, body: Body, observer: Body, component: Component) -> Expr<'g> {
         let (motion, carried) = (self.motion.body(body), self.motion.body(observer));
         if self.layout.orientation == Orientation::Angle {
             return motion.angle - carried.angle;
         }
-        // of A, whatever chart the coordinates are in
+        // from A, in whichever chart the coordinates are
         let rotation = match observer {
             Body::Frame => motion.rotation,
             _ => carried.rotation.transposed().product(&motion.rotation),
@@ -317,7 +265,7 @@ impl<'g> Scene<'g, '_> {
         }
     }
 
-    /// Of the material of a body at an offset from its joint or origin.
+    /// The acceleration of a material point of a body at an offset from its joint or origin.
     fn body_acceleration(&self, body: Body, offset: Vec3<'g>) -> Vec3<'g> {
         match body {
             Body::Frame => Vec3::zero(self.graph),
@@ -329,29 +277,30 @@ impl<'g> Scene<'g, '_> {
     fn body_angular_acceleration(&self, body: Body) -> Vec3<'g> {
         match body {
             Body::Element(id) => self.angular_acceleration(id),
-            // all of it is in the bias
+            // the bias is the whole angular acceleration
             Body::Frame | Body::Vehicle(_) => self.motion.body(body).bias,
         }
     }
 
-    /// All fields that act on an element.
+    /// The sum of all fields that act on an element.
     fn fields(&self, id: ElementId) -> Vec3<'g> {
-        self.loads.fields[id.system] + self.loads.partial_fields[id.system][id.element]
+        self.loads.wrenches.fields[id.system]
+            + self.loads.wrenches.partial_fields[id.system][id.element]
     }
 
-    /// The force on an element by what carries it.
+    /// The force on an element from its carrier.
     fn joint_force(&self, carried: ElementId) -> Vec3<'g> {
         let outboard = self.outboard(carried);
         outboard.fold(Vec3::zero(self.graph), |sum, id| sum + self.needed(id))
     }
 
-    /// An element and all that it carries.
+    /// An element and all elements that it carries.
     fn outboard(&self, carried: ElementId) -> impl Iterator<Item = ElementId> {
         let elements = &self.model.systems[carried.system].elements;
         let mut outward = vec![false; elements.len()];
         outward[carried.element] = true;
         for (k, element) in elements.iter().enumerate() {
-            // what carries comes before what is carried
+            // carriers come before the elements that they carry
             outward[k] |= element.parent.is_some_and(|parent| outward[parent]);
         }
         (0..elements.len())
@@ -359,25 +308,25 @@ impl<'g> Scene<'g, '_> {
             .map(move |element| ElementId { element, ..carried })
     }
 
-    /// m a − m g − F of an element: what its joints must give.
+    /// m a − m g − F of an element: the force that its joints must provide.
     fn needed(&self, id: ElementId) -> Vec3<'g> {
         let element = &self.model.systems[id.system].elements[id.element];
-        // loads have the fields that not all of the system feels
-        let free = self.acceleration(id, self.center(id)) - self.loads.fields[id.system];
-        let load = self.loads.elements[id.system][id.element].force;
+        // the loads contain the fields that do not act on the whole system
+        let free = self.acceleration(id, self.center(id)) - self.loads.wrenches.fields[id.system];
+        let load = self.loads.wrenches.elements[id.system][id.element].force;
         number(self.graph, &element.mass) * free - load
     }
 
-    /// The centre of gravity of an element from its origin, absolute axes.
+    /// The centre of gravity of an element from its origin, in absolute axes.
     fn center(&self, id: ElementId) -> Vec3<'g> {
         let element = &self.model.systems[id.system].elements[id.element];
         let rotation = &self.motion.element(id).rotation;
         rotation.times(vector(self.graph, &element.cg))
     }
 
-    /// The moment on an element by what carries it, about its origin.
+    /// The moment on an element from its carrier, about its origin.
     pub fn joint_moment(&self, carried: ElementId) -> Vec3<'g> {
-        let moments = &self.loads.in_joints[carried.system][carried.element];
+        let moments = &self.loads.wrenches.in_joints[carried.system][carried.element];
         let none = Vec3::zero(self.graph);
         let mut sum = moments.iter().fold(none, |sum, moment| sum + *moment);
         if !self.motion.element(carried).turns_with_carrier {
@@ -389,8 +338,9 @@ impl<'g> Scene<'g, '_> {
             let element = &self.model.systems[id.system].elements[id.element];
             let own = own_inertia(self.graph, self.model.dimension, element);
             let inertia = rotated(self.graph, &motion.rotation, &own);
-            let load = &self.loads.elements[id.system][id.element];
-            let free = self.acceleration(id, self.center(id)) - self.loads.fields[id.system];
+            let load = &self.loads.wrenches.elements[id.system][id.element];
+            let free =
+                self.acceleration(id, self.center(id)) - self.loads.wrenches.fields[id.system];
             let inertial = number(self.graph, &element.mass) * free;
             let arm = motion.position - origin;
             sum = sum
@@ -411,17 +361,17 @@ impl<'g> Scene<'g, '_> {
             .collect()
     }
 
-    /// α = Σ e_j v̇_j + ε, over the freedoms of the element and of what it turns with
+    /// α = Σ e_j v̇_j + ε, over the degrees of freedom of the element and of the elements with which it turns
     fn angular_acceleration(&self, id: ElementId) -> Vec3<'g> {
         self.plus_turn(id, self.motion.element(id).bias)
     }
 
-    /// What v̇ adds to the angular acceleration of an element.
+    /// The contribution of v̇ to the angular acceleration of an element.
     fn turn(&self, id: ElementId) -> Vec3<'g> {
         self.plus_turn(id, Vec3::zero(self.graph))
     }
 
-    /// A vector, and what v̇ adds to the angular acceleration of an element.
+    /// A vector plus the contribution of v̇ to the angular acceleration of an element.
     fn plus_turn(&self, id: ElementId, vector: Vec3<'g>) -> Vec3<'g> {
         let element = self.motion.element(id);
         let rates = self.rates_of_joint(id);
@@ -449,7 +399,7 @@ impl<'g> Scene<'g, '_> {
             let at = ElementId { element, ..id };
             let motion = self.motion.element(at);
             if motion.turns_with_carrier {
-                // the carrier's part of what moves the origin is in `slide_bias`, but for v̇
+                // `slide_bias` has the carrier's part of the motion of the origin, except for v̇
                 sum = sum + self.turn(at).cross(offset) + motion.gamma(offset) + motion.slide_bias;
                 let rates = self.rates_of_joint(at);
                 for (slide, rate) in motion.slides.iter().zip(rates) {
@@ -461,7 +411,7 @@ impl<'g> Scene<'g, '_> {
                 element = parent;
                 let carrier = ElementId { element, ..id };
                 sum = sum + self.turn(carrier).cross(motion.offset);
-                // what is left is the acceleration of the carrier's origin
+                // the rest is the acceleration of the carrier's origin
                 offset = Vec3::zero(self.graph);
                 continue;
             }
@@ -483,29 +433,7 @@ impl<'g> Scene<'g, '_> {
         }
     }
 
-    /// Of a user force; `None` beyond what it has.
-    fn user(&self, measures: &UserMeasures<'g>, what: UserQuantity) -> Option<Expr<'g>> {
-        let joint = |joint: usize, about: usize| measures.joints.get(joint)?.get(about).copied()?;
-        match what {
-            UserQuantity::Force(i, projection) => {
-                Some(self.of(projection, *measures.forces.get(i)?))
-            }
-            UserQuantity::Moment(i, projection) => {
-                Some(self.of(projection, *measures.moments.get(i)?))
-            }
-            UserQuantity::Tension(i) => Some(measures.lines.get(i)?.tension),
-            UserQuantity::Length(i) => Some(measures.lines.get(i)?.length),
-            UserQuantity::LengthRate(i) => Some(measures.lines.get(i)?.rate),
-            UserQuantity::Torque(i, about) => Some(joint(i, about)?.torque),
-            UserQuantity::Angle(i, about) => Some(joint(i, about)?.angle),
-            UserQuantity::AngleRate(i, about) => Some(joint(i, about)?.rate),
-            UserQuantity::Effort(i) => measures.efforts.get(i).copied(),
-            UserQuantity::State(i) => Some(measures.states.get(i)?.0),
-            UserQuantity::StateRate(i) => Some(measures.states.get(i)?.1),
-        }
-    }
-
-    /// A quantity of a whole system; the projection is of vectors.
+    /// A quantity of a whole system; the projection is used for vectors.
     pub fn system(&self, system: usize, what: SystemQuantity, projection: Projection) -> Expr<'g> {
         let graph = self.graph;
         let (mut energy, mut vector_sum) = (graph.constant(0.0), Vec3::zero(graph));

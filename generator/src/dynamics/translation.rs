@@ -1,4 +1,4 @@
-//! Given translations in closed form.
+//! Prescribed translations in closed form.
 //!
 //! | given | x − x₀ | ẋ | ẍ |
 //! |---|---|---|---|
@@ -6,8 +6,8 @@
 //! | velocity c | v₀ t + ∫ c | v₀ + c | c' |
 //! | acceleration c | v₀ t + ∬ c | v₀ + ∫ c | c |
 //!
-//! What stops has the last row until t = T, at which v₀ + ∫ c reaches 0 for the first time; from there on x is x(T), and ẋ and ẍ are 0. T
-//! and x(T) depend on parameters alone. t/T is the abscissa of a curve, so that T is one of the times at which curves of time have kinks.
+//! A motion that stops follows the last row until t = T, when v₀ + ∫ c first reaches 0. From then on x is x(T), and ẋ and ẍ are 0. T and
+//! x(T) depend on parameters alone. t/T is the abscissa of a curve, so T is one of the times at which curves of time have kinks.
 
 use super::force::choose;
 use super::numbers::{derivative, number, vector};
@@ -19,7 +19,7 @@ use Function::{
     Curve, CurveDoubleIntegral, CurveIntegral, CurveSecondDerivative, CurveSlope, CurveStop,
 };
 
-/// Position and velocity at a time; where a run starts, at no time, the position x₀, and v₀.
+/// Position and velocity at a time; without a time, those at the start of a run: x₀ and v₀.
 pub fn motion<'g>(
     graph: &'g Graph,
     translation: &Translation,
@@ -55,7 +55,7 @@ pub fn motion<'g>(
     (position, velocity)
 }
 
-/// Acceleration at a time; `velocity` is v₀.
+/// The acceleration at a time; `velocity` is v₀.
 pub fn acceleration<'g>(
     graph: &'g Graph,
     translation: &Translation,
@@ -82,18 +82,18 @@ pub fn acceleration<'g>(
     }))
 }
 
-/// When a motion along an axis ends.
+/// The end of a motion along an axis.
 struct Stop<'g> {
-    /// T \[s\], 0 where it never ends.
+    /// T \[s\]; 0 if the motion never ends.
     time: Expr<'g>,
-    /// ∬ of the acceleration up to there \[m\].
+    /// ∬ of the acceleration up to T \[m\].
     gained: Expr<'g>,
-    /// t/T up to 1, and 1 from there on; 0 where it never ends.
+    /// t/T up to 1, then 1; 0 if the motion never ends.
     over: Expr<'g>,
 }
 
 impl<'g> Stop<'g> {
-    /// Of what begins with a velocity.
+    /// The end of a motion that begins with a velocity.
     fn of(
         graph: &'g Graph,
         stops: &ScaledCurve,
@@ -107,7 +107,7 @@ impl<'g> Stop<'g> {
         let gained = graph.call(CurveDoubleIntegral(curve.curve as u32), &[at]);
         let end = at * stretch;
         let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-        // what is not chosen must be a number
+        // the value that is not chosen must be finite
         let some_end = choose(zero, end, end, one);
         let rate = choose(zero, end, some_end.recip(), zero);
         Stop {
@@ -117,7 +117,7 @@ impl<'g> Stop<'g> {
         }
     }
 
-    /// The first of two while it moves, the second from its end on.
+    /// The first value while the axis moves, the second from the end on.
     fn choose(&self, moving: Expr<'g>, at_rest: Expr<'g>) -> Expr<'g> {
         choose(self.over, moving.graph().constant(1.0), moving, at_rest)
     }

@@ -1,6 +1,6 @@
-//! Vehicles: bodies whose motion is given, as functions of time in closed form.
+//! Vehicles: bodies whose motion is given by functions of time, in closed form.
 //!
-//! With Bryant angles φ(t) and the axes e_j by which their rates make the angular velocity,
+//! Let φ(t) be Bryant angles, and e_j the axes with which their rates give the angular velocity:
 //!
 //! ω = Σ φ̇_j e_j,   α = Σ φ̈_j e_j + φ̇₁ φ̇₂ e₁ × e₂ + φ̇₃ (φ̇₁ e₁ + φ̇₂ e₂) × e₃,   p̈(ρ) = p̈ + α × ρ + ω × (ω × ρ)
 
@@ -11,22 +11,22 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::model::{FieldComponent, Vehicle};
 
-/// Motion of a vehicle, absolute axes.
+/// The motion of a vehicle, in absolute axes.
 pub struct VehicleMotion<'g> {
-    /// Rotation, angular velocity, position and velocity of its origin; all of its angular acceleration is in the bias.
+    /// Rotation, angular velocity, position and velocity of its origin; the bias is the whole angular acceleration.
     pub body: ElementMotion<'g>,
     /// Acceleration of its origin \[m/s²\].
     pub acceleration: Vec3<'g>,
 }
 
 impl<'g> VehicleMotion<'g> {
-    /// Acceleration of the point at an offset from the origin, absolute axes.
+    /// The acceleration of the point at an offset from the origin, in absolute axes.
     pub fn acceleration_at(&self, offset: Vec3<'g>) -> Vec3<'g> {
         self.acceleration + self.body.gamma(offset)
     }
 }
 
-/// The motion at a time; at no time the position and rotation at t = 0, at rest.
+/// The motion at a time; without a time, position and rotation at t = 0, at rest.
 pub fn motion<'g>(
     graph: &'g Graph,
     vehicle: &Vehicle,

@@ -1,25 +1,25 @@
-//! What the equations of a variant cost: operations of the emitted text, after all passes.
+//! The cost of the equations of a variant: the number of operations of the emitted text, after all passes.
 
 use super::Variant;
 use crate::dynamics::{self, derive_without};
-use crate::emit;
 use crate::equations::Equations;
 use crate::expression::NodeId;
 use crate::expression::count::{Count, Table};
 use crate::expression::live::Live;
+use crate::program;
 use crate::program::Lists;
 use std::collections::HashSet;
 
-/// Operations of one evaluation.
+/// Operation counts of one evaluation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
-    /// Of `accelerations`, and of the rates of what force laws integrate.
+    /// Operations of `accelerations`, and of the rates of the continuous states of force laws.
     pub accelerations: Count,
-    /// Of `outputs`; where it calls `accelerations`, without them.
+    /// Operations of `outputs`. If it calls `accelerations`, those are not counted.
     pub outputs: Count,
 }
 
-/// Operations of a variant, and its lists: of the rates alone and, where it has any, of the outputs.
+/// The operation counts of a variant, and its lists: those of the rates and, if there are any, those of the outputs.
 pub fn counted(variant: &Variant) -> (Cost, Lists) {
     let equations = derive_without(&variant.model, OPTIONS, variant.omitted);
     let rates = ["accelerations", "coordinate_rates", "auxiliary_rates"];
@@ -32,7 +32,7 @@ pub fn counted(variant: &Variant) -> (Cost, Lists) {
     if !variant.model.outputs.is_empty() {
         only.push("outputs");
     }
-    let (lists, tables) = emit::counted_lists(&variant.model, &equations, &EMITTED, Some(&only));
+    let (lists, tables) = program::counted_lists(&variant.model, &equations, &EMITTED, Some(&only));
     let of = |method: &str| {
         let found = tables.iter().find(|(name, _)| *name == method);
         found.map_or_else(Count::default, |(_, table): &(_, Table)| {
@@ -46,7 +46,8 @@ pub fn counted(variant: &Variant) -> (Cost, Lists) {
     (cost, lists)
 }
 
-/// Operations of the rates of what force laws integrate, such as the gas of an airbag, that accelerations do not need: before the passes of emission.
+/// Operations of the rates of continuous states, such as the gas of an airbag, that accelerations do not need. They are counted before the passes of
+/// emission.
 fn of_states(equations: &Equations) -> Count {
     let rates: Vec<NodeId> = equations
         .auxiliaries
@@ -68,14 +69,14 @@ fn of_states(equations: &Equations) -> Count {
     Count::of_nodes(&equations.graph, &more)
 }
 
-/// Operations of a variant.
+/// The operation counts of a variant.
 pub fn cost(variant: &Variant) -> Cost {
     counted(variant).0
 }
 
-const EMITTED: emit::Options = emit::Options {
+const EMITTED: program::Options = program::Options {
     matrices: false,
-    ..emit::Options::DEFAULT
+    ..program::Options::DEFAULT
 };
 
 const OPTIONS: dynamics::Options = dynamics::Options {

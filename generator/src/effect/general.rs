@@ -1,21 +1,21 @@
-//! The same scene with nothing left out: what a program would evaluate that is written for every scene.
+//! The same scene with nothing left out: the equations that a general program, written for every scene, would evaluate.
 //!
-//! Every force that the text mentions acts, switched off or not. The motion is in space, with quaternions where it was in
-//! the plane, and all elements have three principal moments in axes of their own. Every number of the model is a run-time
-//! parameter of its own, zeros included, so that nothing folds; every term that a law has is there, with the coefficient
-//! 0 where the scene does not have it; joints have a law about each rotation. A field acts on every element by itself. A
-//! fixed reference joint is one that is accelerated as prescribed, by 0. At the default parameters the motion is that of
-//! the scene with its forces switched on.
+//! Every force that the text mentions acts, switched off or not. A planar motion becomes one in space, with quaternions, and all elements have three
+//! principal moments in axes of their own. Every number of the model, zeros included, is a run-time parameter, so that nothing folds. Every term of a
+//! law is there, with the coefficient 0 where the scene does not have it. Joints have a law about each rotation. A field acts on every element by
+//! itself. A fixed reference joint is one with the prescribed acceleration 0. At the default parameters the motion is that of the scene with its
+//! forces switched on.
 //!
-//! What stays as it is: what a law can only have with a coefficient that is not 0 (hysteresis, stops, locks, reels and
-//! limiters of belts, damping that fades in), switches, motions of vehicles, the tree, which joints and bodies have forces at all, points of curves, free reference joints, and
-//! Bryant angles where the text asks for them. Outputs are not part of it.
+//! Not generalised are: terms that a law can only have with a coefficient that is not 0 (hysteresis, stops, locks, reels and limiters of belts,
+//! damping that fades in), switches, motions of vehicles, the tree, which joints and bodies have forces at all, the points of curves, free reference
+//! joints, and Bryant angles if the text asks for them. Outputs are left out.
 
 use super::planar;
-use crate::model::part::{Field, Fresh, Part};
+use crate::law::field::Field;
+use crate::model::part::{Field as Of, Fresh, Part};
 use crate::model::{Dimension, Force, ForceKind, Given, Model, Reference, Translation};
 
-/// The scene with nothing left out; `written` is the model with all that its text mentions.
+/// The scene with nothing left out. `written` is the model with everything that its text mentions.
 pub fn general(written: &Model) -> Model {
     let mut model = written.clone();
     model.outputs.clear();
@@ -54,7 +54,7 @@ pub fn general(written: &Model) -> Model {
     }
     for force in &mut model.forces {
         for field in force.kind.fields(Dimension::Space) {
-            if let Field::Term(term, part) = field
+            if let Of::Term(term, part) = field
                 && !term.as_written
             {
                 part.put_in(&mut fresh);
@@ -67,17 +67,17 @@ pub fn general(written: &Model) -> Model {
     model
 }
 
-/// A field as one per element; all other forces as they are.
+/// Splits a field into one field for each element; returns any other force unchanged.
 fn by_element(force: Force) -> Vec<Force> {
     match &force.kind {
-        ForceKind::Field { on, acceleration } => {
-            let each = on.iter().enumerate().map(|(index, &id)| Force {
+        ForceKind::Field(field) => {
+            let each = field.on.iter().enumerate().map(|(index, &id)| Force {
                 name: format!("{}-{}", force.name, index + 1),
                 active: force.active,
-                kind: ForceKind::Field {
+                kind: ForceKind::from(Field {
                     on: vec![id],
-                    acceleration: acceleration.clone(),
-                },
+                    acceleration: field.acceleration.clone(),
+                }),
             });
             each.collect()
         }

@@ -1,11 +1,11 @@
-//! The vocabulary of what a scene can have and need not: every term of the equations that may be in or out.
+//! The effects of a scene: every term of the equations that may be in or out.
 //!
 //! S v̇ = r_s + r_k = Σ effects
 //!
-//! An effect that is out leaves no trace in the generated source. [`of_model`] lists the effects of a model and finds out
-//! which of them vanish by its structure, from the same expressions that the equations are made of; [`of_scene`] adds where
-//! the text calls for each, and what it mentions in vain. [`without`](fn@without) leaves one out, [`general`](fn@general)
-//! leaves out none.
+//! An effect that is out leaves no trace in the generated source. [`of_model`] lists the effects of a model. From the same
+//! expressions as the equations it finds which effects vanish by the structure of the model. [`of_scene`] adds where the
+//! text calls for each effect, and what the text mentions without effect. [`without`](fn@without) leaves one effect out;
+//! [`general`](fn@general) leaves out none.
 
 mod cost;
 mod general;
@@ -26,7 +26,7 @@ use crate::model::scene::Place;
 use crate::model::{Dimension, ElementId, ForceKind, Model, Reference};
 use structure::{Felt, Gyroscopic, Structure};
 
-/// Something that is in or out.
+/// An effect that is in or out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
     /// The dimension y: translation along y, rotation about x and z.
@@ -40,18 +40,19 @@ pub enum Effect {
     PrescribedTranslation {
         /// Index of the system.
         system: usize,
-        /// Absolute axis.
+        /// The absolute axis.
         axis: usize,
     },
-    /// w of an element with what it carries: turning it accelerates its joint, and the reverse.
+    /// The first moment w of an element together with the bodies that it carries: it couples rotation of the element and
+    /// acceleration of its joint.
     FirstMoment(ElementId),
-    /// ω × Jω of an element with what it carries.
+    /// The gyroscopic moment ω × Jω of an element together with the bodies that it carries.
     GyroscopicMoment(ElementId),
-    /// Inertia of rotors on the joint of an element.
+    /// The inertia of rotors on the joint of an element.
     Armature(ElementId),
-    /// Freedoms of the joint of an element follow others.
+    /// Degrees of freedom of the joint of an element that follow others.
     Coupling(ElementId),
-    /// A whole force, its geometry included.
+    /// A whole force with its geometry.
     Force {
         /// Index into [`Model::forces`].
         force: usize,
@@ -63,34 +64,34 @@ pub enum Effect {
         /// Index among the terms of its law.
         term: usize,
     },
-    /// A field applied to elements one by one, instead of once to the reference joint.
+    /// A field that is applied to elements one by one, instead of once to the reference joint.
     FieldByElement {
         /// Index into [`Model::forces`].
         force: usize,
         /// Index of the system.
         system: usize,
     },
-    /// A number stays adjustable.
+    /// A number that stays adjustable.
     Parameter(usize),
-    /// A column of the table.
+    /// A column of the output table.
     Output(usize),
 }
 
 /// Why an effect is in or out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// In: the text calls for it.
+    /// In, because the text calls for it.
     Written,
-    /// Out: the text mentions it, and says 0 or off.
+    /// Out, because the text mentions it but says 0 or off.
     SwitchedOff,
-    /// Out: it vanishes by the structure of the model.
+    /// Out, because it vanishes by the structure of the model.
     Structure,
-    /// Out: the text does not mention it.
+    /// Out, because the text does not mention it.
     Absent,
 }
 
 impl Reason {
-    /// One word for machines.
+    /// The reason as one word, for machines.
     pub fn word(self) -> &'static str {
         match self {
             Reason::Written => "written",
@@ -101,20 +102,20 @@ impl Reason {
     }
 }
 
-/// An effect, in or out, and why.
+/// An effect, whether it is in or out, and why.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// "contact seat-back: friction"
     pub name: String,
     /// Whether it is in.
     pub is_in: bool,
-    /// What it is in terms of the model; `None` for what only the text knows.
+    /// The effect in terms of the model; `None` for an effect that only the text mentions.
     pub effect: Option<Effect>,
     /// Why it is in or out.
     pub reason: Reason,
-    /// In words; empty where the place says all.
+    /// The reason in words; empty if the place says everything.
     pub why: String,
-    /// Where the text calls for it, or switches it off.
+    /// The place in the text that calls for it or switches it off.
     pub place: Option<Place>,
 }
 
@@ -148,7 +149,7 @@ impl Entry {
         }
     }
 
-    /// Of what only the text knows.
+    /// An entry for an effect that only the text mentions.
     fn switched_off(name: String, why: impl Into<String>, place: Option<Place>) -> Self {
         Entry {
             name,
@@ -161,7 +162,8 @@ impl Entry {
     }
 }
 
-/// The effects of a model: those that are in, those that vanish by its structure, and the terms that its forces lack.
+/// The effects of a model: those that are in, those that vanish by its structure, and the terms that its forces do not
+/// have.
 pub fn of_model(model: &Model) -> Vec<Entry> {
     let structure = Structure::of(model);
     let mut entries = Vec::new();
@@ -183,7 +185,7 @@ pub fn of_model(model: &Model) -> Vec<Entry> {
     entries
 }
 
-/// Translation of a reference joint.
+/// The translation of a reference joint.
 fn translation(model: &Model, system: usize, entries: &mut Vec<Entry>) {
     let free = Effect::FreeTranslation { system };
     let prescribed = |axis| Effect::PrescribedTranslation { system, axis };
@@ -270,7 +272,7 @@ fn inertia(model: &Model, structure: &Structure, entries: &mut Vec<Entry>) {
     }
 }
 
-/// A force: all of it where more than one term is in, its terms, and how a field enters.
+/// The effects of a force: the whole force if more than one term is in, its terms, and how a field enters.
 fn of_force(model: &Model, structure: &Structure, force: usize, entries: &mut Vec<Entry>) {
     let kind = &model.forces[force].kind;
     let terms = kind.terms(model.dimension);
@@ -292,7 +294,7 @@ fn of_force(model: &Model, structure: &Structure, force: usize, entries: &mut Ve
             Entry::absent(model, effect)
         });
     }
-    if let ForceKind::Field { .. } = kind {
+    if let ForceKind::Field(_) = kind {
         for (system, felt) in structure.felt[force].iter().enumerate() {
             let effect = Effect::FieldByElement { force, system };
             match felt {

@@ -1,4 +1,4 @@
-//! What effects are called, and whose keys call for them.
+//! The names of effects, and the keys that call for them.
 
 use super::Effect;
 use crate::model::{ElementId, Model};
@@ -6,7 +6,7 @@ use crate::model::{ElementId, Model};
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl Effect {
-    /// For people: "contact seat-back: friction".
+    /// The name for people: "contact seat-back: friction".
     pub fn name(self, model: &Model) -> String {
         let owner = self.owner(model);
         let part = match self {
@@ -36,7 +36,7 @@ impl Effect {
         format!("{owner}: {part}")
     }
 
-    /// Who has it: the owner of its keys in [`Places`](crate::model::scene::Places).
+    /// The owner of its keys in [`Places`](crate::model::scene::Places).
     pub fn owner(self, model: &Model) -> String {
         match self {
             Effect::OutOfPlane => "model".to_owned(),
@@ -60,7 +60,7 @@ impl Effect {
         }
     }
 
-    /// Its keys below the owner, the first that there is being the one that calls for it.
+    /// Its keys below the owner. The first of them that exists calls for the effect.
     pub fn keys(self, model: &Model) -> Vec<String> {
         let key = match self {
             Effect::Term { force, term } => {

@@ -1,17 +1,15 @@
-//! Between space and the plane: a model of space seen from its side, and a planar model as one of space.
+//! Conversion between space and the plane: a spatial model seen from its side, and a planar model as a spatial one.
 
 use crate::model::{
-    Against, Component, Coordinates, Dimension, FieldComponent, ForceKind, JointLoadQuantity,
-    JointTorque, Model, Number, Projection, Quantity, Reference, RotationQuantity, System,
-    SystemQuantity, UserQuantity,
+    Component, Coordinates, Dimension, FieldComponent, Force, JointLoadQuantity, Model, Number,
+    Quantity, Reference, RotationQuantity, System, SystemQuantity,
 };
 
-/// The motion that is left of a model of space when y and the rotations about x and z are gone. `None` where an element could
-/// then turn without inertia.
+/// The planar part of a spatial model: without y and without rotations about x and z. `None` if an element could then turn
+/// without inertia.
 pub fn flattened(model: &Model) -> Option<Model> {
-    let is_airbag = |force: &crate::model::Force| matches!(force.kind, ForceKind::Airbag(_));
-    // a bag has no volume in the plane
-    if !model.systems.iter().all(System::has_balls_alone) || model.forces.iter().any(is_airbag) {
+    let in_plane = |force: &Force| force.kind.exists_in_plane();
+    if !model.systems.iter().all(System::has_balls_alone) || !model.forces.iter().all(in_plane) {
         return None;
     }
     let mut model = model.clone();
@@ -52,51 +50,38 @@ pub fn flattened(model: &Model) -> Option<Model> {
     }
     let mut keep = Vec::new();
     for force in &mut model.forces {
-        keep.push(flatten_force(&mut force.kind));
+        keep.push(force.kind.flatten());
     }
     model.outputs.retain_mut(|output| {
         let there = match &mut output.quantity {
             Quantity::Point { at, projection, .. } => {
                 at[1] = Number::ZERO;
-                lies_in_plane(*projection)
+                projection.lies_in_plane()
             }
-            // the angle of the one turn has no sign in space
+            // the sign of the angle of a single rotation is lost in space
             Quantity::Rotation {
                 what: RotationQuantity::Angle,
                 projection,
                 ..
             } => projection.component == Component::Y,
-            Quantity::Rotation { projection, .. } => is_about_y(*projection),
+            Quantity::Rotation { projection, .. } => projection.is_about_y(),
             Quantity::JointLoad {
                 what, projection, ..
             } => match what {
-                JointLoadQuantity::Force => lies_in_plane(*projection),
-                JointLoadQuantity::Moment => is_about_y(*projection),
+                JointLoadQuantity::Force => projection.lies_in_plane(),
+                JointLoadQuantity::Moment => projection.is_about_y(),
             },
             Quantity::ForceOn { projection, .. } | Quantity::ForceOnPoints { projection, .. } => {
-                lies_in_plane(*projection)
+                projection.lies_in_plane()
             }
-            Quantity::Joint { about, .. } => *about == 1,
-            Quantity::Freedom { .. } => true,
-            Quantity::Contact { .. }
-            | Quantity::Belt { .. }
-            | Quantity::Spring { .. }
-            | Quantity::Airbag { .. }
-            | Quantity::Switch { .. } => true,
-            Quantity::User { what, .. } => match what {
-                UserQuantity::Force(_, projection) => lies_in_plane(*projection),
-                UserQuantity::Moment(_, projection) => is_about_y(*projection),
-                UserQuantity::Torque(_, about)
-                | UserQuantity::Angle(_, about)
-                | UserQuantity::AngleRate(_, about) => *about == 1,
-                _ => true,
-            },
+            Quantity::OfForce { what, .. } => what.exists_in_plane(),
+            Quantity::Freedom { .. } | Quantity::Switch { .. } => true,
             Quantity::System {
                 what: SystemQuantity::AngularMomentum,
                 projection,
                 ..
-            } => is_about_y(*projection),
-            Quantity::System { projection, .. } => lies_in_plane(*projection),
+            } => projection.is_about_y(),
+            Quantity::System { projection, .. } => projection.lies_in_plane(),
         };
         there && output.quantity.force_mut().is_none_or(|force| keep[*force])
     });
@@ -104,100 +89,18 @@ pub fn flattened(model: &Model) -> Option<Model> {
     model.is_regular().then_some(model)
 }
 
-/// Whether a number of a vector in the plane x–z is not 0 by itself.
-fn lies_in_plane(projection: Projection) -> bool {
-    projection.component != Component::Y
-}
-
-/// Whether a number of a vector along y is not 0 by itself.
-fn is_about_y(projection: Projection) -> bool {
-    matches!(projection.component, Component::Y | Component::Resultant)
-}
-
-/// What is left of a force; false where it is none.
-fn flatten_force(kind: &mut ForceKind) -> bool {
-    match kind {
-        ForceKind::Joint { about, .. } => {
-            about[0] = JointTorque::default();
-            about[2] = JointTorque::default();
-            true
-        }
-        ForceKind::Freedom { .. } => true,
-        ForceKind::Field { acceleration, .. } => {
-            acceleration[1] = FieldComponent::Constant(Number::ZERO);
-            true
-        }
-        ForceKind::Contact(contact) => {
-            contact.ellipsoid.at[1] = Number::ZERO;
-            contact.against.place_mut().at[1] = Number::ZERO;
-            contact.semi_axes[1] = Number::ZERO;
-            (contact.axes[0], contact.axes[2]) = (Number::ZERO, Number::ZERO);
-            match &mut contact.against {
-                Against::Plane(plane) => {
-                    if let Some(extent) = &mut plane.extent {
-                        // Of its two lengths, the one that is seen.
-                        let away = plane.tangent[1].constant().is_some_and(|y| y.abs() > 0.5);
-                        extent.half_lengths.remove(usize::from(!away));
-                    }
-                    plane.normal[1] = Number::ZERO;
-                    plane.tangent = [Number::ZERO; 3];
-                    // Seen from its side, a plane whose normal is y is everywhere.
-                    !plane.normal.iter().all(Number::is_zero)
-                }
-                Against::Ellipsoid(second) => {
-                    second.semi_axes[1] = Number::ZERO;
-                    (second.axes[0], second.axes[2]) = (Number::ZERO, Number::ZERO);
-                    true
-                }
-            }
-        }
-        ForceKind::Belt(belt) => {
-            belt.points_mut()
-                .for_each(|point| point.at[1] = Number::ZERO);
-            true
-        }
-        ForceKind::Airbag(_) => false,
-        ForceKind::Spring(spring) => {
-            spring.from.at[1] = Number::ZERO;
-            spring.to.at[1] = Number::ZERO;
-            true
-        }
-        ForceKind::Load(load) => {
-            load.on.at[1] = Number::ZERO;
-            load.force[1] = FieldComponent::Constant(Number::ZERO);
-            for axis in [0, 2] {
-                load.moment[axis] = FieldComponent::Constant(Number::ZERO);
-            }
-            true
-        }
-        // its function goes on with vectors of space
-        ForceKind::User(user) => {
-            for point in &mut user.points {
-                point.value.at[1] = Number::ZERO;
-            }
-            for line in &mut user.lines {
-                line.value.from.at[1] = Number::ZERO;
-                line.value.to.at[1] = Number::ZERO;
-            }
-            true
-        }
-    }
-}
-
-/// Moments about x and z of a body of which that about y is known: three unequal ones, as a body may have them.
+/// Moments about x and z, relative to the known one about y. All three differ, as those of a real body may.
 const OTHER_MOMENTS: [f64; 2] = [1.1, 0.8];
 
-/// How far a planar scene reaches along y, out of which nothing moves \[m\].
-const ENDLESS: f64 = 1e3;
-
-/// A planar model as one of space: the same motion, about and along y alone, by equations that do not know it.
+/// Turns a planar model into a spatial one with the same motion, along and about y only; the equations do not know that it is
+/// planar.
 pub fn embedded(model: &mut Model) {
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     model.dimension = Dimension::Space;
     model.coordinates = Coordinates::Quaternion;
     for element in model.systems.iter_mut().flat_map(|s| &mut s.elements) {
         let about_y = element.inertia[1].value(&defaults);
-        // A point has moments of its own here, such as those of a rod of a tenth of a metre: what they are does not matter.
+        // A point gets moments of inertia, such as those of a rod of a tenth of a metre; their values do not matter.
         let scale = if about_y > 0.0 {
             about_y
         } else {
@@ -207,21 +110,6 @@ pub fn embedded(model: &mut Model) {
         element.inertia[2] = Number::Constant(OTHER_MOMENTS[1] * scale);
     }
     for force in &mut model.forces {
-        if let ForceKind::Contact(contact) = &mut force.kind {
-            let mean = |[x, _, z]: &[Number; 3]| {
-                Number::Constant(0.5 * (x.value(&defaults) + z.value(&defaults)))
-            };
-            contact.semi_axes[1] = mean(&contact.semi_axes);
-            match &mut contact.against {
-                Against::Plane(plane) => {
-                    let [x, _, z] = plane.normal.clone();
-                    plane.tangent = [z, Number::ZERO, Number::negative(x)];
-                    if let Some(extent) = &mut plane.extent {
-                        extent.half_lengths.push(Number::Constant(ENDLESS));
-                    }
-                }
-                Against::Ellipsoid(second) => second.semi_axes[1] = mean(&second.semi_axes),
-            }
-        }
+        force.kind.embed(&defaults);
     }
 }

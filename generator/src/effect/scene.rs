@@ -1,4 +1,5 @@
-//! The effects of a scene: those of its model, with the lines that call for them, and what its text mentions in vain.
+//! The effects of a scene: those of its model, with the lines that call for them, and those that its text mentions
+//! without effect.
 
 use super::structure::idle_parameters;
 use super::{Effect, Entry, Reason, of_model};
@@ -6,7 +7,7 @@ use crate::model::part::Field;
 use crate::model::scene::Place;
 use crate::model::{Force, Scene};
 
-/// The effects of a scene, in the order of the model; what is switched off stands after its kind.
+/// The effects of a scene, in the order of the model. Switched-off effects stand after the others of their kind.
 pub fn of_scene(scene: &Scene) -> Vec<Entry> {
     let model = &scene.model;
     let mut entries = of_model(model);
@@ -48,7 +49,7 @@ fn place(scene: &Scene, effect: Option<Effect>) -> Option<Place> {
     found.cloned()
 }
 
-/// What the text says of a force and what is not in the model.
+/// Adds the terms of a force that the text mentions but the model does not have.
 fn mentioned_in_vain(scene: &Scene, force: usize, entries: &mut Vec<Entry>) {
     let model = &scene.model;
     let written = &scene.written.forces[force];
@@ -97,13 +98,13 @@ fn mentioned_in_vain(scene: &Scene, force: usize, entries: &mut Vec<Entry>) {
     }
 }
 
-/// Index of the first such effect, or behind the last.
+/// Index of the first such effect, or the number of entries if there is none.
 fn first(entries: &[Entry], such: impl Fn(Effect) -> bool) -> usize {
     let found = entries.iter().position(|e| e.effect.is_some_and(&such));
     found.unwrap_or(entries.len())
 }
 
-/// Parameters that the text declares and that nothing depends on.
+/// Adds the parameters that the text declares but that nothing depends on.
 fn unused_parameters(scene: &Scene, entries: &mut Vec<Entry>) {
     let unused = scene.unused_parameters();
     let before = first(entries, |effect| matches!(effect, Effect::Output(_)));
@@ -116,7 +117,7 @@ fn unused_parameters(scene: &Scene, entries: &mut Vec<Entry>) {
 }
 
 impl Scene {
-    /// The parameters that are declared, but on which nothing depends: names, and why.
+    /// The declared parameters that nothing depends on: names, and why.
     pub fn unused_parameters(&self) -> Vec<(String, String)> {
         let mut written = self.written.clone();
         let mut mentioned = vec![false; written.parameters.len()];

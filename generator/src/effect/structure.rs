@@ -1,6 +1,8 @@
-//! What vanishes by the structure of a model: asked of the expressions that its equations are made of, not of its numbers.
+//! Effects that vanish by the structure of a model. This is decided from the expressions of the equations, not from
+//! numbers.
 //!
-//! w = 0, ω × Jω = 0, a field that no element feels by itself: each is the number 0 in the graph, or it is in.
+//! w = 0, ω × Jω = 0, a field that acts on no single element: the effect is out if its expression is the number 0 in the
+//! graph.
 
 use crate::dynamics::augmented::{AugmentedTree, constants};
 use crate::dynamics::force;
@@ -13,44 +15,44 @@ use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Graph, Node, NodeId, Symbol};
 use crate::model::{Dimension, ElementId, ForceKind, Model};
 
-/// What was found.
+/// The structural properties of a model.
 pub struct Structure {
-    /// By system and element: whether w is there.
+    /// For each system and element, whether the first moment w is there.
     pub first_moment: Vec<Vec<bool>>,
-    /// By system and element: what is there of ω × Jω.
+    /// For each system and element, the kind of ω × Jω.
     pub gyroscopic: Vec<Vec<Gyroscopic>>,
-    /// By force and system: who feels a field; empty for other forces.
+    /// For each force and system, which elements a field acts on; empty for other forces.
     pub felt: Vec<Vec<Felt>>,
 }
 
-/// ω × Jω of an element with what it carries.
+/// The gyroscopic moment ω × Jω of an element together with the bodies that it carries.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Gyroscopic {
-    /// ω and Jω are both along y.
+    /// Zero: ω and Jω are both along y.
     Plane,
-    /// J is a multiple of 1.
+    /// Zero: J is a multiple of the identity.
     Spherical,
-    /// It turns about one axis, a principal one.
+    /// Zero: the element turns about one axis, which is principal.
     FixedAxis,
-    /// Two moments are the same: "Ix = Iy".
+    /// Two moments of inertia are equal: "Ix = Iy".
     Axisymmetric(&'static str),
-    /// Neither.
+    /// None of these.
     Triaxial,
 }
 
-/// Who feels a field in a system.
+/// The elements of a system that a field acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Felt {
     /// No element.
     None,
     /// Some elements, one by one.
     Some,
-    /// All, so many, as one.
+    /// All elements, so many, together.
     All(usize),
 }
 
 impl Structure {
-    /// Of a model.
+    /// The structural properties of a model.
     pub fn of(model: &Model) -> Self {
         let graph = Graph::new();
         let layout = Layout::of(model);
@@ -68,7 +70,7 @@ impl Structure {
             let elements = &system.elements;
             let carried = match system.has_balls_alone() {
                 true => children(elements),
-                // what is carried is no point of its carrier
+                // the carried body is no point of its carrier
                 false => vec![Vec::new(); elements.len()],
             };
             let local = constants(&graph, model.dimension, elements, &carried);
@@ -111,10 +113,10 @@ fn symmetry(inertia: &Sym3<'_>) -> Gyroscopic {
     }
 }
 
-/// A field alone: what it does to elements, and what to the reference joint as one.
+/// For a field alone: how it acts on the elements, and how on the reference joint as a whole.
 fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) -> Vec<Felt> {
     let force = &model.forces[force];
-    if !matches!(force.kind, ForceKind::Field { .. }) {
+    if !matches!(force.kind, ForceKind::Field(_)) {
         return Vec::new();
     }
     let alone = Model {
@@ -124,9 +126,9 @@ fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) 
     let loads = force::loads(graph, &alone, motion, motion, Vec::new());
     let systems = model.systems.iter().enumerate();
     let felt = systems.map(|(s, system)| {
-        if !is_zero(&loads.fields[s]) {
+        if !is_zero(&loads.wrenches.fields[s]) {
             Felt::All(system.elements.len())
-        } else if loads.partial_fields[s].iter().all(is_zero) {
+        } else if loads.wrenches.partial_fields[s].iter().all(is_zero) {
             Felt::None
         } else {
             Felt::Some
@@ -135,7 +137,7 @@ fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) 
     felt.collect()
 }
 
-/// By parameter: true where nothing that is computed depends on it.
+/// For each parameter, true if nothing that is computed depends on it.
 pub fn idle_parameters(model: &Model) -> Vec<bool> {
     if model.parameters.is_empty() {
         return Vec::new();

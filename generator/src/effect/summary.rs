@@ -1,12 +1,13 @@
-//! The effects of a model as a few lines: what stands at the top of its generated source.
+//! The effects of a model in a few lines, for the top of its generated source.
 //!
-//! They depend on the model alone, so that a text that mentions what is out gives the same lines as one that does not.
+//! The lines depend on the model alone. So a text that mentions effects that are out gives the same lines as one that
+//! does not.
 
 use super::{Effect, Entry, Reason, of_model};
 use crate::model::part::Field;
 use crate::model::{Body, ElementId, Model};
 
-/// What is in, kind by kind; then what vanishes by structure, with the reason.
+/// The effects that are in, kind by kind; then those that vanish by structure, with the reason.
 pub fn summary(model: &Model) -> Vec<String> {
     let entries = of_model(model);
     let mut lines = vec!["In:".to_owned()];
@@ -99,7 +100,7 @@ fn of_force(model: &Model, force: usize) -> String {
     }
     let elements: usize = model.systems.iter().map(|s| s.elements.len()).sum();
     let bodies = match (kind.key(), bodies.len()) {
-        // Its name is the element's.
+        // Its name is that of the element.
         ("joint", _) => String::new(),
         ("field", count) if count == elements => " (all elements)".to_owned(),
         _ => format!(" ({})", bodies.join(", ")),
@@ -111,7 +112,7 @@ fn of_force(model: &Model, force: usize) -> String {
     format!("{}{bodies}: {terms}", Effect::Force { force }.name(model))
 }
 
-/// What vanishes, together where the reason is the same.
+/// The effects that vanish, grouped by reason.
 fn by_reason(entries: &[Entry]) -> Vec<String> {
     let mut reasons: Vec<(&str, &str, Vec<&str>)> = Vec::new();
     for entry in entries.iter().filter(|e| e.reason == Reason::Structure) {

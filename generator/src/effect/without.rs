@@ -1,16 +1,16 @@
-//! A model without one of its effects: as if the text had never mentioned it.
+//! A model without one of its effects, as if the text had never mentioned it.
 
 use super::{Effect, planar};
 use crate::dynamics::augmented::Omitted;
 use crate::model::part::{Field, Part};
 use crate::model::{ForceKind, Joint, Model, Number, Reference};
 
-/// A model, and what its equations lack besides.
+/// A model, and an effect that is left out of its equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
-    /// In its normal form.
+    /// The model, in its normal form.
     pub model: Model,
-    /// A gyroscopic moment, which no model can be without.
+    /// A gyroscopic moment to leave out; no model can be without it.
     pub omitted: Option<Omitted>,
 }
 
@@ -23,7 +23,7 @@ impl Variant {
         }
     }
 
-    /// The same without outputs, and without forces that only outputs look at: what accelerations are computed of.
+    /// The variant without outputs, and without forces that only outputs use: what remains is needed for accelerations.
     pub fn without_outputs(mut self) -> Self {
         self.model.outputs.clear();
         self.model.normalize();
@@ -31,7 +31,7 @@ impl Variant {
     }
 }
 
-/// The model without an effect; `None` where nothing is left that moves in a definite way.
+/// The model without an effect; `None` if the remaining motion would not be determined.
 pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
     let mut variant = Variant::of(model);
     let model = &mut variant.model;
@@ -50,7 +50,8 @@ pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
         }
         Effect::FirstMoment(id) => {
             let elements = &mut model.systems[id.system].elements;
-            // With joints outboard no place of the centre of gravity makes it exactly 0; without inertia nothing is left.
+            // With joints further out no place of the centre of gravity makes w exactly 0; without inertia nothing
+            // remains.
             let carries = elements.iter().any(|e| e.parent == Some(id.element));
             let element = &mut elements[id.element];
             element.cg = [Number::ZERO; 3];
@@ -59,7 +60,7 @@ pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
             }
         }
         Effect::GyroscopicMoment(id) => {
-            // in the frames of links bodies are regrouped, and no body has a moment of its own
+            // in the frames of links bodies are regrouped, so no body has a gyroscopic moment of its own
             if !model.systems[id.system].has_balls_alone() {
                 return None;
             }
@@ -97,8 +98,8 @@ pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
             }
         }
         Effect::FieldByElement { force, system } => {
-            if let ForceKind::Field { on, .. } = &mut model.forces[force].kind {
-                on.retain(|id| id.system != system);
+            if let ForceKind::Field(field) = &mut model.forces[force].kind {
+                field.on.retain(|id| id.system != system);
             }
         }
         Effect::Parameter(parameter) => {

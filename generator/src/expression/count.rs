@@ -1,9 +1,9 @@
-//! Operation counts: what one evaluation of some results costs, by kind of operation and by section.
+//! Operation counts: the cost of one evaluation of some results, by kind of operation and by section.
 //!
 //! total = additions + subtractions + products + quotients + roots + maxima and minima + 2 · fused multiply-adds
 //!
-//! Signs are counted apart, because they mostly vanish in the operation they belong to; sines, cosines, angles and calls are
-//! counted apart, because one costs many operations.
+//! Signs are counted separately, because they mostly become part of another operation. Sines, cosines, angles and calls are
+//! counted separately, because each costs many operations.
 
 use super::graph::Graph;
 use super::live::Live;
@@ -38,17 +38,17 @@ pub struct Count {
     pub cos: usize,
     /// atan2(a, b), not in the total
     pub atan2: usize,
-    /// Calls, by function, not in the total
+    /// Calls, for each function; not in the total
     pub calls: BTreeMap<Function, usize>,
 }
 
 impl Count {
-    /// What the roots need, every node once however often it is used.
+    /// The operations that the roots need. Every node counts once, however often it is used.
     pub fn of(graph: &Graph, roots: &[NodeId]) -> Self {
         Self::of_nodes(graph, Live::new(graph, roots).nodes())
     }
 
-    /// The operations of these nodes alone, not of their operands.
+    /// The operations of these nodes, without those of their operands.
     pub fn of_nodes(graph: &Graph, nodes: &[NodeId]) -> Self {
         let all = graph.nodes();
         let mut count = Self::default();
@@ -62,7 +62,7 @@ impl Count {
         count
     }
 
-    /// One more node.
+    /// Adds one node.
     pub fn record(&mut self, node: &Node) {
         match node {
             Node::Constant(_) | Node::Symbol(_) | Node::Arguments(_) => {}
@@ -83,22 +83,22 @@ impl Count {
         }
     }
 
-    /// Floating-point operations; a fused multiply-add is two.
+    /// The number of floating-point operations; a fused multiply-add counts as two.
     pub fn total(&self) -> usize {
         self.add + self.sub + self.mul + self.div + self.sqrt + self.max_min + 2 * self.fused
     }
 
-    /// Sines, cosines and angles.
+    /// The number of sines, cosines and angles.
     pub fn trigonometric(&self) -> usize {
         self.sin + self.cos + self.atan2
     }
 
-    /// Calls of all functions together.
+    /// The number of calls of all functions.
     pub fn called(&self) -> usize {
         self.calls.values().sum()
     }
 
-    /// True where nothing is computed, not even a sign.
+    /// True if nothing is computed, not even a sign.
     pub fn is_empty(&self) -> bool {
         self.total() + self.neg + self.trigonometric() + self.called() == 0
     }
@@ -168,17 +168,17 @@ impl fmt::Display for Count {
     }
 }
 
-/// Counts by section of the graph. Each node counts in the section that made it first.
+/// Counts by section of the graph. Each node counts in the section that created it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
-    /// Section and its operations, in the order of the sections; sections without operations are absent.
+    /// Each section with its operations, in the order of the sections. Sections without operations are left out.
     pub rows: Vec<(String, Count)>,
-    /// All of them.
+    /// The sum of all sections.
     pub total: Count,
 }
 
 impl Table {
-    /// What the roots need, by section.
+    /// The operations that the roots need, by section.
     pub fn of(graph: &Graph, roots: &[NodeId]) -> Self {
         let live = Live::new(graph, roots);
         let sections = graph.sections();
@@ -199,7 +199,7 @@ impl Table {
     }
 }
 
-/// A row per section and one for the total; columns of zeros are left out.
+/// A row for each section and one for the total. Columns of zeros are left out.
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         type Column = (&'static str, fn(&Count) -> usize);
@@ -253,7 +253,7 @@ fn plural(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-/// ` (3 add, 2 mul)`, without what is zero; nothing where all are.
+/// ` (3 add, 2 mul)`, without zero entries; empty if all are zero.
 fn list(f: &mut fmt::Formatter<'_>, entries: &[(usize, &str)]) -> fmt::Result {
     let mut separator = " (";
     for (count, name) in entries.iter().filter(|(count, _)| *count > 0) {
@@ -263,7 +263,7 @@ fn list(f: &mut fmt::Formatter<'_>, entries: &[(usize, &str)]) -> fmt::Result {
     f.write_str(if separator == ", " { ")" } else { "" })
 }
 
-/// False where a node is a further result of a call that was met before.
+/// False for a node that is a further result of a call that was already met.
 fn is_first(node: &Node, calls: &mut FxHashSet<Node>) -> bool {
     match *node {
         Node::Call(function, operands) if function.part().is_some() => {

@@ -1,27 +1,27 @@
-//! Derivatives of expressions, as expressions of the same graph: forward, node by node, each node once.
+//! Derivatives of expressions, as expressions of the same graph: forward mode, node by node, each node once.
 //!
 //! ```text
 //! (a b)' = a' b + a b'     (a/b)' = (a' − (a/b) b') / b     √a' = a' / (2 √a)     atan2(y, x)' = (x y' − y x') / (x² + y²)
 //! ```
 //!
-//! Along a direction: with ẋ for the symbols x, ḟ = Σ ∂f/∂x ẋ. One symbol is the direction (0 … 1 … 0); a time derivative is
-//! the direction ṫ = 1, q̇ = the coordinate rates, v̇ = the accelerations.
+//! The derivative is along a direction: with ẋ for the symbols x, ḟ = Σ ∂f/∂x ẋ. A derivative with respect to one symbol has the
+//! direction (0 … 1 … 0). A time derivative has the direction ṫ = 1, q̇ = the coordinate rates, v̇ = the accelerations.
 //!
-//! A curve's derivative is its slope, whose derivative exists but at the points. The larger of two values is
-//! differentiable only where both have the same derivative: the graph has no choice by sign, and a derivative that is
-//! right on one side alone would be a trap. So it is with force laws that branch: over dual numbers they can be
-//! differentiated, where they are evaluated.
+//! The derivative of a curve is its slope, which is differentiable except at the points. The larger of two values is
+//! differentiable only where both have the same derivative: the graph has no choice by sign, and a derivative that is correct on
+//! one side alone would be a trap. The same holds for force laws that branch. Over dual numbers they can be differentiated at run
+//! time.
 
 use super::graph::{Expr, Graph};
 use super::live::Live;
 use super::node::{Function, Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 
-/// Something in the way of a derivative.
+/// A node that cannot be differentiated.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what} is not differentiable in symbols; evaluate it over dual numbers instead")]
 pub struct NotDifferentiable {
-    /// Where.
+    /// The node.
     pub node: NodeId,
     /// Name of the function.
     pub what: &'static str,
@@ -38,7 +38,7 @@ pub fn differentiate(
     })
 }
 
-/// ∂(roots)/∂(symbols), a row per root, a column per symbol.
+/// ∂(roots)/∂(symbols), with a row for each root and a column for each symbol.
 pub fn jacobian(
     graph: &Graph,
     roots: &[NodeId],
@@ -53,13 +53,13 @@ pub fn jacobian(
     Ok(rows)
 }
 
-/// Σ ∂(roots)/∂(symbol) · direction(symbol), in the order of the roots. The direction may be expressions of any kind.
+/// Σ ∂(roots)/∂(symbol) · direction(symbol), in the order of the roots. The components of the direction may be any expressions.
 pub fn differentiate_along<'g>(
     graph: &'g Graph,
     roots: &[NodeId],
     direction: impl Fn(Symbol) -> Expr<'g>,
 ) -> Result<Vec<NodeId>, NotDifferentiable> {
-    // Only derivatives that are not 0: a derivative by one symbol concerns few of the nodes.
+    // It holds only derivatives that are not 0: a derivative with respect to one symbol concerns few of the nodes.
     let mut derivative: FxHashMap<NodeId, Expr<'g>> = FxHashMap::default();
     for &id in Live::new(graph, roots).nodes() {
         let node = graph.node(id);
@@ -84,7 +84,7 @@ pub fn differentiate_along<'g>(
     Ok(roots.iter().map(of).collect())
 }
 
-/// The derivative of a node by those of its operands.
+/// The derivative of a node, from those of its operands.
 fn rule<'g>(
     graph: &'g Graph,
     id: NodeId,
@@ -134,7 +134,8 @@ fn rule<'g>(
             Function::Choose => {
                 let given = graph.arguments(id);
                 match given[..] {
-                    // what decides stays as it is, or is a curve of time: a choice is, like a curve, differentiable but at points
+                    // the condition is constant, or a curve of time: then a choice is differentiable except at points, like a
+                    // curve
                     [a, b, then, otherwise]
                         if d(b).is_zero() && (d(a).is_zero() || is_curve_of_time(graph, a)) =>
                     {
@@ -151,7 +152,7 @@ fn rule<'g>(
             Function::Approach(call) => return refuse(call.path()),
             Function::Support(_) => return refuse("force::ellipsoid::support"),
         },
-        // Depends on what it lists; whoever calls refuses or asks for the arguments themselves.
+        // It depends on the arguments that it lists; the caller refuses, or asks for the arguments themselves.
         Node::Arguments(_) => graph.constant(1.0),
     })
 }
@@ -184,7 +185,7 @@ mod tests {
     const X: Symbol = Symbol::Coordinate(0);
     const Y: Symbol = Symbol::Coordinate(1);
 
-    /// d/dx of what `f` makes of (x, y) is the node that `expected` makes.
+    /// Checks that d/dx of `f`(x, y) is the node that `expected` makes.
     fn check(
         f: impl for<'g> Fn(Expr<'g>, Expr<'g>) -> Expr<'g>,
         expected: impl for<'g> Fn(Expr<'g>, Expr<'g>) -> Expr<'g>,

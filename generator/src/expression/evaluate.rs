@@ -1,15 +1,15 @@
-//! Values of expressions at given inputs, over any scalar: the graph interpreted, operands before their users.
+//! Values of expressions at given inputs, over any scalar: the graph is interpreted, operands before their users.
 //!
-//! Compiled equations are tested against this, states are printed with it, and over other scalars (double-double, duals) it
-//! gives reference values and derivatives without a compiler. The force laws are the runtime's: a call is answered by
-//! whoever asks for the value.
+//! Tests compare compiled equations with it, and states are printed with it. Over other scalars (double-doubles, dual
+//! numbers) it gives reference values and derivatives without a compiler. The force laws belong to the runtime, so the caller
+//! provides the functions that calls need.
 
 use super::graph::{Graph, flatten};
 use super::live::Live;
 use super::node::{Function, Node, NodeId, Symbol};
 use std::ops::{Add, Div, Mul, Neg, Range, Sub};
 
-/// What expressions are evaluated over.
+/// A scalar over which expressions are evaluated.
 pub trait Scalar:
     Copy
     + Add<Output = Self>
@@ -26,13 +26,13 @@ pub trait Scalar:
     fn sin(self) -> Self;
     /// cos a
     fn cos(self) -> Self;
-    /// Angle of the point (`x`, `self`), in (−π, π].
+    /// Angle of the point (`x`, `self`) \[rad\], in \[−π, π\].
     fn atan2(self, x: Self) -> Self;
-    /// The larger.
+    /// The larger of both.
     fn max(self, other: Self) -> Self;
-    /// The smaller.
+    /// The smaller of both.
     fn min(self, other: Self) -> Self;
-    /// `self · a + b`, in one rounding where the scalar can.
+    /// `self · a + b`, with one rounding if the scalar can.
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b
     }
@@ -70,9 +70,9 @@ macro_rules! scalar {
 }
 scalar!(f32, f64);
 
-/// Answers calls of functions that are not algebra. Closures over (function, arguments) are such.
+/// Evaluates calls of functions that are not algebra. Closures over (function, arguments) implement it.
 pub trait Functions<S> {
-    /// The value at [`Function::arity`] arguments.
+    /// The value of a function at [`Function::arity`] arguments.
     fn call(&self, function: Function, arguments: &[S]) -> S;
 }
 
@@ -82,7 +82,7 @@ impl<S, F: Fn(Function, &[S]) -> S> Functions<S> for F {
     }
 }
 
-/// For expressions without calls; a call is not a number.
+/// The functions for expressions without calls; a call gives NaN.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoFunctions;
 
@@ -101,11 +101,11 @@ pub struct Inputs<'a, S> {
     pub coordinates: &'a [S],
     /// v
     pub velocities: &'a [S],
-    /// Parameters of the model, in its order.
+    /// Parameters of the model, in their order.
     pub parameters: &'a [S],
-    /// z, the states of force laws.
+    /// z, the continuous states of force laws.
     pub auxiliaries: &'a [S],
-    /// m, what force laws remember.
+    /// m, the discrete states of force laws.
     pub memory: &'a [S],
 }
 
@@ -126,7 +126,7 @@ impl<S: Copy> Inputs<'_, S> {
     }
 }
 
-/// The values of `roots`, in their order; for one state. For many, keep an [`Evaluator`].
+/// The values of `roots`, in their order, at one state. For many states, keep an [`Evaluator`].
 ///
 /// # Panics
 /// If the roots need an input beyond what was given.
@@ -141,16 +141,17 @@ pub fn evaluate<S: Scalar>(
         .to_vec()
 }
 
-/// Some roots made ready for many evaluations: the live nodes without gaps, numbers filled in, nothing allocated later.
+/// Roots prepared for many evaluations: the live nodes without gaps, with numbers filled in. Nothing is allocated later.
 #[derive(Clone, Debug)]
 pub struct Evaluator<S> {
-    /// Value of each live node.
+    /// The value of each live node.
     values: Vec<S>,
-    /// Operations in order, their operands being indices into `values`; of a call, the range of its arguments in `arguments`.
+    /// The operations in order. Their operands are indices into `values`; a call has the range of its arguments in
+    /// `arguments`.
     steps: Vec<(u32, Step)>,
     /// Arguments of calls, as indices into `values`.
     arguments: Vec<u32>,
-    /// The arguments of one call, room for the most.
+    /// Room for the arguments of one call.
     given: Vec<S>,
     roots: Vec<u32>,
     results: Vec<S>,
@@ -159,7 +160,7 @@ pub struct Evaluator<S> {
 /// One operation.
 #[derive(Clone, Debug)]
 enum Step {
-    /// Anything but a call.
+    /// Any operation except a call.
     Algebra(Node),
     /// A call, with the range of its arguments.
     Call(Function, Range<usize>),
@@ -207,7 +208,7 @@ impl<S: Scalar> Evaluator<S> {
         }
     }
 
-    /// The values of the roots, in their order.
+    /// The values of the roots at these inputs, in their order.
     ///
     /// # Panics
     /// If the roots need an input beyond what was given.
@@ -249,7 +250,7 @@ fn algebra<S: Scalar>(values: &[S], node: Node, inputs: &Inputs<'_, S>) -> S {
         Node::Atan2(a, b) => v(a).atan2(v(b)),
         Node::Max(a, b) => v(a).max(v(b)),
         Node::Min(a, b) => v(a).min(v(b)),
-        // Calls and their arguments are no steps of this kind.
+        // Calls and lists of arguments are not evaluated here.
         Node::Call(..) | Node::Arguments(_) => S::from_f64(f64::NAN),
     }
 }

@@ -1,19 +1,19 @@
-//! The graph of nodes, and the constructors that fold: `x + 0 = x`, `x · 1 = x`, `−(a − b) = b − a`, `(−a) · b = −(a · b)` …
+//! The graph of expressions. Its constructors fold: `x + 0 = x`, `x · 1 = x`, `−(a − b) = b − a`, `(−a) · b = −(a · b)`, and so on.
 //!
-//! Two rules make common subexpressions coincide up to sign, so that sharing needs no pass of its own:
-//! a node's operands are never negated where the negation can move outwards (products, quotients, sums of two negatives), and
-//! of `a − b` and `b − a` only the one whose first operand is older exists, the other being its negation. Constants in
-//! products are positive for the same reason.
+//! Two rules make common subexpressions coincide up to sign, so that sharing needs no pass of its own. First, the operands of a node
+//! are never negated where the negation can move outwards (products, quotients, sums of two negatives). Second, of `a − b` and
+//! `b − a` only the one whose first operand is older exists; the other is its negation. For the same reason constants in products
+//! are positive.
 //!
-//! Operands of a node are older than the node: the order of creation is a topological order, and, since nothing else
-//! decides it, the same model gives the same graph on every run and machine.
+//! Operands of a node are older than the node, so the order of creation is a topological order. Nothing else decides this order, so
+//! the same model gives the same graph on every run and every machine.
 
 use super::node::{Function, Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 use std::cell::{Ref, RefCell};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The graph. Grows only; cheap to share by reference.
+/// The graph. It only grows, and is cheap to share by reference.
 #[derive(Clone, Default)]
 pub struct Graph {
     inner: RefCell<Inner>,
@@ -23,7 +23,7 @@ pub struct Graph {
 struct Inner {
     nodes: Vec<Node>,
     index: FxHashMap<Node, NodeId>,
-    /// Section in which each node was first made.
+    /// The section that created each node.
     section_of: Vec<u32>,
     sections: Vec<String>,
     current: u32,
@@ -38,12 +38,12 @@ impl Inner {
     }
 }
 
-/// What a section belongs to, an element or a system: what stands before the colon.
+/// The owner of a section, an element or a system: the words before the colon.
 pub fn owner(section: &str) -> &str {
     section.split(": ").next().unwrap_or(section)
 }
 
-/// A value in the graph. Operators build and fold.
+/// A value in the graph. Its operators create nodes and fold.
 #[derive(Clone, Copy)]
 pub struct Expr<'g> {
     graph: &'g Graph,
@@ -58,8 +58,8 @@ impl Graph {
         graph
     }
 
-    /// From here on, new nodes belong to the section of this name ("element head: orientation"): a block of the emitted
-    /// text with this comment above it, and a row of the operation count.
+    /// From here on, new nodes belong to the section with this name ("element head: orientation"). A section is a block of the
+    /// emitted text with its name as a comment, and a row of the operation count.
     pub fn section(&self, name: impl Into<String>) {
         let name = name.into();
         let mut inner = self.inner.borrow_mut();
@@ -71,12 +71,12 @@ impl Graph {
         inner.current = index as u32;
     }
 
-    /// The index of the section that new nodes belong to.
+    /// Index of the section that new nodes belong to.
     pub(crate) fn current_section(&self) -> u32 {
         self.inner.borrow().current
     }
 
-    /// From here on, new nodes belong to the section of this index.
+    /// From here on, new nodes belong to the section with this index.
     pub(crate) fn enter_section(&self, index: u32) {
         self.inner.borrow_mut().current = index;
     }
@@ -86,12 +86,13 @@ impl Graph {
         Ref::map(self.inner.borrow(), |i| i.sections.as_slice())
     }
 
-    /// Index of the section in which a node was made.
+    /// Index of the section that created a node.
     pub fn section_of(&self, id: NodeId) -> usize {
         self.inner.borrow().section_of[id.0 as usize] as usize
     }
 
-    /// By section, what it belongs to: the first of the sections with the same words before the colon, as those of one element have.
+    /// For each section, its owner: the first of the sections with the same words before the colon. Sections of one element have the
+    /// same owner.
     pub fn owners(&self) -> Vec<usize> {
         let sections = self.sections();
         let mut first: FxHashMap<&str, usize> = FxHashMap::default();
@@ -100,10 +101,10 @@ impl Graph {
         owners.collect()
     }
 
-    /// Gives a node a name for the reader, an identifier; the first name given stays. Constants and inputs need none.
+    /// Gives a node a name for the reader, an identifier. The first name given stays. Constants and inputs need none.
     ///
-    /// A negative has no name, but what it is the negative of, which is then `minus_…`: were p older than r, `r - p` would
-    /// be −(p − r), and `w = p - r` in the text would be wrong.
+    /// A negative gets no name. Its operand gets the name `minus_…` instead. Otherwise, if p were older than r, `r - p` would be
+    /// −(p − r), and `w = p - r` in the text would be wrong.
     pub fn name(&self, expr: Expr<'_>, name: impl Into<String>) {
         let mut inner = self.inner.borrow_mut();
         let mut name = name.into();
@@ -134,7 +135,7 @@ impl Graph {
         self.inner.borrow().nodes.len()
     }
 
-    /// True where there is no node.
+    /// True if there is no node.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -154,13 +155,13 @@ impl Graph {
         Expr { graph: self, id }
     }
 
-    /// A number.
+    /// The node of a number.
     pub fn constant(&self, value: f64) -> Expr<'_> {
-        // Adding zero turns −0 into 0: a product with zero must not depend on a sign.
+        // Adding zero turns −0 into 0: a product with zero must not depend on the sign.
         self.intern(Node::Constant((value + 0.0).to_bits()))
     }
 
-    /// An input.
+    /// The node of an input.
     pub fn symbol(&self, symbol: Symbol) -> Expr<'_> {
         self.intern(Node::Symbol(symbol))
     }
@@ -168,7 +169,7 @@ impl Graph {
     /// A call of a function with [`Function::arity`] arguments.
     ///
     /// # Panics
-    /// If the number of arguments is another: a fault of the caller, not of a model.
+    /// If the number of arguments is wrong, which is an error of the caller and not of a model.
     pub fn call<'g>(&'g self, function: Function, arguments: &[Expr<'g>]) -> Expr<'g> {
         assert_eq!(
             arguments.len(),
@@ -179,7 +180,7 @@ impl Graph {
         self.intern(Node::Call(function, ids))
     }
 
-    /// Arguments as three operands: more than three of them in lists, filled from the left, three to a list.
+    /// Packs arguments into three operands. If there are more than three, they go into lists, three to a list, filled from the left.
     fn grouped(&self, mut ids: Vec<NodeId>) -> [NodeId; 3] {
         while ids.len() > 3 {
             let lists = ids.chunks(3).map(|chunk| {
@@ -195,7 +196,7 @@ impl Graph {
         std::array::from_fn(|i| ids.get(i).copied().unwrap_or(first))
     }
 
-    /// The arguments of a call, in order; none for any other node.
+    /// The arguments of a call, in order; empty for any other node.
     pub fn arguments(&self, id: NodeId) -> Vec<NodeId> {
         let nodes = self.nodes();
         match nodes[id.0 as usize] {
@@ -213,7 +214,7 @@ impl Graph {
         }
     }
 
-    /// The node itself, unfolded, shared with an equal one: for passes that rewrite a graph.
+    /// The node as it is, unfolded, shared with an equal one: for passes that rewrite a graph.
     pub fn intern(&self, node: Node) -> Expr<'_> {
         let mut inner = self.inner.borrow_mut();
         if let Some(&id) = inner.index.get(&node) {
@@ -224,7 +225,7 @@ impl Graph {
         Expr { graph: self, id }
     }
 
-    /// The node itself once more, though an equal one may exist, which stays the one that [`Self::intern`] finds.
+    /// A second copy of a node, even if an equal one exists. [`Self::intern`] continues to find the old one.
     pub fn again(&self, node: Node) -> Expr<'_> {
         let id = self.inner.borrow_mut().push(node);
         Expr { graph: self, id }
@@ -235,14 +236,14 @@ impl Graph {
     }
 }
 
-/// The arguments of a call of this arity, in order, from its operands: the inverse of the grouping in lists.
+/// The arguments of a call with this arity, in order, from its operands: the inverse of the packing into lists.
 pub(crate) fn flatten(
     arity: usize,
     operands: [NodeId; 3],
     node: &impl Fn(NodeId) -> Node,
     into: &mut Vec<NodeId>,
 ) {
-    // lists of one level hold `size` arguments each, but for the last
+    // all lists of one level hold `size` arguments, except the last
     let mut size = 1;
     while 3 * size < arity {
         size *= 3;
@@ -262,7 +263,7 @@ pub(crate) fn flatten(
 }
 
 impl<'g> Expr<'g> {
-    /// Index of the node.
+    /// Index of the node in its graph.
     pub fn id(self) -> NodeId {
         self.id
     }
@@ -272,7 +273,7 @@ impl<'g> Expr<'g> {
         self.graph
     }
 
-    /// The node.
+    /// The operation or input at this node.
     pub fn node(self) -> Node {
         self.graph.node(self.id)
     }
@@ -302,10 +303,10 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// `c · x` with a number c, as (c, x).
+    /// Splits `c · x` with a number c into (c, x).
     fn scaled(self) -> (f64, Expr<'g>) {
         if let Node::Mul(a, b) = self.node() {
-            // The constant may be either operand: they are ordered by age.
+            // The constant may be either operand, because operands are ordered by age.
             for (a, b) in [(a, b), (b, a)] {
                 if let Some(c) = self.graph.expr(a).as_constant() {
                     return (c, self.graph.expr(b));
@@ -341,7 +342,7 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// Angle of the point (`x`, `self`).
+    /// Angle of the point (`x`, `self`) \[rad\].
     pub fn atan2(self, x: Expr<'g>) -> Expr<'g> {
         match (self.as_constant(), x.as_constant()) {
             (Some(a), Some(b)) => self.graph.constant(a.atan2(b)),
@@ -349,17 +350,17 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// The larger.
+    /// The larger of both.
     pub fn max(self, other: Expr<'g>) -> Expr<'g> {
         match (self.as_constant(), other.as_constant()) {
             (Some(a), Some(b)) => self.graph.constant(a.max(b)),
             _ if self.id == other.id => self,
-            // in this order: the runtime's choice passes on a first operand that is no number
+            // in this order: the choice of the runtime passes on a first operand that is NaN
             _ => self.graph.intern(Node::Max(self.id, other.id)),
         }
     }
 
-    /// The smaller.
+    /// The smaller of both.
     pub fn min(self, other: Expr<'g>) -> Expr<'g> {
         match (self.as_constant(), other.as_constant()) {
             (Some(a), Some(b)) => self.graph.constant(a.min(b)),
@@ -516,7 +517,7 @@ impl<'g> Mul<Expr<'g>> for f64 {
     }
 }
 
-/// The name of the negative of what has this name.
+/// The name for the negative of a value with this name.
 pub(crate) fn opposite_name(name: &str) -> String {
     match name.strip_prefix("minus_") {
         Some(positive) => positive.to_string(),
@@ -524,7 +525,7 @@ pub(crate) fn opposite_name(name: &str) -> String {
     }
 }
 
-/// The sum of several expressions, from the left; the number 0 for none.
+/// The sum of several expressions, added from the left; the number 0 if there are none.
 pub fn sum<'g>(graph: &'g Graph, terms: impl IntoIterator<Item = Expr<'g>>) -> Expr<'g> {
     terms.into_iter().fold(graph.constant(0.0), |a, b| a + b)
 }
@@ -599,7 +600,7 @@ mod tests {
         for arity in 1..=40 {
             let graph = Graph::new();
             let given: Vec<NodeId> = (0..arity)
-                // some of them equal, and equal neighbours
+                // with some equal nodes, also next to each other
                 .map(|i| graph.symbol(Symbol::Coordinate(i / 2 % 5)).id())
                 .collect();
             let operands = graph.grouped(given.clone());

@@ -1,21 +1,21 @@
-//! What a set of results needs: live nodes, how often each is used, what each depends on.
+//! The nodes that a set of results needs: the live nodes, how often each is used, and what each depends on.
 //!
 //! d(node) = d(operand₁) ∪ d(operand₂) ∪ …, d(input) = the kind of the input.
 //!
-//! Dependence decides where a value is computed: what depends on parameters alone is computed once per simulation
-//! ([`Live::hoistable`]), the rest at every state.
+//! Dependence decides where a value is computed. A value that depends on parameters alone is computed once per
+//! simulation ([`Live::hoistable`]), all others at every state.
 
 use super::graph::Graph;
 use super::node::{Function, Node, NodeId, Symbol};
 use std::fmt;
 use std::ops::BitOr;
 
-/// The kinds of input that a value depends on: a set, ordered by inclusion.
+/// The kinds of inputs that a value depends on: a set, ordered by inclusion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Dependence(u8);
 
 impl Dependence {
-    /// Depends on nothing: a number.
+    /// Depends on nothing: a constant.
     pub const CONSTANT: Self = Dependence(0);
     /// Depends on parameters.
     pub const PARAMETERS: Self = Dependence(1);
@@ -25,10 +25,10 @@ impl Dependence {
     pub const COORDINATES: Self = Dependence(4);
     /// Depends on velocities.
     pub const VELOCITIES: Self = Dependence(8);
-    /// Depends on states or memory of force laws.
+    /// Depends on continuous or discrete states of force laws.
     pub const LAWS: Self = Dependence(16);
 
-    /// True where nothing is depended on that `limit` lacks.
+    /// True if `limit` has all kinds of inputs that this has.
     pub fn within(self, limit: Self) -> bool {
         self.0 & !limit.0 == 0
     }
@@ -78,18 +78,18 @@ impl fmt::Display for Dependence {
 #[derive(Clone, Debug)]
 pub struct Live {
     nodes: Vec<NodeId>,
-    /// By node of the graph; 0 for what is not live.
+    /// The number of uses of each node of the graph; 0 if it is not live.
     uses: Vec<u32>,
-    /// By node of the graph; meaningful for live nodes.
+    /// The dependence of each node of the graph; valid for live nodes only.
     dependence: Vec<Dependence>,
     roots: Vec<NodeId>,
 }
 
 impl Live {
-    /// What `roots` need. A root may be listed more than once.
+    /// The nodes that `roots` need. A root may be listed more than once.
     pub fn new(graph: &Graph, roots: &[NodeId]) -> Self {
         let all = graph.nodes();
-        // Operands are older than their users: nothing behind the youngest root is needed.
+        // Operands are older than their users, so no node younger than the youngest root is needed.
         let end = roots.iter().map(|r| r.0 as usize + 1).max().unwrap_or(0);
         let mut uses = vec![0; all.len()];
         for root in roots {
@@ -118,17 +118,17 @@ impl Live {
         }
     }
 
-    /// Live nodes, by order of creation: operands before their users.
+    /// The live nodes in order of creation: operands before their users.
     pub fn nodes(&self) -> &[NodeId] {
         &self.nodes
     }
 
-    /// True where the node is needed.
+    /// True if the node is live.
     pub fn contains(&self, id: NodeId) -> bool {
         self.uses(id) > 0
     }
 
-    /// How often the node is an operand of live nodes (twice by x · x) or a root; 0 where it is not needed.
+    /// How often the node is an operand of live nodes (twice in x · x) or a root; 0 if it is not live.
     pub fn uses(&self, id: NodeId) -> u32 {
         self.uses.get(id.0 as usize).copied().unwrap_or(0)
     }
@@ -143,15 +143,16 @@ impl Live {
         &self.roots
     }
 
-    /// What to compute once per simulation: [`maximal_within`](Self::maximal_within) the parameters.
+    /// The values to compute once per simulation: [`maximal_within`](Self::maximal_within) the parameters.
     pub fn hoistable(&self, graph: &Graph) -> Vec<NodeId> {
         self.maximal_within(graph, Dependence::PARAMETERS)
     }
 
-    /// The operations that depend on no more than `limit` and are used by a node that depends on more, or are roots;
-    /// by order of creation.
+    /// The operations that depend on no more than `limit`, and that are roots or are used by a node that depends on
+    /// more. They are in order of creation.
     ///
-    /// Numbers and inputs are not among them, being there already, nor are signs: of −a, a is.
+    /// Numbers and inputs are not among them, because they already exist. Signs are not either: for −a, a is among
+    /// them.
     pub fn maximal_within(&self, graph: &Graph, limit: Dependence) -> Vec<NodeId> {
         let all = graph.nodes();
         let unsigned = |id: NodeId| match all[id.0 as usize] {
@@ -166,7 +167,7 @@ impl Live {
                 }
             }
         }
-        // of a list of arguments, its members; lists are younger than what they list
+        // for a list of arguments, its members; lists are younger than their members
         for &id in self.nodes.iter().rev() {
             if let Node::Arguments(members) = all[id.0 as usize]
                 && maximal[id.0 as usize]
@@ -192,7 +193,7 @@ impl Live {
     }
 }
 
-/// What a node depends on besides its operands.
+/// What a node itself depends on, without its operands.
 fn own_dependence(node: &Node) -> Dependence {
     match node {
         Node::Symbol(symbol) => Dependence::of_symbol(*symbol),

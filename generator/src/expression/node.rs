@@ -1,6 +1,6 @@
-//! What there is to compute: the inputs of the equations, the functions that are called, and the operations on nodes.
+//! The nodes of a graph: the inputs of the equations, the functions that are called, and the operations.
 
-/// Index of a node in its graph, by order of creation.
+/// Index of a node in its graph, in order of creation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub u32);
 
@@ -13,18 +13,18 @@ pub enum Symbol {
     Coordinate(u32),
     /// v\[i\]
     Velocity(u32),
-    /// Index into the model's parameters.
+    /// A parameter, by its index in the model.
     Parameter(u32),
-    /// z\[i\], a state of a force law that is integrated with the rest.
+    /// z\[i\], a continuous state of a force law, which is integrated with the rest.
     Auxiliary(u32),
-    /// m\[i\], what a force law remembers: constant during a step, renewed when one is accepted.
+    /// m\[i\], a discrete state of a force law: constant during a step, updated after an accepted step.
     Memory(u32),
 }
 
-/// A function that is not algebra: it is called, by these names, in the runtime.
+/// A function that is not algebra. The generated code calls it in the runtime, by these names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Function {
-    /// Value of the model's curve at one argument.
+    /// Value of the curve with this index in the model, at one argument.
     Curve(u32),
     /// Slope of the curve at one argument.
     CurveSlope(u32),
@@ -36,9 +36,10 @@ pub enum Function {
     CurveIntegral(u32),
     /// ∬ of the curve from 0 to one argument.
     CurveDoubleIntegral(u32),
-    /// A function whose sign changes where the curve is not smooth, at one argument.
+    /// The breakpoint indicator of the curve at one argument: its sign changes where the curve is not smooth.
     CurveZigzag(u32),
-    /// The first argument above 0 at which velocity + factor · ∫ of the curve from 0 reaches 0, of both; 0 where it never does.
+    /// Function of velocity and factor: the first argument above 0 at which velocity + factor · ∫ of the curve from 0 reaches 0;
+    /// 0 where it never does.
     CurveStop(u32),
     /// `force::friction::coulomb(limit, speed, tolerance)`
     Coulomb,
@@ -54,20 +55,21 @@ pub enum Function {
     Choose,
     /// One of the four results of `force::ellipsoid::support(x, y, z, power)`
     Support(u8),
-    /// One result of the search for the direction in which two ellipsoids overlap least, of two symmetric matrices and a vector
+    /// One result of the search for the direction of least overlap of two ellipsoids, given as two symmetric matrices and a
+    /// vector
     Approach(ApproachCall),
-    /// One result of a function of the user's: `module::scalars(arguments)`
+    /// One result of a function of the user: `module::scalars(arguments)`
     User(UserCall),
 }
 
-/// One result of a call of a function of the user's.
+/// One result of a call of a function of the user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct UserCall {
-    /// Index of the force among those of the model.
+    /// Index of the force in the model.
     pub force: u16,
     /// Number of arguments.
     pub arguments: u16,
-    /// Which of the results.
+    /// Index of this result.
     pub part: u16,
     /// Number of results.
     pub parts: u16,
@@ -76,16 +78,18 @@ pub struct UserCall {
 /// One result of the approach of two ellipsoids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ApproachCall {
-    /// Whether in the plane: matrices of xx, zz, xz, and vectors of x and z; in space of xx, yy, zz, yz, xz, xy, and of x, y, z.
+    /// Whether it is in the plane: matrices are xx, zz, xz, and vectors x, z. In space matrices are xx, yy, zz, yz, xz, xy, and
+    /// vectors x, y, z.
     pub planar: bool,
-    /// Whether of bodies that do not touch any plane between them will do: for forces, which are 0 then.
+    /// Whether any plane between bodies that do not touch is a sufficient result. Forces use this, because they are then 0.
     pub early: bool,
-    /// Which of the results: the direction, the overlap, and the middle of the two furthest points from the first centre.
+    /// Index of this result: first the direction, then the overlap, then the vector from the first centre to the middle of the
+    /// two furthest points.
     pub part: u8,
 }
 
 impl ApproachCall {
-    /// Components of a vector.
+    /// Number of components of a vector.
     pub fn components(self) -> usize {
         if self.planar { 2 } else { 3 }
     }
@@ -133,7 +137,7 @@ impl Function {
         }
     }
 
-    /// The same function, asked for the first of its results.
+    /// The same function with the first of its results.
     pub fn first_part(self) -> Function {
         match self {
             Function::Support(_) => Function::Support(0),
@@ -143,9 +147,9 @@ impl Function {
         }
     }
 
-    /// Which of several results of one call this is, and how many there are; `None` where a call has one result.
+    /// Index of this result and number of results of the call; `None` for a call with one result.
     ///
-    /// Calls that differ in this alone are one call in the emitted text.
+    /// Calls that differ only in this index are one call in the emitted text.
     pub fn part(self) -> Option<(usize, usize)> {
         match self {
             Function::Curve(_)
@@ -172,7 +176,7 @@ impl Function {
 /// One operation. Operands are older nodes of the same graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
-    /// A number, by its bits; zero has no sign.
+    /// A number, by its bits. Zero has no sign.
     Constant(u64),
     /// An input.
     Symbol(Symbol),
@@ -186,7 +190,7 @@ pub enum Node {
     Mul(NodeId, NodeId),
     /// a / b
     Div(NodeId, NodeId),
-    /// a · b + c in one rounding; made only by the pass that selects fused operations
+    /// a · b + c with one rounding. Only the pass that selects fused operations makes it.
     MulAdd(NodeId, NodeId, NodeId),
     /// √a
     Sqrt(NodeId),
@@ -196,20 +200,20 @@ pub enum Node {
     Cos(NodeId),
     /// Angle of the point (second, first).
     Atan2(NodeId, NodeId),
-    /// The larger.
+    /// The larger of both.
     Max(NodeId, NodeId),
-    /// The smaller.
+    /// The smaller of both.
     Min(NodeId, NodeId),
-    /// A call; operands beyond the function's arity repeat the first. Of more than three arguments the operands are
-    /// [`Node::Arguments`].
+    /// A call. If the function has fewer than three arguments, the remaining operands repeat the first. If it has more than
+    /// three, the operands are [`Node::Arguments`].
     Call(Function, [NodeId; 3]),
-    /// Up to three arguments of a call, or lists of them, one after the other: no value by itself. What is missing
-    /// repeats the last.
+    /// Up to three arguments of a call, or lists of them, one after the other. It has no value of its own. Missing entries
+    /// repeat the last.
     Arguments([NodeId; 3]),
 }
 
 impl Node {
-    /// True for a number and for an input: what is no operation.
+    /// True for a number and an input, which are no operations.
     pub fn is_leaf(&self) -> bool {
         matches!(self, Node::Constant(_) | Node::Symbol(_))
     }

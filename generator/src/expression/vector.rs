@@ -1,10 +1,10 @@
-//! Vectors and matrices of expressions: of space (3) and of the x–z plane (2).
+//! Vectors and matrices of expressions, in space (3) and in the x–z plane (2).
 
 use super::graph::{Expr, Graph};
 use std::array::from_fn;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A vector of space.
+/// A vector in space.
 #[derive(Clone, Copy, Debug)]
 pub struct Vec3<'g>(pub [Expr<'g>; 3]);
 
@@ -12,20 +12,20 @@ pub struct Vec3<'g>(pub [Expr<'g>; 3]);
 #[derive(Clone, Copy, Debug)]
 pub struct Mat3<'g>(pub [[Expr<'g>; 3]; 3]);
 
-/// A symmetric 3×3 matrix kept as six numbers, so that rounding can never make it unsymmetric.
+/// A symmetric 3×3 matrix stored as six numbers, so that rounding cannot make it unsymmetric.
 #[derive(Clone, Copy, Debug)]
 pub struct Sym3<'g> {
     /// Diagonal: xx, yy, zz.
     pub diagonal: [Expr<'g>; 3],
-    /// Off the diagonal: yz, xz, xy (each by the axis that it lacks).
+    /// Off the diagonal: yz, xz, xy (the axis that is missing is x, y, z).
     pub off: [Expr<'g>; 3],
 }
 
-/// A vector of the x–z plane.
+/// A vector in the x–z plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Vec2<'g>(pub [Expr<'g>; 2]);
 
-/// A symmetric 2×2 matrix kept as three numbers.
+/// A symmetric 2×2 matrix stored as three numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Sym2<'g> {
     /// xx
@@ -130,7 +130,7 @@ impl<'g> Sym3<'g> {
         }
     }
 
-    /// The matrix with these entries; `entry` is asked once for each of the six.
+    /// The matrix with these entries. `entry` is called once for each of the six.
     pub fn from_fn(mut entry: impl FnMut(usize, usize) -> Expr<'g>) -> Self {
         Sym3 {
             diagonal: from_fn(|i| entry(i, i)),
@@ -173,7 +173,7 @@ impl<'g> Vec2<'g> {
         self.0[0] * other.0[0] + self.0[1] * other.0[1]
     }
 
-    /// e_y × a = (a_z, −a_x): what a unit turn about +y does to a.
+    /// e_y × a = (a_z, −a_x): the change of a by a unit rotation about +y.
     pub fn turned(self) -> Self {
         Vec2([self.0[1], -self.0[0]])
     }

@@ -1,11 +1,13 @@
 //! The construction of a body.
 //!
-//! - **Lengths** are those of de Leva times stature over the mean stature, **masses** shares of the mass, divided by their sum. Moments of inertia are m (r l)² of the radii of gyration.
-//! - What carries what: the hip, knee, ankle, shoulder, elbow and wrist joints are the ends of the segments; abdomen, thorax and head join at navel, lower end of the breastbone and
-//!   seventh neck vertebra, all on one vertical line (**assumed**: the last two lie on the front and the back).
-//! - Shoulder joints are 0.170 m, hips 0.085 m from the middle of an adult of mean stature; the ankle is 0.050 m before the heel and the foot's centre of gravity 0.040 m below the ankle (**assumed**).
-//! - The sole lies where the stature ends: below the ankle by what the segments leave of it.
-//! - **Ellipsoids** have the breadths, depths and girths of ANSUR II; the height of the head's, 0.13 of the stature, is **assumed**.
+//! - **Lengths** are those of de Leva times stature over mean stature. **Masses** are shares of the mass, divided by their sum. Moments of inertia
+//!   are m (r l)² with the radii of gyration r.
+//! - **Joints**: the hip, knee, ankle, shoulder, elbow and wrist joints are the ends of the segments. Abdomen, thorax and head join at the navel, the
+//!   lower end of the breastbone and the seventh neck vertebra, all on one vertical line (**assumed**: the last two lie on the front and the back).
+//! - Shoulder joints are 0.170 m, hips 0.085 m from the middle of an adult of mean stature. The ankle is 0.050 m in front of the heel and 0.040 m
+//!   above the centre of gravity of the foot (**assumed**).
+//! - The sole is where the stature ends: its distance below the ankle is the rest that the segments leave.
+//! - **Ellipsoids** have the breadths, depths and girths of ANSUR II. The height of the head's ellipsoid, 0.13 of the stature, is **assumed**.
 
 use super::data::{Outside, Segment, Segments, outside, segments};
 use super::dummy::dummy;
@@ -13,19 +15,19 @@ use super::size::{Person, Size};
 use std::f64::consts::TAU;
 
 impl Body {
-    /// Of all elements together \[kg\].
+    /// The mass of all elements together \[kg\].
     pub fn mass(&self) -> f64 {
         let of = |element: &Element| element.mass * if element.pair { 2.0 } else { 1.0 };
         self.elements.iter().map(of).sum()
     }
 }
 
-/// How an element is joined to the one that carries it.
+/// The joint between an element and the one that carries it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joint {
-    /// The root.
+    /// No joint: the root.
     None,
-    /// A ball.
+    /// A ball joint.
     Ball,
     /// A hinge about y.
     Hinge,
@@ -33,33 +35,33 @@ pub enum Joint {
     Three,
 }
 
-/// An element; of a pair the left one.
+/// An element; for a pair, the left one.
 #[derive(Clone, Debug)]
 pub struct Element {
     /// Name.
     pub name: &'static str,
-    /// What carries it, and where \[m\].
+    /// The element that carries it, and the position of the joint on that \[m\].
     pub on: Option<(&'static str, [f64; 3])>,
-    /// How.
+    /// Its joint.
     pub joint: Joint,
     /// Whether there is a right one, too.
     pub pair: bool,
-    /// \[kg\]
+    /// Mass \[kg\].
     pub mass: f64,
-    /// Centre of gravity \[m\].
+    /// Position of the centre of gravity \[m\].
     pub cg: [f64; 3],
-    /// About the centre of gravity \[kg m²\].
+    /// Principal moments of inertia about the centre of gravity \[kg m²\].
     pub inertia: [f64; 3],
 }
 
-/// An ellipsoid of an element, by the element's name.
+/// An ellipsoid of an element.
 #[derive(Clone, Debug)]
 pub struct Shape {
-    /// The element.
+    /// Name of the element.
     pub on: &'static str,
-    /// \[m\]
+    /// Position of the centre \[m\].
     pub center: [f64; 3],
-    /// \[m\]
+    /// Semi-axes \[m\].
     pub semi_axes: [f64; 3],
     /// Whether there is a right one, too.
     pub pair: bool,
@@ -68,24 +70,24 @@ pub struct Shape {
 /// A body.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Elements, each behind the one that carries it.
+    /// The elements, each after the one that carries it.
     pub elements: Vec<Element>,
     /// Ellipsoids.
     pub shapes: Vec<Shape>,
-    /// From sole to vertex \[m\].
+    /// Height from sole to vertex \[m\].
     pub stature: f64,
-    /// From hip to knee \[m\].
+    /// Length from hip to knee \[m\].
     pub thigh: f64,
-    /// From knee to ankle \[m\].
+    /// Length from knee to ankle \[m\].
     pub shank: f64,
-    /// From the ankle down to the sole \[m\].
+    /// Distance from the ankle down to the sole \[m\].
     pub sole: f64,
 }
 
-/// A body.
+/// The body of a person.
 ///
 /// # Errors
-/// Outside of what the data can be stretched to, with the reason.
+/// If the size is outside of the range that the data can be scaled to, with the reason.
 pub fn body(person: &Person) -> Result<Body, String> {
     match person {
         Person::Size(size) => {
@@ -107,7 +109,7 @@ pub fn body(person: &Person) -> Result<Body, String> {
     }
 }
 
-/// Whether the data of adults can be stretched to a size.
+/// Checks that the data of adults can be scaled to a size.
 fn within(Size { stature, mass, .. }: Size) -> Result<(), String> {
     if !(1.40..=2.10).contains(&stature) {
         return Err(format!(
@@ -151,16 +153,16 @@ fn made(data: &Segments, outside: &Outside, size: Size) -> Result<Body, String> 
     })
 }
 
-/// Segments with what they are multiplied by.
+/// The segments and their scale factors.
 struct Built<'d> {
     data: &'d Segments,
-    /// Lengths \[m/mm\].
+    /// Factor on lengths \[m/mm\].
     scale: f64,
-    /// Shares of the mass \[kg\].
+    /// Factor on the mass shares \[kg\].
     mass: f64,
 }
 
-/// An element before it has its segment: its name, what carries it and where, how, and its segment.
+/// An element without its mass properties: name, carrier, position on the carrier, joint, and segment.
 type Limb<'d> = (&'static str, &'static str, [f64; 3], Joint, &'d Segment);
 
 impl<'d> Built<'d> {
@@ -172,12 +174,12 @@ impl<'d> Built<'d> {
         }
     }
 
-    /// \[m\]
+    /// Length of a segment \[m\].
     fn length(&self, segment: &Segment) -> f64 {
         self.scale * segment.length
     }
 
-    /// From the ankles to the top of the head \[m\].
+    /// Height from the ankles to the top of the head \[m\].
     fn chain(&self) -> f64 {
         let data = self.data;
         let all = [
@@ -191,7 +193,7 @@ impl<'d> Built<'d> {
         all.map(|segment| self.length(segment)).iter().sum()
     }
 
-    /// All elements; the spine upwards, limbs downwards.
+    /// All elements: the spine upwards, limbs downwards.
     fn elements(&self) -> Vec<Element> {
         let data = self.data;
         let above = |segment: &Segment| [0.0, 0.0, self.length(segment)];
@@ -284,7 +286,7 @@ impl<'d> Built<'d> {
         elements.extend(spine.map(|one| with(one, false, up(one.4))));
         elements.extend(limbs.map(|one| with(one, true, down(one.4))));
         if let Some(foot) = elements.last_mut() {
-            // it lies: its long axis is x
+            // the foot lies: its long axis is x
             let [sagittal, transverse, longitudinal] = foot.inertia;
             foot.inertia = [longitudinal, transverse, sagittal];
             let before_heel = data.foot.com * self.length(&data.foot);
@@ -297,13 +299,13 @@ impl<'d> Built<'d> {
         elements
     }
 
-    /// About the sagittal, transverse and longitudinal axis \[kg m²\].
+    /// Moments of inertia about the sagittal, transverse and longitudinal axis \[kg m²\].
     fn inertia(&self, segment: &Segment) -> [f64; 3] {
         let (mass, length) = (self.mass * segment.mass, self.length(segment));
         segment.radii.map(|radius| mass * (radius * length).powi(2))
     }
 
-    /// All ellipsoids. `size` gives outer dimensions \[m\], `sole` is what the soles lie below the ankles \[m\].
+    /// All ellipsoids. `size` gives outer dimensions \[m\], `sole` is the distance of the soles below the ankles \[m\].
     fn shapes(&self, stature: f64, sole: f64, size: &dyn Fn(&str) -> f64) -> Vec<Shape> {
         let data = self.data;
         let trunk = |on, segment: &Segment, depth, breadth| {
@@ -359,7 +361,8 @@ mod tests {
         body(&Person::Size(Size { sex, stature, mass }))
     }
 
-    /// A man of 77.7 kg and 1.753 m and a woman of 49 kg and 1.501 m, as somebody else derived them from the same table, printed to four decimals (six of moments).
+    /// A man of 77.7 kg and 1.753 m and a woman of 49 kg and 1.501 m, derived independently from the same table, printed to four decimals (moments to
+    /// six).
     #[test]
     fn bodies_are_those_of_an_independent_derivation() {
         let man = [
@@ -436,7 +439,7 @@ mod tests {
             let body = made(sex, stature, total).unwrap();
             for (name, mass, cg, inertia) in expected {
                 let element = body.elements.iter().find(|one| one.name == *name).unwrap();
-                // the shares of the women sum to 0.9999, and are divided by that here
+                // the shares of the women sum to 0.9999; they are divided by this sum here
                 assert!(
                     (element.mass - mass).abs() < 6e-5 + 2e-4 * mass,
                     "{name} {}",

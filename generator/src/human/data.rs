@@ -1,9 +1,9 @@
-//! What is known of people.
+//! Anthropometric data.
 
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
-/// The sex that the data are of.
+/// The sex of the persons in the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sex {
     /// Female.
@@ -12,17 +12,17 @@ pub enum Sex {
     Male,
 }
 
-/// A segment, as a share of the body and of its own length.
+/// A segment, relative to the body and to its own length.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Segment {
-    /// As a share of the body's.
+    /// Its mass as a share of the mass of the body.
     pub mass: f64,
-    /// \[mm\] at the mean stature.
+    /// Its length at the mean stature \[mm\].
     pub length: f64,
-    /// From the upper end, of a foot from the heel, as a share of the length.
+    /// The centre of gravity from the upper end, for a foot from the heel, as a share of the length.
     pub com: f64,
-    /// About the sagittal, transverse, longitudinal axis, as shares of the length.
+    /// Radii of gyration about the sagittal, transverse and longitudinal axis, as shares of the length.
     pub radii: [f64; 3],
 }
 
@@ -42,22 +42,22 @@ pub struct Segments {
     pub thigh: Segment,
     pub shank: Segment,
     pub foot: Segment,
-    /// From midway between the shoulder joints to midway between the hips \[mm\].
+    /// Distance from the middle between the shoulder joints to the middle between the hips \[mm\].
     pub shoulder_to_hip: f64,
     /// Half the distance of the shoulder joints \[mm\].
     pub half_shoulders: f64,
     /// Half the distance of the hips \[mm\].
     pub half_hips: f64,
-    /// From the heel forward to the ankle \[mm\].
+    /// Distance from the heel forward to the ankle \[mm\].
     pub heel: f64,
-    /// From the ankle down to the foot's centre of gravity \[mm\].
+    /// Distance from the ankle down to the centre of gravity of the foot \[mm\].
     pub foot_below_ankle: f64,
     /// Height of the head's ellipsoid as a share of the stature.
     pub head_height: f64,
 }
 
 impl Segments {
-    /// The mass of all together, in what masses are given in.
+    /// The sum of the masses of all segments, in the unit of the data.
     pub fn mass(&self) -> f64 {
         let single = [&self.pelvis, &self.abdomen, &self.thorax, &self.head];
         let pairs = [
@@ -92,11 +92,11 @@ struct BothOutside {
     female: BTreeMap<String, [f64; 3]>,
 }
 
-/// Outer dimensions of one sex: a, b \[mm/mm\], c \[mm/kg\] of a + b stature + c mass.
+/// Outer dimensions of one sex: a, b \[mm/mm\] and c \[mm/kg\] of a + b stature + c mass.
 pub struct Outside(BTreeMap<String, [f64; 3]>);
 
 impl Outside {
-    /// Of these dimensions \[mm\], by name, whatever the size.
+    /// Fixed dimensions \[mm\], by name, whatever the size of the person.
     pub fn fixed(dimensions: impl IntoIterator<Item = (&'static str, f64)>) -> Self {
         let dimensions = dimensions.into_iter();
         Outside(
@@ -106,10 +106,10 @@ impl Outside {
         )
     }
 
-    /// A dimension \[m\] of a stature \[m\] and a mass \[kg\].
+    /// A dimension \[m\] for a stature \[m\] and a mass \[kg\].
     ///
     /// # Panics
-    /// There is no such dimension.
+    /// If there is no dimension with this name.
     pub fn of(&self, name: &str, stature: f64, mass: f64) -> f64 {
         let [a, b, c] = self.0[name];
         1e-3 * (a + b * 1e3 * stature + c * mass)
@@ -134,7 +134,7 @@ pub fn outside(sex: Sex) -> Outside {
     })
 }
 
-/// Data that this crate carries.
+/// Reads data that is included in this crate.
 pub fn read<T: serde::de::DeserializeOwned>(text: &str) -> T {
     serde_yaml::from_str(text).unwrap_or_else(|error| unreachable!("bundled data: {error}"))
 }

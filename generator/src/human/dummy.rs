@@ -1,10 +1,11 @@
-//! Bodies with the masses of crash dummies, and of children by the dimensions of those.
+//! Bodies with the masses of crash dummies, and of children with the dimensions of child dummies.
 //!
-//! - An **adult dummy** is an adult of its stature whose parts have the masses of the dummy: a part's mass is shared by its segments as de Leva shares it.
-//! - A **child** has the lengths of a child dummy. Its limbs are uniform cylinders of 1000 kg/m³, its trunk is a uniform elliptical cylinder that is cut
-//!   into pelvis, abdomen and thorax where de Leva cuts a man's, and its head is a uniform ellipsoid on a uniform cylinder, the neck.
+//! - An **adult dummy** is an adult of the dummy's stature whose parts have the dummy's masses. The mass of a part is divided among its segments in
+//!   de Leva's proportions.
+//! - A **child** has the lengths of a child dummy. Its limbs are uniform cylinders of 1000 kg/m³. Its trunk is a uniform elliptical cylinder, cut
+//!   into pelvis, abdomen and thorax where de Leva cuts that of a man. Its head is a uniform ellipsoid on a uniform cylinder, the neck.
 //!
-//! What of it is published and what is assumed stands in `dummies.json` and in docs/humans.md.
+//! `dummies.json` and docs/humans.md say what is published and what is assumed.
 
 use super::data::{Outside, Segment, Segments, Sex, read, segments};
 use serde::Deserialize;
@@ -30,7 +31,7 @@ struct Child {
     source: String,
     stature: f64,
     vertex_above_hip: f64,
-    /// From the hips to the base of the neck.
+    /// Length from the hips to the base of the neck.
     trunk: f64,
     neck: f64,
     neck_radius: f64,
@@ -54,7 +55,7 @@ struct Child {
     masses: ChildMasses,
 }
 
-/// \[kg\]; of a pair one of the two.
+/// Masses \[kg\]; for a pair, the mass of one of the two.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ChildMasses {
@@ -77,7 +78,7 @@ struct Adult {
     masses: AdultMasses,
 }
 
-/// \[kg\]; of a pair one of the two.
+/// Masses \[kg\]; for a pair, the mass of one of the two.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct AdultMasses {
@@ -91,25 +92,25 @@ struct AdultMasses {
     shank_and_foot: f64,
 }
 
-/// What a dummy's body is made of.
+/// The data of the body of a dummy.
 pub struct Made {
     /// Its segments; their masses are in kg.
     pub segments: Segments,
-    /// The outer dimensions; `None`: those of an adult of its sex.
+    /// The outer dimensions; `None` stands for those of an adult of this sex.
     pub outside: Option<Outside>,
-    /// The sex of its data.
+    /// The sex whose data are used.
     pub sex: Sex,
-    /// \[m\]
+    /// Stature \[m\].
     pub stature: f64,
-    /// \[kg\]
+    /// Mass \[kg\].
     pub mass: f64,
     /// Mass of its neck \[kg\].
     pub neck: f64,
-    /// Where its numbers are from.
+    /// The source of its numbers.
     pub source: String,
 }
 
-/// The dummy of a name.
+/// The dummy with this name; `None` if there is none.
 pub fn dummy(name: &str) -> Option<Made> {
     let mut dummies: Dummies = read(include_str!("dummies.json"));
     if let Some(child) = dummies.child.remove(name) {
@@ -156,12 +157,12 @@ impl Adult {
     }
 }
 
-/// Radius of a cylinder of this mass and length \[mm\].
+/// Radius of a limb as a cylinder of this mass and length \[mm\].
 fn radius(mass: f64, length: f64) -> f64 {
     (mass / (DENSITY * PI * length)).sqrt()
 }
 
-/// A uniform cylinder of depth `a` and breadth `b`, about its middle.
+/// A uniform elliptical cylinder of depth `a` and breadth `b`, about its middle.
 fn cylinder(mass: f64, length: f64, [a, b]: [f64; 2]) -> Segment {
     let [a, b] = [a, b].map(|width| (0.5 * width / length).powi(2) / 4.0);
     let lengthwise = 1.0 / 12.0;
@@ -267,7 +268,7 @@ mod tests {
     use super::dummy;
     use crate::human::{NAMES, Person, body};
 
-    /// Totals as NHTSA prints them, in pounds; parts are rounded to 0.01 lb.
+    /// Totals as printed by NHTSA, in pounds; parts are rounded to 0.01 lb.
     #[test]
     fn dummies_have_the_masses_that_are_printed() {
         for (name, pounds) in [
@@ -282,7 +283,7 @@ mod tests {
         assert!(dummy("male-50").is_none());
     }
 
-    /// A child's torso, neck, head and limbs as somebody else derived them from the same page: `models/data/child-3yo.yaml`, where legs and arms are pairs.
+    /// A child's torso, neck, head and limbs, derived independently from the same page: `models/data/child-3yo.yaml`, where legs and arms are pairs.
     #[test]
     fn the_three_year_old_is_that_of_an_independent_derivation() {
         let made = dummy("child-3").unwrap();
@@ -290,7 +291,7 @@ mod tests {
             segment.mass * (1e-3 * segment.radii[axis] * segment.length).powi(2)
         };
         let of = &made.segments;
-        // ellipsoid and cylinder about the common centre of gravity, offsets forward left out there
+        // ellipsoid and cylinder about the common centre of gravity; forward offsets are left out there
         let (head, neck, distance) = (2.685, 0.748, 0.1256 - 0.038);
         let between = head * neck / (head + neck) * distance * distance;
         let expected = [

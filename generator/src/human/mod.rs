@@ -1,4 +1,4 @@
-//! People as systems of a model: adults by sex, stature and mass, crash dummies and children by name.
+//! People as systems of a model: adults by sex, stature and mass; crash dummies and children by name.
 //!
 //! | file | what |
 //! |---|---|
@@ -9,8 +9,8 @@
 //! | `posture` | angles of joints by posture |
 //! | `text` | the system as YAML |
 //!
-//! A body stands upright where all coordinates are 0: x forward, y to the left, z up, every frame parallel to the others, its origin at the joint on the element inboard,
-//! that of the pelvis midway between the hips.
+//! All coordinates are 0 for a body that stands upright: x forward, y to the left, z up. All frames are then parallel. The origin of an element is
+//! its joint on the carrying element; that of the pelvis is midway between the hips.
 
 mod body;
 mod data;

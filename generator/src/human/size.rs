@@ -1,28 +1,28 @@
-//! Sizes of people: by numbers, by name, by percentile.
+//! Sizes of people: by numbers, by name, and by percentile.
 
 use super::data::Sex;
 
 /// Sex, stature and mass of an adult.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
-    /// The sex that the data are of.
+    /// The sex whose data are used.
     pub sex: Sex,
-    /// From sole to vertex \[m\].
+    /// Height from sole to vertex \[m\].
     pub stature: f64,
-    /// Of the whole body \[kg\].
+    /// Mass of the whole body \[kg\].
     pub mass: f64,
 }
 
-/// Who a body is of.
+/// The person that a body represents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Person {
     /// An adult.
     Size(Size),
-    /// The crash dummy of a name.
+    /// The crash dummy with this name.
     Dummy(&'static str),
 }
 
-/// Names of usual sizes of adults, of adult crash dummies and of children.
+/// Names of usual sizes of adults, of adult crash dummies, and of children.
 pub const NAMES: [&str; 7] = [
     "male-50",
     "male-95",
@@ -34,7 +34,7 @@ pub const NAMES: [&str; 7] = [
 ];
 
 impl Person {
-    /// The one of a name.
+    /// The person with this name; `None` if there is none.
     pub fn named(name: &str) -> Option<Person> {
         let name = NAMES.into_iter().find(|one| *one == name)?;
         Some(Size::like(name).map_or(Person::Dummy(name), Person::Size))
@@ -62,8 +62,8 @@ impl Size {
         Some(Size { sex, stature, mass })
     }
 
-    /// The percentile of stature and of mass of a sex, from 1 to 99; `None` beyond. Between the 5th, 50th and 95th of ANSUR II each is linear in
-    /// the z of a normal distribution, and goes on so beyond.
+    /// The size with this percentile of stature and mass for a sex, from 1 to 99; `None` beyond. Stature and mass are linear in the z of a
+    /// normal distribution between the 5th, 50th and 95th percentile of ANSUR II, and are continued linearly beyond.
     pub fn percentile(sex: Sex, percentile: f64) -> Option<Size> {
         if !(1.0..=99.0).contains(&percentile) {
             return None;
@@ -83,7 +83,7 @@ impl Size {
     }
 }
 
-/// z of Φ(z) = p, by bisection; Φ(z) = 1/2 + φ(z) (z + z³/3 + z⁵/(3 · 5) + …).
+/// z with Φ(z) = p, by bisection; Φ(z) = 1/2 + φ(z) (z + z³/3 + z⁵/(3 · 5) + …).
 fn normal(p: f64) -> f64 {
     let phi = |z: f64| {
         let (mut term, mut sum, mut n) = (z, z, 1.0);

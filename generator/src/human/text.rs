@@ -1,4 +1,4 @@
-//! A body as YAML: a file for models to include.
+//! A body as YAML: a file that models can include.
 
 use super::body::{Body, Element, Joint, body};
 use super::data::Sex;
@@ -7,21 +7,21 @@ use super::posture::Posture;
 use super::size::{Person, Size};
 use std::fmt::Write as _;
 
-/// A law of a joint: elastic torque, damping, stop.
+/// The law of a joint: elastic torque, damping, stop.
 struct Law {
     /// Angle \[rad\] and torque \[N m\].
     elastic: &'static [[f64; 2]],
-    /// \[N m s\]
+    /// Damping \[N m s\].
     damping: f64,
     stop: Option<Stop>,
 }
 
 struct Stop {
-    /// \[deg\]
+    /// Angles of the stops \[deg\].
     between: [f64; 2],
-    /// \[N m\] per rad.
+    /// Stiffness of the stops \[N m\] per rad.
     stiffness: f64,
-    /// \[N m s\]
+    /// Damping of the stops \[N m s\].
     damping: f64,
 }
 
@@ -45,7 +45,7 @@ const fn stop(damping: f64, between: [f64; 2], [stiffness, damping_of_stop]: [f6
     }
 }
 
-/// Laws of the joints of the spine, about x and z, and about y. Positive about y leans forward.
+/// Laws of the joints of the spine: first about x and z, then about y. A positive angle about y leans forward.
 const SPINE: [(&str, [Law; 2]); 3] = [
     ("abdomen", LUMBAR),
     ("thorax", LUMBAR),
@@ -79,7 +79,7 @@ const LUMBAR: [Law; 2] = [
         3.0,
     ),
 ];
-/// The neck of crash dummies: the two joints of `models/data/neck-rig.yaml` in one, of the 50th percentile male, fitted to 49 CFR 572.33.
+/// The neck of crash dummies for the 50th percentile male: the two joints of `models/data/neck-rig.yaml` in one, fitted to 49 CFR 572.33.
 const DUMMY_NECK: [Law; 2] = [
     elastic(&[[1.0, 60.0]], 0.32),
     elastic(
@@ -95,10 +95,11 @@ const DUMMY_NECK: [Law; 2] = [
         0.32,
     ),
 ];
-/// Factor on the lumbar spine of crash dummies, fitted to 49 CFR 572.135 of the 5th percentile female. docs/validation.md has it and the neck.
+/// Factor on the lumbar spine for crash dummies, fitted to 49 CFR 572.135 for the 5th percentile female. See docs/validation.md for this and the
+/// neck.
 const DUMMY_LUMBAR: f64 = 0.693;
-/// Laws of the freedoms of limbs. Flexion about y is negative where it lifts a thigh, an upper arm or a forearm forward, and positive where it bends a knee; abduction of the left
-/// side is positive outwards.
+/// Laws of the degrees of freedom of limbs. Flexion about y is negative if it lifts a thigh, an upper arm or a forearm forward, and positive if it
+/// bends a knee. Abduction of the left side is positive outwards.
 const LIMBS: [(&str, &str, Law); 10] = [
     (
         "left-upper-arm",
@@ -136,11 +137,11 @@ const LIMBS: [(&str, &str, Law); 10] = [
     ("left-foot", "", stop(1.0, [-20.0, 45.0], [300.0, 0.0])),
 ];
 
-/// The flexion of a dummy's hip: its stop is fitted to 49 CFR 572.35(c) of the 50th percentile male.
+/// The flexion of a dummy's hip: its stop is fitted to 49 CFR 572.35(c) for the 50th percentile male.
 const DUMMY_HIP: Law = stop(2.0, [-120.0, 15.0], [777.0, 0.0]);
 
 impl Law {
-    /// As keys, with torques times a factor.
+    /// The law as YAML keys, with torques times a factor.
     fn keys(&self, factor: f64) -> String {
         let mut keys = Vec::new();
         match self.elastic {
@@ -173,27 +174,27 @@ impl Law {
     }
 }
 
-/// To three digits.
+/// A number to three digits.
 fn short(x: f64) -> String {
     let text = format!("{x:.2e}");
     text.parse::<f64>().map_or(text, |x| x.to_string())
 }
 
-/// How a person is written.
+/// The options for writing a person.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Written<'n> {
     /// Name of the system.
     pub name: &'n str,
-    /// Where it starts.
+    /// The posture at the start.
     pub posture: Posture,
-    /// Whether for a model in the plane: one arm and one leg are both.
+    /// Whether the model is planar: one arm and one leg then stand for both.
     pub planar: bool,
 }
 
 /// The file of a person: a system with its surfaces and joint forces.
 ///
 /// # Errors
-/// Outside of what the data can be stretched to, with the reason.
+/// If the size is outside of the range that the data can be scaled to, with the reason.
 pub fn yaml(person: &Person, written: Written<'_>) -> Result<String, String> {
     let body = body(person)?;
     let name = written.name;
@@ -208,7 +209,7 @@ pub fn yaml(person: &Person, written: Written<'_>) -> Result<String, String> {
             Person::Dummy(name) => dummy(name),
         },
     };
-    // what is printed adds up to the mass
+    // the printed masses add up to the whole mass
     let printed = |mass: f64| (mass * 1e4).round() / 1e4;
     let others = body.elements[1..]
         .iter()
@@ -243,7 +244,7 @@ pub fn yaml(person: &Person, written: Written<'_>) -> Result<String, String> {
     Ok(text)
 }
 
-/// What of the body is measured, derived and assumed.
+/// The comment at the top: what is measured, derived and assumed.
 fn head(person: &Person, body: &Body) -> String {
     let (of_body, of_joints) = match person {
         Person::Size(Size { sex, stature, mass }) => {
@@ -282,15 +283,16 @@ fn head(person: &Person, body: &Body) -> String {
     )
 }
 
-/// What torques of joints are multiplied by: 1 for a man of 77.7 kg and 1.753 m; those of others go with mass and stature, as in bodies of one shape and one stress.
+/// Factor on the torques of joints: 1 for a man of 77.7 kg and 1.753 m. Torques of others are proportional to mass times stature, as in bodies of the
+/// same shape and stress.
 fn strength(body: &Body) -> f64 {
     body.mass() / 77.7 * (body.stature / 1.753)
 }
 
-/// Mass of the neck that [`DUMMY_NECK`] is of \[kg\]. Those of other sizes go with it.
+/// The mass of the neck for which [`DUMMY_NECK`] holds \[kg\]. The neck laws of other sizes are scaled by their mass.
 const NECK: f64 = 1.5422;
 
-/// A body on its way to text.
+/// A body while it is written as text.
 struct Scene<'a> {
     body: &'a Body,
     written: Written<'a>,
@@ -299,12 +301,12 @@ struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// Whether a pair is written as one with a mirror image.
+    /// Whether a pair is written as one side with a mirror image.
     fn mirrors(&self, pair: bool) -> bool {
         pair && !self.written.planar
     }
 
-    /// The name of an element; of a pair in the plane that of both.
+    /// The name of an element; in the plane, one name for both sides of a pair.
     fn called<'n>(&self, element: &'n str) -> &'n str {
         match element.strip_prefix("left-") {
             Some(both) if self.written.planar => both,
@@ -312,7 +314,7 @@ impl Scene<'_> {
         }
     }
 
-    /// A vector; in the plane x and z.
+    /// A vector; in the plane only x and z.
     fn place(&self, [x, y, z]: [f64; 3]) -> String {
         match self.written.planar {
             true => format!("[{}, {}]", number(x, 4), number(z, 4)),
@@ -373,7 +375,7 @@ impl Scene<'_> {
         let forearm = arm + posture.angle("forearms");
         let thigh = posture.angle("thighs");
         let shank = thigh + posture.angle("shanks");
-        // against the trunk
+        // relative to the trunk
         let spine = [
             ("pelvis", 0.0),
             ("abdomen", 0.0),
@@ -481,7 +483,7 @@ impl Scene<'_> {
 fn number(x: f64, digits: usize) -> String {
     let text = format!("{x:.digits$}");
     match text.parse::<f64>() {
-        // what rounding makes of 0 has no sign
+        // 0 has no sign, even after rounding
         Ok(0.0) => "0".to_owned(),
         _ => text,
     }

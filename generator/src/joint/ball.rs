@@ -1,5 +1,5 @@
-//! A ball joint: the element turns about it at will, and its orientation A (local frame → absolute frame) has coordinates of its own. In the plane
-//! it is a hinge about y. It passes forces to its carrier, and no moments but those of laws.
+//! A ball joint: the element turns freely about it, and its orientation A (local frame → absolute frame) has coordinates of its own. In the plane
+//! it is a hinge about y. It passes forces to its carrier, but no moments except those of joint laws.
 //!
 //! ω = Σ e_j v_j,   H = (0, e_j),   Ḣ v: ε = Σ ė_j v_j
 //!
@@ -9,7 +9,7 @@
 //! | quaternion | (w, x, y, z) | ω | A(q) | e_x, e_y, e_z | 0 | ½ (0, ω) ∘ q |
 //! | Bryant | φ₁, φ₂, φ₃ | φ̇ | Rx(φ₁) Ry(φ₂) Rz(φ₃) P | e_x, Rx e_y, Rx Ry e_z | v₁v₂ e₁ × e₂ + v₃ (v₁e₁ + v₂e₂) × e₃ | v |
 //!
-//! P, constant, is that of the [chart](crate::dynamics::chart) that the angles are in.   \[MADYMO 1980\]
+//! P is the constant matrix of the [chart] in which the angles are.   \[MADYMO 1980\]
 
 use super::equations::{Start, Variables};
 use super::written::Word;
@@ -36,19 +36,19 @@ pub(crate) const WORD: Word = Word {
     },
 };
 
-/// How the orientation of an element on a ball joint is described.
+/// The description of the orientation of an element on a ball joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
     /// One angle about +y.
     Angle,
-    /// Unit quaternion (w, x, y, z), velocity ω.
+    /// A unit quaternion (w, x, y, z), with the velocity ω.
     Quaternion,
-    /// Three Bryant angles, velocity φ̇.
+    /// Three Bryant angles, with the velocity φ̇.
     Bryant,
 }
 
 impl Orientation {
-    /// That of a model.
+    /// The orientation that a model uses.
     pub fn of(dimension: Dimension, coordinates: Coordinates) -> Self {
         match (dimension, coordinates) {
             (Dimension::Plane, _) => Orientation::Angle,
@@ -58,7 +58,7 @@ impl Orientation {
     }
 }
 
-/// The axes of the frame about which it turns: y in the plane.
+/// The axes of the frame about which it can turn: in the plane only y.
 pub(crate) fn axes(planar: bool) -> &'static [usize] {
     if planar { &[1] } else { &[0, 1, 2] }
 }
@@ -109,7 +109,7 @@ pub(crate) fn start<'g>(
     Start { q, v, chart }
 }
 
-/// q̇ of a quaternion that turns with ω: ½ (0, ω) ∘ q.
+/// q̇ of a quaternion that turns with the angular velocity ω: ½ (0, ω) ∘ q.
 pub(crate) fn quaternion_rates<'g>(q: &[Expr<'g>], v: &[Expr<'g>]) -> [Expr<'g>; 4] {
     let &[w, x, y, z] = q else {
         unreachable!("an element has four coordinates of orientation here")
@@ -126,7 +126,7 @@ pub(crate) fn quaternion_rates<'g>(q: &[Expr<'g>], v: &[Expr<'g>]) -> [Expr<'g>;
     ]
 }
 
-/// Rotation, axes, ω and ε of an element from its own coordinates and velocities.
+/// Rotation, axes, ω and ε of an element, from its own coordinates and velocities.
 pub(crate) fn motion<'g>(
     graph: &'g Graph,
     orientation: Orientation,
@@ -154,7 +154,7 @@ pub(crate) fn motion<'g>(
             let (rotation, axes) = bryant(graph, [q[0], q[1], q[2]]);
             motion.rotation = chart.map_or(rotation, |chart| chart::rotation(&rotation, chart));
             motion.axes = axes.to_vec();
-            // ω in three steps; each axis turns with those before it, so ė₂ = v₁ e₁ × e₂ and ė₃ = (v₁ e₁ + v₂ e₂) × e₃.
+            // ω is built in three steps. Each axis turns with those before it, so ė₂ = v₁ e₁ × e₂ and ė₃ = (v₁ e₁ + v₂ e₂) × e₃.
             let before_third = v[0] * axes[0] + v[1] * axes[1];
             motion.omega = before_third + v[2] * axes[2];
             motion.bias =

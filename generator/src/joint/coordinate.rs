@@ -1,4 +1,4 @@
-//! What the coordinate of a freedom is: an angle, or a length.
+//! The kind of coordinate of a degree of freedom: an angle or a length.
 
 use crate::model::resolve::quantity::{
     ANGLE, ANGLE_PER_LENGTH, Expected, INERTIA, LENGTH, LENGTH_PER_ANGLE, MASS, PURE, RATE, SPEED,
@@ -14,7 +14,7 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    /// Name of a freedom that has no other.
+    /// The name of a degree of freedom that has no other.
     pub fn name(self) -> &'static str {
         match self {
             Coordinate::Angle => "angle",
@@ -30,7 +30,7 @@ impl Coordinate {
         }
     }
 
-    /// What a value of it is.
+    /// The quantity of a value.
     pub(crate) fn value(self) -> Expected {
         match self {
             Coordinate::Angle => ANGLE,
@@ -38,7 +38,7 @@ impl Coordinate {
         }
     }
 
-    /// What a rate of it is.
+    /// The quantity of a rate.
     pub(crate) fn rate(self) -> Expected {
         match self {
             Coordinate::Angle => RATE,
@@ -46,7 +46,7 @@ impl Coordinate {
         }
     }
 
-    /// What the inertia is that resists its rate alone.
+    /// The quantity of the inertia that resists its rate alone.
     pub(crate) fn inertia(self) -> Expected {
         match self {
             Coordinate::Angle => INERTIA,
@@ -54,7 +54,7 @@ impl Coordinate {
         }
     }
 
-    /// What its change per change of another coordinate is.
+    /// The quantity of its derivative with respect to another coordinate.
     pub(crate) fn per(self, other: Coordinate) -> Expected {
         match (self, other) {
             (Coordinate::Angle, Coordinate::Length) => ANGLE_PER_LENGTH,

@@ -1,5 +1,5 @@
-//! What the equations ask of the joint of an element: its coordinates and velocities, and their values at the start. The motion
-//! that they make is in the file of each joint.
+//! Facts about the joint of an element for the equations: its coordinates and velocities, and their values at the start. The
+//! motion itself is in the file of each joint.
 
 use super::ball::{self, Orientation};
 use super::{Freedom, Joint};
@@ -9,9 +9,9 @@ use crate::model::{Dimension, Element};
 
 /// Names and SI units.
 pub(crate) struct Variables {
-    /// Of q.
+    /// Those of q.
     pub coordinates: Vec<(String, &'static str)>,
-    /// Of v.
+    /// Those of v.
     pub velocities: Vec<(String, &'static str)>,
 }
 
@@ -21,12 +21,12 @@ pub(crate) struct Start<'g> {
     pub q: Vec<Expr<'g>>,
     /// v
     pub v: Vec<Expr<'g>>,
-    /// The chart of Bryant angles; none of other coordinates.
+    /// The chart of Bryant angles; `None` for other coordinates.
     pub chart: Option<Expr<'g>>,
 }
 
 impl Joint {
-    /// Names and units of its coordinates and velocities; a freedom that follows another has none.
+    /// Names and units of its coordinates and velocities. A degree of freedom that follows another has none.
     pub(crate) fn variables(&self, orientation: Orientation) -> Variables {
         match self {
             Joint::Ball => ball::variables(orientation),
@@ -43,7 +43,7 @@ impl Joint {
         }
     }
 
-    /// How many velocities it has.
+    /// The number of its velocities.
     pub fn velocities(&self, dimension: Dimension) -> usize {
         match self {
             Joint::Ball => ball::axes(dimension == Dimension::Plane).len(),

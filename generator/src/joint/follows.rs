@@ -1,9 +1,9 @@
-//! Freedoms that follow others, as gears do.
+//! Degrees of freedom that follow others, like gears.
 //!
 //! q = ratio · q of the leader + offset,   q̇ = ratio · q̇ of the leader
 //!
-//! A follower has no coordinate: with its own column H, the motion of its element has ratio · H per velocity of the leader. What follows one that
-//! follows another follows the first: q = a (b q' + c) + d = a b q' + (a c + d).
+//! A follower has no coordinate. With its own column H, it adds ratio · H to the motion of its element per velocity of the leader. If the leader
+//! follows another one, the follower follows the first: q = a (b q' + c) + d = a b q' + (a c + d).
 
 use super::{Freedom, Joint};
 use crate::description::joint::{
@@ -15,27 +15,27 @@ use crate::model::resolve::Resolver;
 use crate::model::{Element, Number};
 use std::collections::BTreeMap;
 
-/// How a freedom follows another: q = ratio · q of the leader + offset. It has no coordinate.
+/// How a degree of freedom follows another: q = ratio · q of the leader + offset. It has no coordinate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Follows {
     /// The element of the leader, in the same system.
     pub element: usize,
-    /// The leader among the freedoms of that element's joint; it follows none.
+    /// Index of the leader among the degrees of freedom of that element's joint. The leader itself follows none.
     pub freedom: usize,
     /// dq/dq of the leader \[rad/rad, m/m, m/rad or rad/m\].
     pub ratio: Number,
-    /// q where that of the leader is 0 \[rad\] or \[m\].
+    /// q where the coordinate of the leader is 0 \[rad\] or \[m\].
     pub offset: Number,
 }
 
 impl Follows {
-    /// Which of the coordinates of its element the leader has.
+    /// Index of the leader's coordinate among those of its element.
     pub fn coordinate(&self, elements: &[Element]) -> usize {
         let before = &elements[self.element].joint.freedoms()[..self.freedom];
         before.iter().filter(|freedom| freedom.is_own()).count()
     }
 
-    /// What follows this follower: q = ratio · q of it + offset.
+    /// The relation of a degree of freedom that follows this follower: q = ratio · q of it + offset.
     fn followed(self, ratio: Number, offset: Number) -> Self {
         let shift = Number::product(ratio.clone(), self.offset);
         Follows {
@@ -45,7 +45,7 @@ impl Follows {
         }
     }
 
-    /// Where it starts, and how fast.
+    /// Its position and rate at the start.
     fn start(&self, elements: &[Element]) -> [Number; 2] {
         let leader = &elements[self.element].joint.freedoms()[self.freedom];
         let times = |n: &Number| Number::product(self.ratio.clone(), n.clone());
@@ -54,11 +54,11 @@ impl Follows {
     }
 }
 
-/// A freedom: its element, and which of the element's joint it is.
+/// A degree of freedom: its element, and its index in the joint of the element.
 type Place = (usize, usize);
 
 impl Resolver<'_> {
-    /// Couples the freedoms of a system, whose joints are as written by element.
+    /// Couples the degrees of freedom of a system, given the joints as written, by element.
     pub fn couple(
         &self,
         system: &str,
@@ -92,7 +92,7 @@ impl Resolver<'_> {
                 follows = next.clone().followed(follows.ratio, follows.offset);
             }
             if coupled.contains_key(&(follows.element, follows.freedom)) {
-                // a circle is reported once, by its first freedom; what leads into it is not one of its own
+                // a circle is reported once, by its first member; degrees of freedom that lead into it are no circles of their own
                 let circle = seen
                     .iter()
                     .position(|s| *s == (follows.element, follows.freedom));
@@ -150,7 +150,10 @@ impl Resolver<'_> {
                     "{} is on a joint without a coordinate of its own",
                     quoted(&path)
                 ),
-                "follow a joint that has one: in the plane write `joint: { hinge: y }` there",
+                match self.planar {
+                    true => "write `joint: { hinge: y }` there",
+                    false => "follow a hinge, a slider or a freedom of a list: there is no ratio to an orientation",
+                },
             ));
             return None;
         }
@@ -174,7 +177,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// Where the freedoms that follow others start, and how fast.
+    /// Sets the positions and rates at the start for degrees of freedom that follow others.
     pub fn start_followers(&self, elements: &mut [Element]) {
         let of = |freedom: &Freedom| Some(freedom.follows.as_ref()?.start(elements));
         let starts: Vec<Vec<_>> = (elements.iter())
@@ -190,7 +193,7 @@ impl Resolver<'_> {
     }
 }
 
-/// How many freedoms a joint as written stands for.
+/// The number of degrees of freedom that a joint as written stands for.
 fn width(written: &WrittenFreedom) -> usize {
     let spellings = written.spellings();
     spellings

@@ -1,4 +1,4 @@
-//! A free reference joint: the origin of the root moves along the axes of the absolute frame as it likes.
+//! A free reference joint: the origin of the root moves freely along the axes of the absolute frame.
 //!
 //! p = x,   H = (e_x, e_y, e_z; 0),   Ḣ v = 0,   q̇ = v,   work of a wrench (f, n): f
 //!
@@ -11,7 +11,7 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Number, System};
 
-/// Absolute axes along which it moves.
+/// The absolute axes along which it moves.
 pub(crate) fn directions(planar: bool) -> &'static [usize] {
     if planar { &[0, 2] } else { &[0, 1, 2] }
 }
@@ -39,7 +39,7 @@ pub(crate) fn start<'g>(graph: &'g Graph, directions: &[usize], system: &System)
     }
 }
 
-/// The vector that has these components along the directions, and 0 along the others.
+/// The vector with these components along the directions, and 0 along the other axes.
 pub(crate) fn vector<'g>(
     graph: &'g Graph,
     directions: &[usize],

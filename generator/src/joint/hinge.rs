@@ -2,7 +2,7 @@
 //!
 //! R ← R Rot(a, θ)
 //!
-//! With e = R a and r from a point of the axis to the origin of the element,
+//! Let e = R a, and r the vector from a point of the axis to the origin of the element. Then
 //!
 //! H = (e × r, e),   ε ← ε + ω × e q̇,   work of a wrench (f, n) about the origin: H · (f, n) = e · (n + r × f)
 
@@ -11,7 +11,7 @@ use super::{Coordinate, Joint, Kind};
 use crate::description::joint::Axis;
 use crate::model::Number;
 
-/// It turns.
+/// A joint that turns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hinge;
 
@@ -19,11 +19,12 @@ pub struct Hinge;
 pub(crate) const SPELLING: Spelling = Spelling {
     key: key::<Axis>("hinge"),
     keys: &[],
+    handed: &[],
     coordinates: &[Coordinate::Angle],
     read: |reader| Some(vec![Made::new(Hinge, reader.turning()?)]),
 };
 
-/// `joint: hinge` in the plane: what a [ball](super::ball) is in space, with an absolute orientation.
+/// `joint: hinge` in the plane: like a [ball](super::ball) in space, with an absolute orientation.
 pub(crate) const WORD: Word = Word {
     word: "hinge",
     has_axes: false,

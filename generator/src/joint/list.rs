@@ -1,4 +1,5 @@
-//! A joint of several freedoms, one after the other from the carrier outwards, with no mass between: an ordered list, or a word for one.
+//! A joint of several degrees of freedom, one after the other from the carrier outwards, with no mass between: an ordered list, or a
+//! word for one.
 //!
 //! | written | stands for |
 //! |---|---|
@@ -8,7 +9,7 @@
 //! | `translation` | sliders along x, y and z; in the plane along x and z |
 //! | `free` | the same sliders, then hinges about x, y and z; in the plane about y |
 //!
-//! The equations of such a joint take its freedoms as one block of velocities: D = Hᵀ I H has a row for each.
+//! The equations of such a joint treat its degrees of freedom as one block of velocities: D = Hᵀ I H has a row for each.
 
 use super::hinge::Hinge;
 use super::slider::Slider;
@@ -21,13 +22,14 @@ use crate::diagnostic::quoted;
 use crate::model::Number;
 use crate::model::resolve::{Resolver, name::Style, quantity::Expected};
 
-/// Most freedoms of one joint: those of a body.
+/// The largest number of degrees of freedom of one joint: those of a free body.
 const MOST: usize = 6;
 
 /// Two hinges.
 pub(crate) const UNIVERSAL: Spelling = Spelling {
     key: key::<Vec<Axis>>("universal"),
     keys: &[],
+    handed: &[],
     coordinates: &[Coordinate::Angle, Coordinate::Angle],
     read: |reader| {
         if reader.planar() {
@@ -46,10 +48,11 @@ pub(crate) const UNIVERSAL: Spelling = Spelling {
 
 const TWO_AXES: &str = "in space write two axes: `universal: [x, y]`";
 
-/// A slider and a hinge with one axis.
+/// A slider and a hinge with the same axis.
 pub(crate) const CYLINDER: Spelling = Spelling {
     key: key::<Axis>("cylinder"),
     keys: &[],
+    handed: &[],
     coordinates: &[Coordinate::Length, Coordinate::Angle],
     read: |reader| {
         if reader.leads_out_of_plane("write `slider: x`, or a list of a slider and a hinge") {
@@ -67,6 +70,7 @@ pub(crate) const CYLINDER: Spelling = Spelling {
 pub(crate) const PLANAR: Spelling = Spelling {
     key: key::<Axis>("planar"),
     keys: &[],
+    handed: &[],
     coordinates: &[Coordinate::Length, Coordinate::Length, Coordinate::Angle],
     read: |reader| {
         let normal = reader.turning()?;
@@ -118,7 +122,7 @@ fn sliders(axes: &[usize]) -> Vec<Made> {
     axes.iter().map(slider).collect()
 }
 
-/// The two axes across one of the frame's own.
+/// The two axes of the frame perpendicular to the given one.
 fn across(normal: &[Number; 3]) -> Option<[usize; 2]> {
     let axis = (0..3).find(|&axis| *normal == Direction::along(axis).axis)?;
     Some(match axis {
@@ -128,7 +132,7 @@ fn across(normal: &[Number; 3]) -> Option<[usize; 2]> {
     })
 }
 
-/// A freedom with what is said of it in its list.
+/// A degree of freedom with its keys in the list.
 struct Listed<'w> {
     made: Made,
     name: Option<&'w str>,
@@ -148,7 +152,7 @@ impl Listed<'_> {
 }
 
 impl Resolver<'_> {
-    /// The joint of an element as written.
+    /// The joint of an element, from its written form.
     pub fn joint_of(&self, written: Option<&WrittenJoint>, at: At<'_>) -> Joint {
         let Some(written) = written else {
             return Joint::Ball;
@@ -162,7 +166,7 @@ impl Resolver<'_> {
         self.named(listed, at)
     }
 
-    /// The freedoms that one joint as written stands for.
+    /// The degrees of freedom that one written joint stands for.
     fn listed<'w>(&self, written: &'w Written, at: At<'w>) -> Vec<Listed<'w>> {
         let there = written.spellings();
         let [spelling] = there[..] else {
@@ -173,7 +177,7 @@ impl Resolver<'_> {
         let number = |value: Option<&Quantity>, key, expected: fn(Coordinate) -> Expected| {
             match (value, spelling.coordinates) {
                 (Some(value), [one]) => self.number(value, at.key(key), expected(*one)),
-                // of several freedoms the key is refused
+                // for several degrees of freedom the key is refused
                 _ => Number::ZERO,
             }
         };
@@ -189,7 +193,7 @@ impl Resolver<'_> {
         made.into_iter().flatten().map(listed).collect()
     }
 
-    /// Reports that a joint is of no kind or of several.
+    /// Reports that a joint has no kind or several.
     fn not_one_kind(&self, there: &[&Spelling], at: At<'_>) {
         let quote = |spelling: &Spelling| format!("`{}`", spelling.key.name);
         let all: Vec<String> = SPELLINGS.iter().map(quote).collect();
@@ -206,7 +210,7 @@ impl Resolver<'_> {
         ));
     }
 
-    /// Reports keys that do not go with the kind of a joint.
+    /// Reports keys that do not belong to the kind of a joint.
     fn check_keys(&self, written: &Written, spelling: &Spelling, at: At<'_>) {
         let kind = spelling.key.name;
         for other in SPELLINGS.iter().filter(|other| other.key.name != kind) {
@@ -237,7 +241,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// The freedoms with their names: as given, else by what they do, and in a list by their axes too.
+    /// The degrees of freedom with their names: as given, otherwise by their kind, and in a list also by their axes.
     fn named(&self, listed: Vec<Listed<'_>>, at: At<'_>) -> Joint {
         if listed.len() > MOST {
             self.problems.add(at.problem(
@@ -281,7 +285,7 @@ impl Resolver<'_> {
         Joint::Freedoms(freedoms)
     }
 
-    /// Coordinates or rates of the freedoms of a joint at the start, one or a list.
+    /// Coordinates or rates at the start of the degrees of freedom of a joint, as one value or a list.
     pub fn freedoms_at_start(
         &self,
         (path, freedoms): (&str, &mut [Freedom]),

@@ -1,40 +1,40 @@
 //! The joints of elements, a file for each kind.
 //!
-//! An element hangs on its carrier by a ball joint, which leaves its orientation absolute, or by freedoms one after the other, from the carrier
-//! outwards, with no mass between. R and d are the rotation and the displacement of what is outboard against the axes of the carrier and the joint's
-//! place on it, as left by the freedoms before. With θ = q + zero,
+//! An element is connected to its carrier by a ball joint, which leaves its orientation absolute, or by degrees of freedom one after the other, from
+//! the carrier outwards, with no mass between. R and d are the rotation and the displacement of the outer side relative to the axes of the carrier
+//! and to the joint's place on it, after the degrees of freedom before. With θ = q + zero,
 //!
 //! | file | joint | does |
 //! |---|---|---|
 //! | `hinge` | turns about its axis a | R ← R Rot(a, θ) |
 //! | `slider` | slides along its axis | d ← d + R a θ |
 //! | `screw` | slides along its axis, and turns about it | d ← d + R a h θ,   R ← R Rot(a, θ) |
-//! | `weld` | has no freedom | |
-//! | `list` | has several freedoms; `universal`, `cylinder`, `planar`, `translation`, `free` | one after the other |
-//! | `follows` | a freedom that follows another | q = ratio · q of the leader + offset |
-//! | `ball` | turns at will; in the plane a hinge about y | A from coordinates of its own |
-//! | `free` | a reference joint that moves at will | p = x |
-//! | `prescribed` | a reference joint that rests, is moved as given, or rides on a vehicle | p = x(t) |
+//! | `weld` | has no degree of freedom | |
+//! | `list` | has several degrees of freedom; `universal`, `cylinder`, `planar`, `translation`, `free` | one after the other |
+//! | `follows` | a degree of freedom that follows another | q = ratio · q of the leader + offset |
+//! | `ball` | turns freely; in the plane a hinge about y | A from coordinates of its own |
+//! | `free` | a reference joint that moves freely | p = x |
+//! | `prescribed` | a reference joint that is at rest, is moved as given, or rides on a vehicle | p = x(t) |
 //!
-//! An axis `a` is given in the frame of the carrier, where all freedoms are at 0. The coordinates of freedoms are relative to the carrier, and v = q̇.
+//! An axis `a` is given in the frame of the carrier, with all degrees of freedom at 0. Their coordinates are relative to the carrier, and v = q̇.
 //!
-//! What has one freedom about a fixed axis is a screw: it turns by θ or not, and slides by its advance h per θ, which is 0 of a hinge. So a
-//! [`Kind`] says no more than that, and all kinds share what follows from it:
+//! Every joint with one degree of freedom about a fixed axis is a screw: it turns by θ or not, and slides by its advance h per θ, which is 0 for a
+//! hinge. A [`Kind`] says only that, and all kinds share what follows from it:
 //!
 //! | file | |
 //! |---|---|
 //! | `twist` | motion and columns H, with Ḣ v, in the equations |
 //! | `placement` | place and columns H in plain numbers |
-//! | `equations` | names and units of coordinates and velocities, and where they start |
-//! | `coordinate` | what an angle or a length is: its units, and those of what belongs to it |
+//! | `equations` | names and units of coordinates and velocities, and their values at the start |
+//! | `coordinate` | the kind of a coordinate, an angle or a length: its units, and those of related quantities |
 //! | `written` | how a joint is read from its keys |
 //!
-//! # A further kind of freedom
+//! # A further kind of degree of freedom
 //!
-//! It takes a file such as `screw.rs`, and here its `mod` and its line in `kinds!`. Nothing else asks which kind a freedom is. The language takes
-//! its keys from the file, the model its numbers, the equations, the frames of links and the pictures its turn and its advance. Without these three,
-//! there are no screws, and their keys are unknown. Pages and tests are beside that: `docs/reference.md`, `docs/joints.md`,
-//! `generator/tests/joints.rs`, `dynamics/link/tests.rs`.
+//! It takes a file such as `screw.rs`, and here its `mod` and its line in `kinds!`. No other code asks for the kind of a degree of freedom. The
+//! description language takes its keys from the file, and the model its numbers; the equations, the frames of links and the pictures take its turn
+//! and its advance. Without these three there are no screws, and their keys are unknown. Pages and tests stand elsewhere: `docs/reference.md`,
+//! `docs/joints.md`, `generator/tests/joints.rs`, `dynamics/link/tests.rs`.
 
 pub(crate) mod ball;
 mod coordinate;
@@ -59,15 +59,15 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 use written::{Spelling, Word};
 
-/// What a freedom does about and along its axis.
+/// What a degree of freedom does about and along its axis.
 pub trait Kind: fmt::Debug {
-    /// What its coordinate is.
+    /// The kind of its coordinate.
     fn coordinate(&self) -> Coordinate;
 
-    /// By how much it slides along its axis per unit of its coordinate: \[m/rad\] of an angle, 1 of a length; none where it does not slide.
+    /// By how much it slides along its axis per unit of its coordinate: \[m/rad\] for an angle, 1 for a length; `None` if it does not slide.
     fn advance(&self) -> Option<Number>;
 
-    /// The numbers that are its own.
+    /// Its own numbers.
     fn numbers_mut(&mut self) -> Vec<&mut Number> {
         Vec::new()
     }
@@ -83,10 +83,10 @@ pub trait Kind: fmt::Debug {
     }
 }
 
-/// Registers the kinds of freedoms, each a struct in a file: what [`FreedomKind`] can be.
+/// Registers the kinds of degrees of freedom, each a struct in a file of its own: the variants of [`FreedomKind`].
 macro_rules! kinds {
     ($($(#[$meta:meta])* $file:ident::$kind:ident,)*) => {
-        /// What a freedom does along or about its axis.
+        /// What a degree of freedom does along or about its axis.
         #[derive(Clone, PartialEq)]
         pub enum FreedomKind {
             $($(#[$meta])* $kind($file::$kind),)*
@@ -115,7 +115,7 @@ macro_rules! kinds {
             }
         }
 
-        /// The keys of a joint that stand for freedoms, in the order of the reference page.
+        /// The keys of a joint that stand for degrees of freedom, in the order of the reference page.
         pub(crate) const SPELLINGS: &[Spelling] =
             &[$($file::SPELLING,)* list::UNIVERSAL, list::CYLINDER, list::PLANAR];
     };
@@ -139,41 +139,41 @@ pub(crate) const WORDS: &[Word] = &[
     list::FREE,
 ];
 
-/// The digest of a model is made of this: the kind as its file has it.
+/// The digest of a model is made from this text: the kind as its file prints it.
 impl fmt::Debug for FreedomKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         (**self).fmt(f)
     }
 }
 
-/// What the joint of an element lets it do.
+/// The motion that the joint of an element allows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Joint {
-    /// Turn about the joint at will: a ball in space, a hinge about y in the plane. The orientation is absolute.
+    /// Free rotation about the joint: a ball in space, a hinge about y in the plane. The orientation is absolute.
     Ball,
-    /// These freedoms, from the carrier outwards; none is a weld.
+    /// These degrees of freedom, from the carrier outwards. A weld has none.
     Freedoms(Vec<Freedom>),
 }
 
-/// One freedom.
+/// One degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Freedom {
-    /// Name, unique in its joint; a Rust identifier once dashes are underscores.
+    /// Its name, unique in its joint; a Rust identifier once dashes become underscores.
     pub name: String,
     /// What it does.
     pub kind: FreedomKind,
-    /// Unit vector, frame of the carrier where all freedoms of the joint are at 0.
+    /// Its axis: a unit vector in the frame of the carrier, with all degrees of freedom of the joint at 0.
     pub axis: [Number; 3],
-    /// What is added to the coordinate \[rad\] or \[m\].
+    /// The constant that is added to the coordinate \[rad\] or \[m\].
     pub zero: Number,
     /// The coordinate at the start of a run \[rad\] or \[m\].
     pub position: Number,
     /// Its rate at the start of a run \[rad/s\] or \[m/s\].
     pub rate: Number,
-    /// Inertia of what its rate alone moves, as the rotor of a motor behind a gear: it adds ½ armature q̇² to the kinetic energy
-    /// \[kg m²\] or \[kg\].
+    /// The inertia that its rate alone moves, such as the rotor of a motor behind a gear \[kg m²\] or \[kg\]. It adds ½ armature q̇² to the kinetic
+    /// energy.
     pub armature: Number,
-    /// The freedom whose coordinate gives its own; none has one of its own.
+    /// The degree of freedom that gives its coordinate; `None` if it has a coordinate of its own.
     pub follows: Option<Follows>,
 }
 
@@ -190,7 +190,7 @@ impl Freedom {
 }
 
 impl Joint {
-    /// Its freedoms; none on a ball joint, whose orientation is absolute.
+    /// Its degrees of freedom; none for a ball joint, whose orientation is absolute.
     pub fn freedoms(&self) -> &[Freedom] {
         match self {
             Joint::Ball => &[],
@@ -198,7 +198,7 @@ impl Joint {
         }
     }
 
-    /// The same, to be changed.
+    /// Its degrees of freedom, mutable.
     pub fn freedoms_mut(&mut self) -> &mut [Freedom] {
         match self {
             Joint::Ball => &mut [],
@@ -206,7 +206,7 @@ impl Joint {
         }
     }
 
-    /// Whether the element turns with what carries it.
+    /// Whether the element turns with its carrier.
     pub fn turns_with_carrier(&self) -> bool {
         matches!(self, Joint::Freedoms(_))
     }

@@ -1,17 +1,18 @@
-//! Where the freedoms of a joint put an element, and how its velocities move it, in plain numbers: for proofs about a model and for pictures.
+//! The position of an element for given coordinates of its joint, and how the velocities move it, in plain numbers: for proofs about a model and
+//! for pictures.
 //!
-//! d ← d + R a h θ,   R ← R (1 + sin θ â + (1 − cos θ) â â),   H = (h e + e × (p_end − p), e)     (h = 0 of a hinge; no turn, h = 1 of a slider)
+//! d ← d + R a h θ,   R ← R (1 + sin θ â + (1 − cos θ) â â),   H = (h e + e × (p_end − p), e)     (hinge: h = 0; slider: no turn, h = 1)
 //!
-//! The equations have the same from `twist`, as expressions.
+//! `twist` gives the same for the equations, as expressions.
 
 use super::Freedom;
 use crate::model::resolve::kinematics::{cross, plus, sum, times, values};
 use crate::rotation::{IDENTITY, Matrix, Vector, apply, product};
 
-/// A velocity: how it moves the origin, and how it turns.
+/// A column of H: the velocity of the origin, then the angular velocity.
 pub(crate) type Column = [f64; 6];
 
-/// Rotation and origin of an element whose freedoms have the coordinates `q` \[rad, m\], from those of its joint on what carries it; the
+/// Rotation and origin of an element whose degrees of freedom have the coordinates `q` \[rad, m\], given those of its joint on the carrier. The
 /// parameters are in SI, in the order of the model.
 pub fn placed(
     (mut turned, mut origin): (Matrix, Vector),
@@ -36,7 +37,7 @@ pub fn placed(
     (turned, origin)
 }
 
-/// The columns H of the freedoms at the origin `end` of their element; from and q as of [`placed`].
+/// The columns H of the degrees of freedom at the origin `end` of their element; `from` and `q` are as in [`placed`].
 pub(crate) fn columns(
     from: (Matrix, Vector),
     freedoms: &[Freedom],
@@ -69,7 +70,7 @@ mod tests {
     use crate::model::read_str;
     use crate::rotation::transpose;
 
-    /// The freedoms of an element on a joint as written.
+    /// The degrees of freedom of an element on a joint as written.
     fn freedoms(joint: &str) -> Vec<Freedom> {
         let text = format!(
             "model: one\ndimension: 3\nsystems:\n  - name: s\n    reference: fixed\n    elements:\n      \
@@ -100,7 +101,7 @@ mod tests {
             let q: Vec<f64> = (0..freedoms.len()).map(|j| 0.9 - 0.6 * j as f64).collect();
             let (rotation, end) = placed(from, &freedoms, &q, &[]);
             let columns = columns(from, &freedoms, &q, end, &[]);
-            // the error of a central difference is h²/6 of a third derivative, which is below 10 here, and rounding over h
+            // the error of a central difference is h²/6 times a third derivative, which is below 10 here, plus rounding over h
             let (h, tolerance) = (1e-5, 1e-9);
             for (j, column) in columns.iter().enumerate() {
                 let at = |step: f64| {
@@ -110,7 +111,7 @@ mod tests {
                 };
                 let ((r1, x1), (r0, x0)) = (at(h), at(-h));
                 let rate = |a: f64, b: f64| (a - b) / (2.0 * h);
-                // Ṙ Rᵀ is the matrix of e ×
+                // Ṙ Rᵀ is the matrix of the cross product e ×
                 let turning = [0, 1, 2].map(|i| [0, 1, 2].map(|k| rate(r1[i][k], r0[i][k])));
                 let spin = product(&turning, &transpose(&rotation));
                 let found = [

@@ -1,4 +1,5 @@
-//! A reference joint that does not move by itself: it rests, is moved as given, or rides on a vehicle. It has no coordinate.
+//! A reference joint that does not move freely: it is at rest, is moved as given, or rides on a vehicle. It has no
+//! coordinate.
 //!
 //! | reference joint | p | p̈ |
 //! |---|---|---|
@@ -16,7 +17,7 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Reference, System};
 
-/// Position and velocity of a reference joint that is not free; at the start where there is no time.
+/// Position and velocity of a reference joint that is not free; at the start if no time is given.
 pub(crate) fn motion<'g>(
     graph: &'g Graph,
     system: &System,

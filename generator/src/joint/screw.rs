@@ -1,10 +1,10 @@
-//! A screw: it turns about its axis a by θ = q + zero, an angle, and slides along it by h θ. Its pitch is the length of one turn: h = pitch/2π.
+//! A screw: it turns about its axis a by the angle θ = q + zero, and slides along it by h θ. Its pitch is the length of one turn: h = pitch/2π.
 //!
 //! d ← d + R a h θ,   R ← R Rot(a, θ)
 //!
-//! With e = R a and r from a point of the axis to the origin of the element,
+//! Let e = R a, and r the vector from a point of the axis to the origin of the element. Then
 //!
-//! H = (h e + e × r, e),   Ḣ v as of a slider by h θ, then of a hinge;   work of a wrench (f, n) about the origin: h e · f + e · (n + r × f)
+//! H = (h e + e × r, e),   Ḣ v as for a slider by h θ, then a hinge;   work of a wrench (f, n) about the origin: h e · f + e · (n + r × f)
 
 use super::written::{Made, Spelling, key};
 use super::{Coordinate, Kind};
@@ -14,7 +14,7 @@ use crate::model::Number;
 use crate::model::resolve::quantity::LENGTH;
 use std::f64::consts::TAU;
 
-/// It turns and slides, by this much per angle \[m/rad\].
+/// A joint that turns, and slides by this much per angle \[m/rad\].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Screw(pub Number);
 
@@ -22,6 +22,7 @@ pub struct Screw(pub Number);
 pub(crate) const SPELLING: Spelling = Spelling {
     key: key::<Axis>("screw"),
     keys: &[key::<Quantity>("pitch")],
+    handed: &["pitch"],
     coordinates: &[Coordinate::Angle],
     read: |reader| {
         if reader.leads_out_of_plane("write `hinge: y`, or give the model `dimension: 3`") {

@@ -1,8 +1,8 @@
-//! A slider: it slides along its axis a by θ = q + zero, a length.
+//! A slider: it slides along its axis a by the length θ = q + zero.
 //!
 //! d ← d + R a θ
 //!
-//! With e = R a, and γ the acceleration of the origin less that of the carrier's when v̇ = 0,
+//! Let e = R a, and γ the acceleration of the origin minus that of the carrier's origin, when v̇ = 0. Then
 //!
 //! H = (e, 0),   γ ← γ + ε × e θ + ω × (ω × e θ) + 2 ω × e q̇,   work of a wrench (f, n): e · f
 
@@ -11,7 +11,7 @@ use super::{Coordinate, Kind};
 use crate::description::joint::Axis;
 use crate::model::Number;
 
-/// It slides.
+/// A joint that slides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slider;
 
@@ -19,6 +19,7 @@ pub struct Slider;
 pub(crate) const SPELLING: Spelling = Spelling {
     key: key::<Axis>("slider"),
     keys: &[],
+    handed: &[],
     coordinates: &[Coordinate::Length],
     read: |reader| Some(vec![Made::new(Slider, reader.sliding()?)]),
 };

@@ -1,15 +1,16 @@
-//! The motion of an element on a joint with freedoms of its own, freedom by freedom from the carrier outwards.
+//! The motion of an element on a joint with coordinates of its own, one degree of freedom after the other from the carrier outwards.
 //!
-//! A freedom of advance h slides along its axis by h θ, and then turns about it by θ, or does one of the two. With R, p, ω, ε and γ of what is
-//! inboard of it (γ the acceleration of p less that of the carrier's origin, ε and γ at v̇ = 0), θ = q + zero and the axis e = R a,
+//! A degree of freedom of advance h slides along its axis by h θ, and then turns about it by θ, or does only one of the two. R, p, ω, ε and γ are
+//! those of its inner side: γ is the acceleration of p minus that of the carrier's origin, and ε and γ hold for v̇ = 0. With θ = q + zero and the
+//! axis e = R a,
 //!
 //! | | origin | orientation | column H = (s, e) |
 //! |---|---|---|---|
 //! | it slides | p ← p + h e θ,   γ ← γ + ε × h e θ + ω × (ω × h e θ) + 2 ω × h e q̇ | | s = h e, and e = 0 if it does not turn |
 //! | it turns | | R ← R Rot(a, θ),   ε ← ε + ω × e q̇,   ω ← ω + e q̇ | s += e × (p_end − p) |
 //!
-//! s q̇ moves the origin p_end of the element against the carrier, and e q̇ turns it; Ḣ v is what ε and γ have of it. A freedom does not change its
-//! own axis.   \[Featherstone 2008, ch. 3\]
+//! s q̇ moves the origin p_end of the element relative to the carrier, and e q̇ turns it. The sums in ε and γ give Ḣ v. A degree of freedom does
+//! not change its own axis.   \[Featherstone 2008, ch. 3\]
 
 use super::{Freedom, Kind};
 use crate::dynamics::kinematics::ElementMotion;
@@ -17,13 +18,13 @@ use crate::dynamics::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 
-/// How far a kind of freedom turns per unit of its coordinate, 1 or 0, and by how much it slides.
+/// How far a kind of degree of freedom turns per unit of its coordinate, 1 or 0, and its advance.
 pub fn turn_and_advance<'g>(graph: &'g Graph, kind: &dyn Kind) -> (f64, Expr<'g>) {
     let advance = kind.advance().unwrap_or(crate::model::Number::ZERO);
     (f64::from(kind.turns()), number(graph, &advance))
 }
 
-/// The motion of an element whose joint is at `at` on its carrier (the carrier's frame).
+/// The motion of an element whose joint is at `at` on its carrier, in the carrier's frame.
 pub fn motion<'g>(
     graph: &'g Graph,
     freedoms: &[Freedom],
@@ -43,7 +44,7 @@ pub fn motion<'g>(
     motion.offset = carrier.rotation.times(at);
     motion.turns(carrier.omega);
     motion.slide_bias = motion.gamma(motion.offset);
-    // relative to the joint's place on the carrier
+    // relative to the place of the joint on the carrier
     let mut slid = none;
     let mut slid_rate = none;
     let mut centers: Vec<Option<Vec3<'g>>> = Vec::new();
@@ -65,7 +66,7 @@ pub fn motion<'g>(
             motion.bias = motion.bias + motion.omega.cross(rate * e);
             motion.turns(motion.omega + rate * e);
             motion.rotation = turned(&motion.rotation, axis, e, position);
-            // in the plane every axis is along y, one way or the other
+            // in the plane every axis is along +y or −y
             motion.angle = motion.angle + axis.0[1] * position;
             motion.axes.push(e);
             centers.push(Some(slid));
@@ -86,19 +87,19 @@ pub fn motion<'g>(
     motion
 }
 
-/// R Rot(a, θ), with e = R a: its columns are those of R, turned about e.
+/// R Rot(a, θ), with e = R a: its columns are those of R, rotated about e.
 fn turned<'g>(rotation: &Mat3<'g>, axis: Vec3<'g>, e: Vec3<'g>, angle: Expr<'g>) -> Mat3<'g> {
     let graph = angle.graph();
     let (sine, cosine) = (angle.sin(), angle.cos());
     let a = axis.0;
-    // r cos θ + (e × r) sin θ + e (a_j) (1 − cos θ), of each column r = R e_j, with e · r = a_j; e × r by the other columns
+    // for each column r = R e_j: r cos θ + (e × r) sin θ + e (a_j) (1 − cos θ), with e · r = a_j; e × r follows from the other columns
     Mat3::from_columns(std::array::from_fn(|j| {
         let (k, l) = ((j + 1) % 3, (j + 2) % 3);
         let r = |i: usize| rotation.column(i);
         let across = a[l] * r(k) - a[k] * r(l);
         let one = graph.constant(1.0);
         match a[j].as_constant() {
-            // a component of 1 alone is not enough: beside it a tilt of 1e-8 is below rounding
+            // one component of 1 is not sufficient: a tilt of 1e-8 in the others would be below rounding
             _ if a[k].is_zero() && a[l].is_zero() => r(j),
             Some(0.0) => cosine * r(j) + sine * across,
             _ => cosine * r(j) + sine * across + (a[j] * (one - cosine)) * e,

@@ -1,6 +1,6 @@
-//! A weld: no freedom. The element is part of its carrier, and keeps its name.
+//! A weld: it has no degree of freedom. The element is part of its carrier, and keeps its name.
 //!
-//! R, d as the carrier has them;   H has no column
+//! R and d are those of the carrier;   H has no column
 
 use super::Joint;
 use super::written::Word;

@@ -1,4 +1,5 @@
-//! How joints are written: a word, or keys below `joint`, each of which stands for freedoms that have a file here.
+//! The written form of joints: a word, or keys below `joint`. Each key stands for degrees of freedom that have a file
+//! in this folder.
 
 use super::{Coordinate, FreedomKind, Joint, SPELLINGS, WORDS};
 use crate::description::joint::{Axis, Freedom as Written};
@@ -10,23 +11,25 @@ use crate::model::resolve::quantity::{Expected, PURE};
 use crate::model::resolve::{NOWHERE, Resolver};
 use serde::de::DeserializeOwned;
 
-/// A key of a joint that stands for freedoms.
+/// A key of a joint that stands for degrees of freedom.
 pub(crate) struct Spelling {
-    /// The key; its value is an axis, or several.
+    /// The key. Its value is an axis or several.
     pub key: Key,
-    /// Keys that go with it alone.
+    /// Keys that belong to this spelling alone.
     pub keys: &'static [Key],
+    /// Those of them whose numbers say which hand it has: in a mirror image they change sign.
+    pub handed: &'static [&'static str],
     /// The coordinates of the freedoms that it stands for, from the carrier outwards.
     pub coordinates: &'static [Coordinate],
-    /// These freedoms; none where a problem is reported.
+    /// Reads these degrees of freedom; `None` if a problem is reported.
     pub read: fn(&Reader<'_>) -> Option<Vec<Made>>,
 }
 
 /// A word for a joint that needs no keys.
 pub(crate) struct Word {
-    /// The word.
+    /// The word itself.
     pub word: &'static str,
-    /// Whether the joint has axes, which a mirror would turn around.
+    /// Whether the joint has axes, which a mirror image would reverse.
     pub has_axes: bool,
     /// The joint that it stands for.
     pub joint: fn(&Resolver<'_>, At<'_>) -> Joint,
@@ -41,13 +44,13 @@ pub(crate) const fn key<T: Shape>(name: &'static str) -> Key {
     }
 }
 
-/// Whether a joint that is this word has axes, or is no word.
+/// Whether the joint has axes: true for a word with axes, and for everything that is no such word.
 pub(crate) fn has_axes(word: Option<&str>) -> bool {
     let known = WORDS.iter().find(|known| word == Some(known.word));
     known.is_none_or(|known| known.has_axes)
 }
 
-/// Keys of all spellings: first those that stand for freedoms, then those that go with them.
+/// The keys of all spellings: first those that stand for degrees of freedom, then those that belong to them.
 pub(crate) const KEYS: [Key; count()] = keys();
 
 const fn count() -> usize {
@@ -76,16 +79,16 @@ const fn keys() -> [Key; count()] {
     keys
 }
 
-/// A freedom before it has a name.
+/// A degree of freedom that has no name yet.
 pub(crate) struct Made {
     /// What it does.
     pub kind: FreedomKind,
-    /// About or along what.
+    /// Its axis.
     pub direction: Direction,
 }
 
 impl Made {
-    /// A freedom of this kind about or along a direction.
+    /// A degree of freedom of this kind about or along a direction.
     pub fn new(kind: impl Into<FreedomKind>, direction: Direction) -> Self {
         Made {
             kind: kind.into(),
@@ -94,12 +97,12 @@ impl Made {
     }
 }
 
-/// A unit vector in the frame of the carrier, and the word for it where it is one of the frame's axes by name.
+/// A unit vector in the frame of the carrier, with the name of the axis if it is an axis of the frame.
 #[derive(Clone)]
 pub(crate) struct Direction {
     /// Its components.
     pub axis: [Number; 3],
-    /// x, y or z.
+    /// `x`, `y` or `z`.
     pub word: Option<&'static str>,
 }
 
@@ -112,7 +115,7 @@ impl Direction {
         }
     }
 
-    /// The other way along one of the frame's axes, by the same word.
+    /// The opposite direction along an axis of the frame, with the same word.
     fn opposite(mut self) -> Self {
         for component in &mut self.axis {
             if *component == Number::Constant(1.0) {
@@ -132,7 +135,7 @@ impl Direction {
     }
 }
 
-/// One joint as written, while it is read.
+/// One written joint while it is read.
 pub(crate) struct Reader<'r> {
     resolver: &'r Resolver<'r>,
     written: &'r Written,
@@ -141,7 +144,7 @@ pub(crate) struct Reader<'r> {
 }
 
 impl<'r> Reader<'r> {
-    /// Of a joint that is written this way.
+    /// A reader for a joint that is written this way.
     pub fn new(
         resolver: &'r Resolver<'r>,
         written: &'r Written,
@@ -156,7 +159,7 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Whether motion is in the plane.
+    /// Whether the model is planar.
     pub fn planar(&self) -> bool {
         self.resolver.planar
     }
@@ -166,14 +169,14 @@ impl<'r> Reader<'r> {
         self.resolver.problems.add(self.at.problem(message, help));
     }
 
-    /// Reports a problem with the value of the key.
+    /// Reports a problem with the value of the key of the joint.
     pub fn problem_with_value(&self, message: &str, help: &str) {
         self.resolver
             .problems
             .add(self.place().problem(message, help));
     }
 
-    /// Reports, in the plane, that this joint leads out of it.
+    /// Reports, in a planar model, that this joint leads out of the plane; returns whether it did.
     pub fn leads_out_of_plane(&self, help: &str) -> bool {
         if self.planar() {
             let message = format!("a {} leads out of the plane", self.spelling.key.name);
@@ -184,13 +187,13 @@ impl<'r> Reader<'r> {
         self.planar()
     }
 
-    /// The axis that is the value of the key, to turn about: in the plane y.
+    /// The axis in the value of the key, for a rotation: in the plane y.
     pub fn turning(&self) -> Option<Direction> {
         let axis = self.value(self.spelling.key.name)?;
         Some(self.turning_about(&axis, self.place()))
     }
 
-    /// The axes that are the value of the key, to turn about.
+    /// The axes in the value of the key, for rotations.
     pub fn several_turning(&self) -> Option<Vec<Direction>> {
         let axes: Vec<Axis> = self.value(self.spelling.key.name)?;
         let each = axes.iter().enumerate();
@@ -198,7 +201,7 @@ impl<'r> Reader<'r> {
         Some(each.map(turning).collect())
     }
 
-    /// The axis that is the value of the key, to slide along: in the plane not y.
+    /// The axis in the value of the key, for a translation: in the plane not y.
     pub fn sliding(&self) -> Option<Direction> {
         let axis: Axis = self.value(self.spelling.key.name)?;
         if let (Axis::Word(word), true) = (&axis, self.planar())
@@ -212,18 +215,18 @@ impl<'r> Reader<'r> {
         Some(self.direction(&axis, self.place()))
     }
 
-    /// The number that is the value of a key.
+    /// The number in the value of a key.
     pub fn number(&self, key: &str, expected: Expected) -> Option<Number> {
         let quantity: Quantity = self.value(key)?;
         Some(self.resolver.number(&quantity, self.at.key(key), expected))
     }
 
-    /// Where the value of the key stands.
+    /// The place of the value of the key.
     fn place(&self) -> At<'r> {
         self.at.key(self.spelling.key.name)
     }
 
-    /// What a key says; none where it is not there.
+    /// The value of a key; `None` if the key is missing.
     fn value<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
         match self.written.value(key)? {
             Ok(value) => Some(value),
@@ -271,8 +274,7 @@ impl<'r> Reader<'r> {
         if resolver.problems.count() > before {
             return Direction::unnamed(0);
         }
-        let squares = vector.iter().map(|n| n.value(&resolver.defaults).powi(2));
-        if squares.sum::<f64>() <= 0.0 {
+        if vector.iter().all(|n| n.value(&resolver.defaults) == 0.0) {
             let constant = vector.iter().all(|n| n.constant().is_some());
             let when = match constant {
                 true => "",

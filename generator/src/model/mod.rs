@@ -6,28 +6,24 @@
 //! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
 //! the mass matrix is not structurally singular.
 
-pub mod airbag;
 mod curve;
 mod hysteresis;
-mod joint;
 mod normal;
 mod number;
 pub mod part;
-mod requirement;
+pub(crate) mod requirement;
 pub(crate) mod resolve;
 pub mod rule;
 pub mod scene;
 mod switch;
-mod unloading;
-mod user;
-pub mod webbing;
+pub(crate) mod unloading;
 
 use std::fmt;
 
 pub use crate::joint::{Follows, Freedom, FreedomKind, Joint};
-pub use airbag::{Airbag, AirbagQuantity, Filled, Inflow};
+pub use crate::law::types::*;
+pub use crate::law::{Asked, ForceKind};
 pub use hysteresis::Hysteresis;
-pub use joint::{Bending, Drive, Lock, Stop};
 pub use number::Number;
 pub use requirement::Requirement;
 pub(crate) use resolve::is_keyword;
@@ -35,10 +31,6 @@ pub use resolve::{read, read_str, read_without_sources};
 pub use rule::Rule;
 pub use scene::Scene;
 pub use switch::{Active, Switch, SwitchQuantity, Trigger};
-pub use user::{
-    Port, User, UserFreedom, UserFunction, UserLine, UserParameter, UserSource, UserState,
-};
-pub use webbing::{Pretensioner, Retractor, Ring};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
 #[derive(Clone, Debug, PartialEq)]
@@ -221,22 +213,6 @@ pub struct Translation {
     pub stops: Option<ScaledCurve>,
 }
 
-impl Belt {
-    /// The points that it runs straight between: its end `from`, its rings, its end `to`.
-    pub fn points(&self) -> impl Iterator<Item = &Attachment> {
-        let rings = self.rings.iter().map(|ring| &ring.on);
-        std::iter::once(&self.from).chain(rings).chain([&self.to])
-    }
-
-    /// The same, to be changed.
-    pub fn points_mut(&mut self) -> impl Iterator<Item = &mut Attachment> {
-        let rings = self.rings.iter_mut().map(|ring| &mut ring.on);
-        std::iter::once(&mut self.from)
-            .chain(rings)
-            .chain([&mut self.to])
-    }
-}
-
 /// The digest of a model is made of this: what does not stop leaves no trace.
 impl fmt::Debug for Translation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -379,89 +355,6 @@ pub struct Force {
     pub active: Active,
 }
 
-/// The four force interaction models of the paper, given loads, and the user's own.
-#[derive(Clone, Debug, PartialEq)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a scene has few forces, and an array is matched on more plainly than a box"
-)]
-pub enum ForceKind {
-    /// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
-    Joint {
-        /// The element outboard of the joint.
-        child: ElementId,
-        /// Laws about the first, second, third Bryant angle of the relative rotation A_parentᵀ A_child.
-        /// In the plane only the second is used, its angle being φ_child − φ_parent.
-        about: [JointTorque; 3],
-        /// Flexion and torsion, in space.
-        bending: Option<Box<Bending>>,
-    },
-    /// Torque or force of one freedom of the joint that carries `child`, on its own coordinate.
-    Freedom {
-        /// The element outboard of the joint.
-        child: ElementId,
-        /// Index into its freedoms.
-        freedom: usize,
-        /// The law of the coordinate, in \[m\] and \[N\] where it slides.
-        law: Box<JointTorque>,
-    },
-    /// Uniform acceleration field: a force m·a at the centre of gravity of every element of `on`.
-    Field {
-        /// Elements that feel it.
-        on: Vec<ElementId>,
-        /// Per absolute axis \[m/s²\].
-        acceleration: [FieldComponent; 3],
-    },
-    /// Contact between an ellipsoid (an ellipse in the plane) and a plane (a line).
-    Contact(Box<Contact>),
-    /// A belt: a tensile force along the line between two attachments.
-    Belt(Box<Belt>),
-    /// Spring and damper between two points.
-    Spring(Box<Spring>),
-    /// An airbag.
-    Airbag(Box<Airbag>),
-    /// A given force and moment on an element.
-    Load(Box<Load>),
-    /// Forces computed by a function of the user's.
-    User(Box<User>),
-}
-
-/// A given force and moment, absolute axes: thrust, actuation, a reaction known from a test.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Load {
-    /// Where the force acts.
-    pub on: Attachment,
-    /// Per absolute axis \[N\], constant or a curve of time.
-    pub force: [FieldComponent; 3],
-    /// Per absolute axis \[N m\], constant or a curve of time. In the plane only the second is used.
-    pub moment: [FieldComponent; 3],
-}
-
-/// Torque about one relative rotation.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct JointTorque {
-    /// Elastic torque as a function of the relative angle less `neutral`: resists with −curve. \[rad\] → \[N m\].
-    pub elastic: Option<ScaledCurve>,
-    /// Relative angle at which the elastic curve has its zero abscissa \[rad\]; none is 0.
-    pub neutral: Option<Number>,
-    /// What unloading adds to the elastic curve, on both sides of its zero.
-    pub hysteresis: Option<Hysteresis>,
-    /// Viscous coefficient \[N m s/rad\]; none is 0.
-    pub damping: Option<Number>,
-    /// Coulomb friction torque; none is 0.
-    pub friction: Option<Friction>,
-    /// By what the friction holds; without one it is a function of speed.
-    pub bristle: Option<Bristle>,
-    /// Where the rotation ends.
-    pub stop: Option<Stop>,
-    /// What holds the angle from a switch on.
-    pub lock: Option<Lock>,
-    /// Torque of a motor \[N m\]; none is 0.
-    pub motor: Option<FieldComponent>,
-    /// What drives the angle to one that is given.
-    pub drive: Option<Drive>,
-}
-
 /// Coulomb friction with a linear ramp through zero speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
@@ -480,170 +373,11 @@ pub enum FieldComponent {
     Curve(ScaledCurve),
 }
 
-/// Contact of an ellipsoid with a plane or another ellipsoid.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Contact {
-    /// Centre of the ellipsoid.
-    pub ellipsoid: Attachment,
-    /// Semi-axes along the ellipsoid's own axes \[m\], positive. In the plane the first and third (x, z) are used.
-    pub semi_axes: [Number; 3],
-    /// Bryant angles of the ellipsoid's axes relative to the body's frame \[rad\]. In the plane only the second.
-    pub axes: [Number; 3],
-    /// n of Σ |x_i/a_i|ⁿ = 1, even: 2 is an ellipsoid, more are rounded boxes.
-    pub degree: u32,
-    /// What it meets, on another body.
-    pub against: Against,
-    /// Elastic force as a function of the perpendicular penetration: \[m\] → \[N\].
-    pub elastic: Option<ScaledCurve>,
-    /// Unloading along another curve than `elastic`, against the penetration \[m\].
-    pub hysteresis: Option<Hysteresis>,
-    /// Viscous coefficient on the penetration rate \[N s/m\]; the sum of elastic and viscous force is never below zero.
-    pub damping: Option<Number>,
-    /// Penetration up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
-    pub damping_depth: Option<Number>,
-    /// Coulomb friction on the normal force.
-    pub friction: Option<Friction>,
-    /// By what friction holds; without one it only resists motion.
-    pub bristle: Option<Bristle>,
-}
-
 /// A bristle by which friction holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bristle {
     /// Deflection at which friction is fully there \[m\], in joints of what turns \[rad\].
     pub displacement: Number,
-}
-
-/// What an ellipsoid meets.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Against {
-    /// A plane.
-    Plane(Plane),
-    /// An ellipsoid; both are of degree 2 then.
-    Ellipsoid(Ellipsoid),
-}
-
-impl Against {
-    /// The body that it belongs to, and a point of it: of the plane, or the centre of the ellipsoid.
-    pub fn place(&self) -> &Attachment {
-        match self {
-            Against::Plane(plane) => &plane.at,
-            Against::Ellipsoid(ellipsoid) => &ellipsoid.center,
-        }
-    }
-
-    /// The same, to be changed.
-    pub fn place_mut(&mut self) -> &mut Attachment {
-        match self {
-            Against::Plane(plane) => &mut plane.at,
-            Against::Ellipsoid(ellipsoid) => &mut ellipsoid.center,
-        }
-    }
-
-    /// The plane, if it is one.
-    pub fn plane(&self) -> Option<&Plane> {
-        match self {
-            Against::Plane(plane) => Some(plane),
-            Against::Ellipsoid(_) => None,
-        }
-    }
-}
-
-/// A plane that an ellipsoid meets.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plane {
-    /// A point of it.
-    pub at: Attachment,
-    /// Unit normal, in its body's local frame, pointing to the side where the ellipsoid belongs.
-    pub normal: [Number; 3],
-    /// In space: unit vector along it, in its body's local frame; a second one is normal × tangent.
-    pub tangent: [Number; 3],
-    /// Where it ends; without one nowhere.
-    pub extent: Option<Extent>,
-}
-
-/// An ellipsoid that an ellipsoid meets.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Ellipsoid {
-    /// Its centre.
-    pub center: Attachment,
-    /// As [`Contact::semi_axes`].
-    pub semi_axes: [Number; 3],
-    /// As [`Contact::axes`].
-    pub axes: [Number; 3],
-}
-
-/// The finite extent of a plane.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Extent {
-    /// From the point of the plane to its edges, along the tangent and, in space, along normal × tangent \[m\].
-    pub half_lengths: Vec<Number>,
-    /// What becomes of the force there.
-    pub rule: EdgeRule,
-}
-
-/// What becomes of a contact's force at the edge of a plane.
-#[derive(Clone, Debug, PartialEq)]
-pub enum EdgeRule {
-    /// It is there while the deepest point projects inside, and nowhere else.
-    Cut,
-    /// It fades over this width inside the edge \[m\].
-    Fade(Number),
-}
-
-/// A belt between two attachments.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Belt {
-    /// One end.
-    pub from: Attachment,
-    /// The other end.
-    pub to: Attachment,
-    /// The rings that it runs through, in order from `from`.
-    pub rings: Vec<Ring>,
-    /// Tension as a function of the relative elongation (L − L₀)/L₀ → \[N\].
-    pub force: ScaledCurve,
-    /// Unloading along another curve than `force`, against the relative elongation.
-    pub hysteresis: Option<Hysteresis>,
-    /// Viscous coefficient on the rate of stretch \[N s/m\]; the tension is never below zero, and zero where slack.
-    pub damping: Option<Number>,
-    /// Stretch up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
-    pub damping_stretch: Option<Number>,
-    /// Untensioned length L₀; of no meaning with a retractor.
-    pub length: BeltLength,
-    /// Pays out webbing until it locks. As the pretensioner and the limiter, it is at the end `from`.
-    pub retractor: Option<Retractor>,
-    /// By what the tension exceeds the spool's once the retractor has locked, against the webbing that has come off the reel since \[m\] → \[N\].
-    pub film_spool: Option<ScaledCurve>,
-    /// Takes webbing in once it fires.
-    pub pretensioner: Option<Pretensioner>,
-    /// Largest tension \[N\]; webbing is paid out for good where it would be larger.
-    pub limiter: Option<Number>,
-}
-
-/// A spring and a damper side by side between two attachments, which pull and push.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Spring {
-    /// One end.
-    pub from: Attachment,
-    /// The other end.
-    pub to: Attachment,
-    /// Force as a function of the elongation \[m\] → \[N\], positive where it pulls.
-    pub elastic: Option<ScaledCurve>,
-    /// Length of no elongation \[m\]; without one, the distance of the attachments at the start.
-    pub length: Option<Number>,
-    /// Viscous coefficient on the rate of the length \[N s/m\].
-    pub damping: Option<Number>,
-}
-
-/// How the untensioned length of a belt is given.
-#[derive(Clone, Debug, PartialEq)]
-pub enum BeltLength {
-    /// Directly \[m\].
-    Given(Number),
-    /// Initial distance of the attachments plus this slack \[m\].
-    Slack(Number),
-    /// Such that the belt pulls with this force \[N\] at the initial distance.
-    Pretension(Number),
 }
 
 /// A column of the output table.
@@ -687,7 +421,7 @@ impl fmt::Debug for Output {
         } = self;
         let mut text = f.debug_struct("Output");
         text.field("name", name)
-            .field("quantity", quantity)
+            .field("quantity", &Digested(quantity))
             .field("unit", unit);
         if let Some(code) = code {
             text.field("code", code);
@@ -731,6 +465,18 @@ impl Projection {
     }
 }
 
+impl Projection {
+    /// Whether it is not 0 by itself, of a vector in the plane x–z.
+    pub fn lies_in_plane(self) -> bool {
+        self.component != Component::Y
+    }
+
+    /// Whether it is not 0 by itself, of a vector along y.
+    pub fn is_about_y(self) -> bool {
+        matches!(self.component, Component::Y | Component::Resultant)
+    }
+}
+
 /// What an output measures.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Quantity {
@@ -770,9 +516,9 @@ pub enum Quantity {
         /// Which component.
         projection: Projection,
     },
-    /// The force of a contact, a belt or a spring on one of its two bodies.
+    /// The force of a law between two bodies on one of them.
     ForceOn {
-        /// Index into [`Model::forces`], of kind [`ForceKind::Contact`], [`ForceKind::Belt`] or [`ForceKind::Spring`].
+        /// Index into [`Model::forces`].
         force: usize,
         /// Whether that on the second body is meant, which is opposite to that on the first: the first is that of a contact's
         /// `ellipsoid`, or of the end `from`.
@@ -789,53 +535,21 @@ pub enum Quantity {
         /// Which derivative of its coordinate.
         what: FreedomQuantity,
     },
-    /// Of a joint force.
-    Joint {
-        /// Index into [`Model::forces`], of kind [`ForceKind::Joint`] or [`ForceKind::Freedom`].
-        force: usize,
-        /// Which of the three relative rotations (1 in the plane); 3 is flexion, 4 torsion. Of a freedom 0.
-        about: usize,
-        /// What of it.
-        what: JointQuantity,
-    },
-    /// Of a contact.
-    Contact {
-        /// Index into [`Model::forces`], of kind [`ForceKind::Contact`].
-        force: usize,
-        /// What of it.
-        what: ContactQuantity,
-    },
     /// The force of a belt that runs through rings, or of an airbag, on one of its bodies, of all its points there.
     ForceOnPoints {
-        /// Index into [`Model::forces`], of kind [`ForceKind::Belt`] or [`ForceKind::Airbag`].
+        /// Index into [`Model::forces`].
         force: usize,
         /// The points on that body: of a belt from its end `from` on, of an airbag what it is on and then what it meets.
         points: Vec<usize>,
         /// Which component.
         projection: Projection,
     },
-    /// Of a belt.
-    Belt {
-        /// Index into [`Model::forces`], of kind [`ForceKind::Belt`].
-        force: usize,
-        /// The segment, or the ring, counted from the end `from`; 0 where there are no rings.
-        part: usize,
-        /// What of it.
-        what: BeltQuantity,
-    },
-    /// Of an airbag.
-    Airbag {
-        /// Index into [`Model::forces`], of kind [`ForceKind::Airbag`].
+    /// A quantity of a law.
+    OfForce {
+        /// Index into [`Model::forces`].
         force: usize,
         /// What of it.
-        what: AirbagQuantity,
-    },
-    /// Of a spring.
-    Spring {
-        /// Index into [`Model::forces`], of kind [`ForceKind::Spring`].
-        force: usize,
-        /// What of it.
-        what: SpringQuantity,
+        what: Asked,
     },
     /// Of a switch.
     Switch {
@@ -843,13 +557,6 @@ pub enum Quantity {
         switch: usize,
         /// What of it.
         what: SwitchQuantity,
-    },
-    /// Of a user force.
-    User {
-        /// Index into [`Model::forces`], of kind [`ForceKind::User`].
-        force: usize,
-        /// What of it.
-        what: UserQuantity,
     },
     /// Of a whole system.
     System {
@@ -860,6 +567,18 @@ pub enum Quantity {
         /// Which component, where it is a vector.
         projection: Projection,
     },
+}
+
+/// As the digest of a model has it: under the name of the law.
+pub(crate) struct Digested<'a>(pub(crate) &'a Quantity);
+
+impl fmt::Debug for Digested<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Quantity::OfForce { force, what } => what.digest(*force, f),
+            quantity => quantity.fmt(f),
+        }
+    }
 }
 
 impl Quantity {
@@ -930,91 +649,6 @@ pub enum FreedomQuantity {
     Rate,
     /// The rate of that.
     Acceleration,
-}
-
-/// Of a joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JointQuantity {
-    /// Generalised torque on the child about the relative rotation \[N m\].
-    Torque,
-    /// Relative angle \[rad\].
-    Angle,
-    /// Its rate \[rad/s\].
-    Rate,
-}
-
-/// Of a contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ContactQuantity {
-    /// Resultant force \[N\].
-    Force,
-    /// Normal force \[N\].
-    Normal,
-    /// Friction force \[N\].
-    Friction,
-    /// Penetration, negative while apart \[m\].
-    Penetration,
-    /// Foot of the unloading line \[m\]; 0 without hysteresis.
-    PermanentSet,
-}
-
-/// Of a belt.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BeltQuantity {
-    /// Tension \[N\].
-    Force,
-    /// Distance of the attachments \[m\].
-    Length,
-    /// (L − L₀)/L₀.
-    Elongation,
-    /// L₀ \[m\].
-    UntensionedLength,
-    /// Growth of L₀ since the start \[m\]; of a belt that runs through rings of all segments together.
-    Payout,
-    /// Untensioned length of webbing that has slipped through a ring since the start, from the side of `from` \[m\].
-    Slip,
-    /// Elongation at which the unloading line meets no force; 0 without hysteresis.
-    PermanentSet,
-}
-
-/// Of a spring.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SpringQuantity {
-    /// Force, positive where it pulls \[N\].
-    Force,
-    /// Distance of the attachments \[m\].
-    Length,
-    /// Length less that of no elongation \[m\].
-    Elongation,
-    /// Rate of the length \[m/s\].
-    Rate,
-}
-
-/// Of a user force; indices are into its points, bodies, lines, joints, states.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UserQuantity {
-    /// Force on a point \[N\].
-    Force(usize, Projection),
-    /// Moment on a body \[N m\]; in the plane the component is [`Component::Y`].
-    Moment(usize, Projection),
-    /// Tension in a line \[N\].
-    Tension(usize),
-    /// Length of a line \[m\].
-    Length(usize),
-    /// Its rate \[m/s\].
-    LengthRate(usize),
-    /// Torque in a joint about one relative rotation (1 in the plane) \[N m\].
-    Torque(usize, usize),
-    /// Relative angle \[rad\].
-    Angle(usize, usize),
-    /// Its rate \[rad/s\].
-    AngleRate(usize, usize),
-    /// Torque or force along a freedom of a joint \[N m\] or \[N\].
-    Effort(usize),
-    /// Value of a state.
-    State(usize),
-    /// Its rate.
-    StateRate(usize),
 }
 
 /// Of a system.

@@ -5,9 +5,7 @@
 //! differ in nothing but such mentions have one model, one digest, and one text.
 
 use super::part::Part;
-use super::{
-    Active, Body, Dimension, ForceKind, Given, Model, Number, Quantity, Reference, Translation,
-};
+use super::{Active, Body, Dimension, Given, Model, Number, Quantity, Reference, Translation};
 use sha2::{Digest, Sha256};
 
 impl Model {
@@ -64,7 +62,7 @@ impl Model {
 
     /// Axes of what is the same in all directions say nothing.
     fn forget_directions(&mut self) {
-        let planar = self.dimension == Dimension::Plane;
+        let dimension = self.dimension;
         for element in self.systems.iter_mut().flat_map(|s| &mut s.elements) {
             let [x, y, z] = &element.inertia;
             if x == y && y == z {
@@ -72,12 +70,7 @@ impl Model {
             }
         }
         for force in &mut self.forces {
-            if let super::ForceKind::Contact(contact) = &mut force.kind {
-                let [x, y, z] = &contact.semi_axes;
-                if x == z && (planar || x == y) {
-                    contact.axes = [Number::ZERO; 3];
-                }
-            }
+            force.kind.forget_directions(dimension);
         }
     }
 
@@ -162,31 +155,7 @@ fn for_each_vehicle(model: &mut Model, visit: &mut dyn FnMut(&mut usize)) {
         }
     };
     for force in &mut model.forces {
-        match &mut force.kind {
-            ForceKind::Joint { .. } | ForceKind::Freedom { .. } | ForceKind::Field { .. } => {}
-            ForceKind::Load(load) => body(&mut load.on.on),
-            ForceKind::Contact(contact) => {
-                body(&mut contact.ellipsoid.on);
-                body(&mut contact.against.place_mut().on);
-            }
-            ForceKind::Belt(belt) => belt.points_mut().for_each(|point| body(&mut point.on)),
-            ForceKind::Airbag(airbag) => airbag
-                .ellipsoids_mut()
-                .for_each(|ellipsoid| body(&mut ellipsoid.center.on)),
-            ForceKind::Spring(spring) => {
-                body(&mut spring.from.on);
-                body(&mut spring.to.on);
-            }
-            ForceKind::User(user) => {
-                for point in &mut user.points {
-                    body(&mut point.value.on);
-                }
-                for line in &mut user.lines {
-                    body(&mut line.value.from.on);
-                    body(&mut line.value.to.on);
-                }
-            }
-        }
+        force.kind.bodies_mut().into_iter().for_each(&mut body);
     }
     for quantity in looked_at(model) {
         for body in quantity.bodies_mut() {
@@ -243,27 +212,7 @@ fn for_each_switch(model: &mut Model, used: &[bool], visit: &mut dyn FnMut(&mut 
     for force in &mut model.forces {
         let Active { since, until } = &mut force.active;
         since.iter_mut().chain(until).for_each(&mut *visit);
-        match &mut force.kind {
-            ForceKind::Joint { about, bending, .. } => {
-                let torsion = bending.iter_mut().map(|b| &mut b.torsion);
-                about
-                    .iter_mut()
-                    .chain(torsion)
-                    .filter_map(|t| t.lock.as_mut())
-                    .for_each(|lock| visit(&mut lock.by));
-            }
-            ForceKind::Freedom { law, .. } => {
-                law.lock.iter_mut().for_each(|lock| visit(&mut lock.by));
-            }
-            ForceKind::Belt(belt) => {
-                belt.retractor.iter_mut().for_each(|r| visit(&mut r.lock));
-                belt.pretensioner
-                    .iter_mut()
-                    .for_each(|p| visit(&mut p.fire));
-            }
-            ForceKind::Airbag(airbag) => airbag.inflow.iter_mut().for_each(|i| visit(&mut i.fire)),
-            _ => {}
-        }
+        force.kind.switches_mut().into_iter().for_each(&mut *visit);
     }
     let outputs = model.outputs.iter_mut().map(|output| &mut output.quantity);
     let switches = model.switches.iter_mut().zip(used);

@@ -6,14 +6,11 @@
 //! said here what it is. What is said here is all that the vocabulary of effects, the normal form of a model and the
 //! scene with nothing left out know of a law.
 
-use super::rule::{Key, Rule, Ruled};
+use super::rule::{Rule, Ruled};
 use super::{
-    Against, Airbag, Attachment, Belt, BeltLength, Bending, Body, Bristle, Contact, Curve,
-    Dimension, Drive, EdgeRule, Element, Ellipsoid, Extent, Extrapolate, FieldComponent, Filled,
-    Follows, ForceKind, Freedom, Friction, Hysteresis, Inflow, Interpolate, JointTorque, Load,
-    Lock, Model, Number, Output, Parameter, Plane, Port, Pretensioner, Quantity, Reference,
-    Retractor, Ring, ScaledCurve, Spring, Stop, Switch, System, Translation, Trigger, User,
-    UserFreedom, UserFunction, UserLine, UserParameter, UserQuantity, UserState, Vehicle,
+    Attachment, Body, Bristle, Curve, Dimension, Element, Extrapolate, FieldComponent, Follows,
+    ForceKind, Freedom, Friction, Hysteresis, Interpolate, Model, Number, Output, Parameter,
+    Quantity, Reference, ScaledCurve, Switch, System, Translation, Trigger, Vehicle,
 };
 
 /// Something of a law.
@@ -42,7 +39,7 @@ pub struct Term {
 }
 
 impl Term {
-    fn new(name: impl Into<String>, key: impl Into<String>, rule: Rule) -> Self {
+    pub(crate) fn new(name: impl Into<String>, key: impl Into<String>, rule: Rule) -> Self {
         Term {
             name: name.into(),
             keys: vec![key.into()],
@@ -52,14 +49,14 @@ impl Term {
         }
     }
 
-    fn only_as_written(self) -> Self {
+    pub(crate) fn only_as_written(self) -> Self {
         Term {
             as_written: true,
             ..self
         }
     }
 
-    fn needs(self, needs: &'static str) -> Self {
+    pub(crate) fn needs(self, needs: &'static str) -> Self {
         Term { needs, ..self }
     }
 }
@@ -223,36 +220,6 @@ impl Part for Option<FieldComponent> {
     }
 }
 
-/// The untensioned length; absent where the belt is just taut at the start.
-impl Part for BeltLength {
-    fn is_in(&self) -> bool {
-        match self {
-            BeltLength::Given(_) => true,
-            BeltLength::Slack(number) | BeltLength::Pretension(number) => !number.is_zero(),
-        }
-    }
-    fn leave_out(&mut self) {
-        *self = BeltLength::Slack(Number::ZERO);
-    }
-    fn put_in(&mut self, fresh: &mut Fresh<'_>) {
-        if !self.is_in() {
-            *self = BeltLength::Slack(fresh.number(0.0));
-        }
-    }
-    fn zero(&self) -> &'static str {
-        "the belt is just taut at the start"
-    }
-    fn numbers(&mut self) -> Vec<Ruled<'_>> {
-        vec![match self {
-            BeltLength::Given(number) => Ruled::itself(Rule::Positive, number),
-            BeltLength::Slack(number) => Ruled::beside("slack", Rule::NotNegative, number),
-            BeltLength::Pretension(number) => {
-                Ruled::beside("pretension", Rule::NotNegative, number)
-            }
-        }]
-    }
-}
-
 /// Implements [`Part`] for what is as it is: not 0 where it is written, and not added to a scene that does not have it. Its numbers stand
 /// below its key by their names.
 macro_rules! as_written {
@@ -290,17 +257,7 @@ macro_rules! as_written {
         }
     )*};
 }
-as_written! {
-    Stop { stiffness: NotNegative } {
-        from: Finite, to: Finite, damping: NotNegative, damping_angle: NotNegative
-    } [];
-    Lock { stiffness: NotNegative } { damping: NotNegative } [] - by;
-    Retractor { spool: NotNegative } {} [] - lock;
-    Pretensioner {} { delay: NotNegative } [retract] - fire;
-    Inflow { temperature: Positive } {} [flow] - fire;
-    Filled { pressure: Positive, temperature: Positive } {} [];
-    Drive { stiffness: NotNegative } { damping: NotNegative, limit: Positive } [to];
-}
+pub(crate) use as_written;
 
 /// The curve of unloading, and the line that leads to it.
 impl Part for Option<Hysteresis> {
@@ -350,93 +307,6 @@ impl Part for Option<Bristle> {
     }
 }
 
-/// Where a plane ends.
-impl Part for Option<Extent> {
-    fn is_in(&self) -> bool {
-        self.is_some()
-    }
-    fn leave_out(&mut self) {
-        *self = None;
-    }
-    fn put_in(&mut self, _: &mut Fresh<'_>) {}
-    fn numbers(&mut self) -> Vec<Ruled<'_>> {
-        let Some(Extent { half_lengths, rule }) = self else {
-            return Vec::new();
-        };
-        let one = half_lengths.len() == 1;
-        let lengths = half_lengths.iter_mut().enumerate();
-        let mut numbers: Vec<Ruled<'_>> = lengths
-            .map(|(index, length)| match one {
-                true => Ruled::itself(Rule::Positive, length),
-                false => Ruled::item(index, Rule::Positive, length),
-            })
-            .collect();
-        match rule {
-            EdgeRule::Cut => {}
-            EdgeRule::Fade(width) => {
-                numbers.push(Ruled::beside("edge.width", Rule::Positive, width));
-            }
-        }
-        numbers
-    }
-}
-
-/// The function of a user force, with what it is given whatever the motion.
-impl Part for UserFunction {
-    fn is_in(&self) -> bool {
-        !self.name.is_empty()
-    }
-    fn leave_out(&mut self) {
-        *self = UserFunction {
-            name: String::new(),
-            source: None,
-            parameters: Vec::new(),
-            curves: Vec::new(),
-        };
-    }
-    fn put_in(&mut self, _: &mut Fresh<'_>) {}
-    fn zero(&self) -> &'static str {
-        "there is no function"
-    }
-    fn numbers(&mut self) -> Vec<Ruled<'_>> {
-        let UserFunction {
-            name: _,
-            source: _,
-            parameters,
-            curves,
-        } = self;
-        let mut numbers = Vec::new();
-        for Port { name, value } in parameters {
-            let UserParameter { value, unit: _ } = value;
-            numbers.extend(beside("parameters", name, value.numbers()));
-        }
-        for Port { name, value } in curves {
-            numbers.extend(beside("curves", name, value.numbers()));
-        }
-        numbers
-    }
-    fn curves(&mut self) -> Vec<&mut ScaledCurve> {
-        let parameters = self.parameters.iter_mut();
-        let mut curves: Vec<&mut ScaledCurve> = parameters
-            .flat_map(|port| port.value.value.curves())
-            .collect();
-        curves.extend(self.curves.iter_mut().flat_map(|port| port.value.curves()));
-        curves
-    }
-}
-
-/// Numbers of a port of a user force, where they stand in the YAML.
-fn beside<'a>(
-    list: &'a str,
-    name: &'a str,
-    numbers: Vec<Ruled<'a>>,
-) -> impl Iterator<Item = Ruled<'a>> {
-    numbers.into_iter().map(move |number| Ruled {
-        key: Key::Beside(number.key.path(&format!("{list}.{name}"))),
-        ..number
-    })
-}
-
 /// Where parameters and curves for absent parts come from.
 pub struct Fresh<'a> {
     /// The model's parameters; new ones are added.
@@ -482,72 +352,13 @@ impl Fresh<'_> {
     }
 }
 
-const AXES: [&str; 3] = ["x", "y", "z"];
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl ForceKind {
-    /// The key that names a force of this kind.
-    pub fn key(&self) -> &'static str {
-        match self {
-            ForceKind::Joint { .. } | ForceKind::Freedom { .. } => "joint",
-            ForceKind::Field { .. } => "field",
-            ForceKind::Contact(_) => "contact",
-            ForceKind::Belt(_) => "belt",
-            ForceKind::Spring(_) => "spring",
-            ForceKind::Airbag(_) => "airbag",
-            ForceKind::Load(_) => "load",
-            ForceKind::User(_) => "user",
-        }
-    }
-
     /// Everything of a law but what the dimension does not have.
     pub fn fields(&mut self, dimension: Dimension) -> Vec<Field<'_>> {
         let mut fields = Vec::new();
-        match self {
-            ForceKind::Joint {
-                child,
-                about,
-                bending,
-            } => {
-                fields.push(Field::Body(Body::Element(*child)));
-                if let Some(bending) = bending {
-                    let Bending {
-                        axis: _,
-                        flexion,
-                        torsion,
-                    } = &mut **bending;
-                    torque(flexion, " of flexion", "flexion.", &mut fields);
-                    torque(torsion, " of torsion", "torsion.", &mut fields);
-                }
-                for (axis, law) in about.iter_mut().enumerate() {
-                    match dimension {
-                        Dimension::Space => {
-                            let (axis, key) = (AXES[axis], format!("about.{}.", AXES[axis]));
-                            torque(law, &format!(" about {axis}"), &key, &mut fields);
-                        }
-                        Dimension::Plane if axis == 1 => torque(law, "", "", &mut fields),
-                        Dimension::Plane => {}
-                    }
-                }
-            }
-            ForceKind::Freedom {
-                child,
-                freedom: _,
-                law,
-            } => {
-                fields.push(Field::Body(Body::Element(*child)));
-                torque(law, "", "", &mut fields);
-            }
-            ForceKind::Field { on, acceleration } => {
-                fields.extend(on.iter().map(|&id| Field::Body(Body::Element(id))));
-                components(acceleration, "", "acceleration", dimension, &mut fields);
-            }
-            ForceKind::Contact(contact) => contact.fields(dimension, &mut fields),
-            ForceKind::Belt(belt) => belt.fields(&mut fields),
-            ForceKind::Spring(spring) => spring.fields(&mut fields),
-            ForceKind::Airbag(airbag) => airbag.fields(dimension, &mut fields),
-            ForceKind::Load(load) => load.fields(dimension, &mut fields),
-            ForceKind::User(user) => user.fields(&mut fields),
-        }
+        (**self).fields(dimension, &mut fields);
         fields
     }
 
@@ -560,90 +371,7 @@ impl ForceKind {
                 part.leave_out();
             }
         }
-        match self {
-            ForceKind::Joint { about, bending, .. } => {
-                let bent = bending.iter_mut();
-                for law in about
-                    .iter_mut()
-                    .chain(bent.flat_map(|b| [&mut b.flexion, &mut b.torsion]))
-                {
-                    law.settle();
-                }
-                let nothing = JointTorque::default();
-                if bending
-                    .as_ref()
-                    .is_some_and(|b| b.flexion == nothing && b.torsion == nothing)
-                {
-                    *bending = None;
-                }
-            }
-            ForceKind::Freedom { law, .. } => {
-                law.settle();
-            }
-            ForceKind::Contact(contact) => {
-                if contact.elastic.is_none() {
-                    contact.hysteresis = None;
-                }
-                if contact.damping.is_none() {
-                    contact.damping_depth = None;
-                }
-                if contact.elastic.is_none() && contact.damping.is_none() {
-                    contact.friction = None;
-                }
-                if contact.friction.is_none() {
-                    contact.bristle = None;
-                }
-                let idle = contact.elastic.is_none() && contact.damping.is_none();
-                if let Against::Plane(plane) = &mut contact.against {
-                    if idle {
-                        plane.extent = None;
-                    }
-                    if contact.bristle.is_none() && plane.extent.is_none() {
-                        plane.tangent = [Number::ZERO; 3];
-                    }
-                }
-            }
-            ForceKind::Belt(belt) => {
-                // No length is such that no force is the pretension.
-                if !belt.force.is_in() && matches!(belt.length, BeltLength::Pretension(_)) {
-                    belt.length.leave_out();
-                }
-                if !belt.force.is_in() {
-                    belt.hysteresis = None;
-                }
-                if belt.damping.is_none() {
-                    belt.damping_stretch = None;
-                }
-                // The length is what the reel has paid out.
-                match belt.retractor {
-                    Some(_) => belt.length.leave_out(),
-                    None => belt.film_spool = None,
-                }
-            }
-            ForceKind::Load(load) => {
-                if !load.force.iter().any(Part::is_in) {
-                    load.on.at = [Number::ZERO; 3];
-                }
-            }
-            ForceKind::User(user) => {
-                for port in &mut user.function.parameters {
-                    if !port.value.value.is_in() {
-                        port.value.value.leave_out();
-                    }
-                }
-                for port in &mut user.function.curves {
-                    if !port.value.is_in() {
-                        port.value.leave_out();
-                    }
-                }
-            }
-            ForceKind::Spring(spring) => {
-                if spring.elastic.is_none() {
-                    spring.length = None;
-                }
-            }
-            ForceKind::Field { .. } | ForceKind::Airbag(_) => {}
-        }
+        (**self).settle();
     }
 
     /// The terms, and whether each is in.
@@ -664,356 +392,24 @@ impl ForceKind {
     }
 }
 
-impl JointTorque {
-    /// Leaves out what cannot do anything without what is absent.
-    fn settle(&mut self) {
-        if self.elastic.is_none() {
-            self.neutral = None;
-            self.hysteresis = None;
-        }
-        if self.friction.is_none() {
-            self.bristle = None;
-        }
-    }
-}
-
-/// The law about one relative rotation.
-fn torque<'a>(law: &'a mut JointTorque, about: &str, below: &str, fields: &mut Vec<Field<'a>>) {
-    let JointTorque {
-        elastic,
-        neutral,
-        hysteresis,
-        damping,
-        friction,
-        bristle,
-        stop,
-        lock,
-        motor,
-        drive,
-    } = law;
-    let term = |name: &str, key: &str, rule| {
-        Term::new(format!("{name}{about}"), format!("{below}{key}"), rule)
-    };
-    let mut elastics = term("elastic", "elastic", Rule::Finite);
-    elastics.keys.push(format!("{below}stiffness"));
-    fields.push(Field::Term(elastics, elastic));
-    let angle = term("neutral angle", "neutral", Rule::Finite);
-    let angle = angle.needs("there is no elastic torque");
-    fields.push(Field::Term(angle, neutral));
-    let mut unloading = term("hysteresis", "unloading", Rule::Finite);
-    unloading.keys.push(format!("{below}unloading_slope"));
-    let unloading = unloading.needs("there is no elastic torque");
-    fields.push(Field::Term(unloading, hysteresis));
-    let dampings = term("damping", "damping", Rule::NotNegative);
-    fields.push(Field::Term(dampings, damping));
-    let frictions = term("friction", "friction", Rule::NotNegative);
-    fields.push(Field::Term(frictions, friction));
-    let holds = term("friction holds", "friction_displacement", Rule::Positive);
-    let holds = holds.needs("there is no friction");
-    fields.push(Field::Term(holds, bristle));
-    fields.push(Field::Term(term("stop", "stop", Rule::Finite), stop));
-    fields.push(Field::Term(term("lock", "lock", Rule::Finite), lock));
-    let motors = term("motor", "motor", Rule::Finite).only_as_written();
-    fields.push(Field::Term(motors, motor));
-    fields.push(Field::Term(term("drive", "drive", Rule::Finite), drive));
-}
-
-impl Contact {
-    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
-        let Contact {
-            ellipsoid,
-            semi_axes,
-            axes,
-            degree: _,
-            against,
-            elastic,
-            hysteresis,
-            damping,
-            damping_depth,
-            friction,
-            bristle,
-        } = self;
-        attachment(ellipsoid, "ellipsoid.center", fields);
-        shape(semi_axes, axes, "ellipsoid", dimension, fields);
-        let mut edge = None;
-        match against {
-            Against::Plane(Plane {
-                at,
-                normal,
-                tangent,
-                extent,
-            }) => {
-                attachment(at, "plane.at", fields);
-                finite(normal, "plane.normal", fields);
-                // without edges and bristles nothing tells one tangent from another
-                if extent.is_some() || bristle.is_some() {
-                    finite(tangent, "plane.along", fields);
-                }
-                edge = Some(extent);
-            }
-            Against::Ellipsoid(Ellipsoid {
-                center,
-                semi_axes,
-                axes,
-            }) => {
-                attachment(center, "with.center", fields);
-                shape(semi_axes, axes, "with", dimension, fields);
-            }
-        }
-        let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
-        let mut elastics = term("elastic", "elastic");
-        elastics.keys.push("stiffness".into());
-        fields.push(Field::Term(elastics, elastic));
-        let mut unloading = term("hysteresis", "unloading").needs("there is no elastic force");
-        unloading.keys.push("unloading_slope".into());
-        fields.push(Field::Term(unloading, hysteresis));
-        fields.push(Field::Term(term("damping", "damping"), damping));
-        let fade = term("damping fades in", "damping_depth").needs("there is no damping");
-        fields.push(Field::Term(fade.only_as_written(), damping_depth));
-        let sliding = term("friction", "friction").needs("nothing presses");
-        fields.push(Field::Term(sliding, friction));
-        let holds = term("friction holds", "friction_displacement");
-        let holds = holds.needs("there is no friction");
-        fields.push(Field::Term(holds, bristle));
-        if let Some(extent) = edge {
-            let ends = term("edge", "plane.extent").needs("nothing presses");
-            fields.push(Field::Term(ends, extent));
-        }
-    }
-}
-
-impl Belt {
-    fn fields<'a>(&'a mut self, fields: &mut Vec<Field<'a>>) {
-        let Belt {
-            from,
-            to,
-            rings,
-            force,
-            hysteresis,
-            damping,
-            damping_stretch,
-            length,
-            retractor,
-            film_spool,
-            pretensioner,
-            limiter,
-        } = self;
-        attachment(from, "from.at", fields);
-        for (index, ring) in rings.iter_mut().enumerate() {
-            let Ring {
-                name,
-                on,
-                friction,
-                resistance,
-            } = ring;
-            let key = |key: &str| format!("through[{index}].{key}");
-            attachment(on, &key("at"), fields);
-            let slips = Field::Number(key("resistance"), Rule::Positive, resistance);
-            fields.push(slips);
-            let rubs = Term::new(
-                format!("friction of ring {name}"),
-                key("friction"),
-                Rule::NotNegative,
-            );
-            fields.push(Field::Term(rubs.needs("it has no elastic force"), friction));
-        }
-        attachment(to, "to.at", fields);
-        let name = match length {
-            BeltLength::Given(_) => "given length",
-            BeltLength::Slack(_) => "slack",
-            BeltLength::Pretension(_) => "pretension",
-        };
-        let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
-        let mut elastics = term("elastic", "force");
-        elastics.keys.push("stiffness".into());
-        fields.push(Field::Term(elastics, force));
-        let mut unloading = term("hysteresis", "unloading").needs("it has no elastic force");
-        unloading.keys.push("unloading_slope".into());
-        fields.push(Field::Term(unloading, hysteresis));
-        fields.push(Field::Term(term("damping", "damping"), damping));
-        let fade = term("damping fades in", "damping_stretch").needs("there is no damping");
-        fields.push(Field::Term(fade.only_as_written(), damping_stretch));
-        let needs = "it has no elastic force";
-        let device = |name: &str, rule| Term::new(name, name, rule).needs(needs).only_as_written();
-        fields.push(Field::Term(device("retractor", Rule::Finite), retractor));
-        let film = Term::new("film spool", "retractor.film_spool", Rule::Finite);
-        let film = film.needs("there is no retractor").only_as_written();
-        fields.push(Field::Term(film, film_spool));
-        fields.push(Field::Term(
-            device("pretensioner", Rule::Finite),
-            pretensioner,
-        ));
-        fields.push(Field::Term(device("limiter", Rule::Positive), limiter));
-        let mut untensioned = term(name, "length").needs("it has no elastic force");
-        untensioned
-            .keys
-            .extend(["slack", "pretension"].map(String::from));
-        fields.push(Field::Term(untensioned, length));
-    }
-}
-
-impl Spring {
-    fn fields<'a>(&'a mut self, fields: &mut Vec<Field<'a>>) {
-        let Spring {
-            from,
-            to,
-            elastic,
-            length,
-            damping,
-        } = self;
-        attachment(from, "from.at", fields);
-        attachment(to, "to.at", fields);
-        let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
-        let mut elastics = term("elastic", "elastic");
-        elastics.keys.push("stiffness".into());
-        fields.push(Field::Term(elastics, elastic));
-        if let Some(length) = length {
-            fields.push(Field::Number("length".into(), Rule::NotNegative, length));
-        }
-        fields.push(Field::Term(term("damping", "damping"), damping));
-    }
-}
-
-impl Airbag {
-    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
-        let Airbag {
-            bag,
-            against,
-            inflow,
-            vent,
-            constant,
-            gamma,
-            ambient_pressure,
-            ambient_temperature,
-            start,
-        } = self;
-        let mut ellipsoid = |ellipsoid: &'a mut Ellipsoid, key: &str| {
-            let Ellipsoid {
-                center,
-                semi_axes,
-                axes,
-            } = ellipsoid;
-            attachment(center, &format!("{key}.center"), fields);
-            shape(semi_axes, axes, key, dimension, fields);
-        };
-        ellipsoid(bag, "ellipsoid");
-        for (index, other) in against.iter_mut().enumerate() {
-            ellipsoid(other, &format!("against[{index}]"));
-        }
-        for (key, number) in [
-            ("gas.constant", constant),
-            ("gas.gamma", gamma),
-            ("ambient.pressure", ambient_pressure),
-            ("ambient.temperature", ambient_temperature),
-        ] {
-            fields.push(Field::Number(key.into(), Rule::Positive, number));
-        }
-        let flows = Term::new("inflow", "inflow", Rule::Finite).only_as_written();
-        fields.push(Field::Term(flows, inflow));
-        let filled = Term::new("gas at the start", "start", Rule::Positive).only_as_written();
-        fields.push(Field::Term(filled, start));
-        let leaves = Term::new("vent", "vent.area", Rule::NotNegative);
-        fields.push(Field::Term(leaves.needs("there is no gas"), vent));
-    }
-}
-
-impl Load {
-    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
-        let Load { on, force, moment } = self;
-        attachment(on, "at", fields);
-        components(force, "force ", "force", dimension, fields);
-        match dimension {
-            Dimension::Plane => {
-                fields.push(Field::Term(
-                    Term::new("moment", "moment", Rule::Finite),
-                    &mut moment[1],
-                ));
-            }
-            Dimension::Space => components(moment, "moment ", "moment", dimension, fields),
-        }
-    }
-}
-
-impl User {
-    fn fields<'a>(&'a mut self, fields: &mut Vec<Field<'a>>) {
-        let User {
-            function,
-            dimension: _,
-            scale: _,
-            points,
-            bodies,
-            lines,
-            joints,
-            freedoms,
-            states,
-        } = self;
-        for Port { name, value } in points {
-            attachment(value, &format!("points.{name}.at"), fields);
-        }
-        for Port { name, value } in lines {
-            let UserLine { from, to } = value;
-            attachment(from, &format!("lines.{name}.from.at"), fields);
-            attachment(to, &format!("lines.{name}.to.at"), fields);
-        }
-        let elements = bodies.iter().chain(joints.iter());
-        fields.extend(elements.map(|port| Field::Body(Body::Element(port.value))));
-        for Port { name: _, value } in freedoms {
-            let UserFreedom {
-                element,
-                freedom: _,
-                turns: _,
-            } = value;
-            fields.push(Field::Body(Body::Element(*element)));
-        }
-        for Port { name, value } in states {
-            let UserState {
-                initial,
-                unit: _,
-                rate_unit: _,
-            } = value;
-            let key = format!("states.{name}.initial");
-            fields.push(Field::Number(key, Rule::Finite, initial));
-        }
-        let calls = Term::new("function", "function", Rule::Finite);
-        fields.push(Field::Term(calls, function));
-    }
-}
-
-fn attachment<'a>(attachment: &'a mut Attachment, key: &str, fields: &mut Vec<Field<'a>>) {
+pub(crate) fn attachment<'a>(
+    attachment: &'a mut Attachment,
+    key: &str,
+    fields: &mut Vec<Field<'a>>,
+) {
     let Attachment { on, at } = attachment;
     fields.push(Field::Body(*on));
     finite(at, key, fields);
 }
 
 /// Numbers that may be any, of one key.
-fn finite<'a>(numbers: &'a mut [Number; 3], key: &str, fields: &mut Vec<Field<'a>>) {
+pub(crate) fn finite<'a>(numbers: &'a mut [Number; 3], key: &str, fields: &mut Vec<Field<'a>>) {
     let numbers = numbers.iter_mut();
     fields.extend(numbers.map(|number| Field::Number(key.to_owned(), Rule::Finite, number)));
 }
 
-/// The shape of an ellipsoid.
-fn shape<'a>(
-    semi_axes: &'a mut [Number; 3],
-    axes: &'a mut [Number; 3],
-    key: &str,
-    dimension: Dimension,
-    fields: &mut Vec<Field<'a>>,
-) {
-    for (axis, number) in semi_axes.iter_mut().enumerate() {
-        // in the plane the second is not used
-        let (place, rule) = match (dimension, axis) {
-            (Dimension::Space, _) => (axis, Rule::Positive),
-            (Dimension::Plane, 1) => (axis, Rule::Finite),
-            (Dimension::Plane, _) => (axis / 2, Rule::Positive),
-        };
-        let key = format!("{key}.semi_axes[{place}]");
-        fields.push(Field::Number(key, rule, number));
-    }
-    finite(axes, &format!("{key}.axes"), fields);
-}
-
 /// A vector's components, those that the dimension has.
-fn components<'a>(
+pub(crate) fn components<'a>(
     components: &'a mut [FieldComponent; 3],
     name: &str,
     key: &str,
@@ -1164,15 +560,10 @@ fn of_quantity(quantity: &mut Quantity) -> &mut [Number] {
         Quantity::Rotation { .. }
         | Quantity::JointLoad { .. }
         | Quantity::ForceOn { .. }
-        | Quantity::Joint { .. }
-        | Quantity::Contact { .. }
-        | Quantity::Belt { .. }
         | Quantity::ForceOnPoints { .. }
-        | Quantity::Spring { .. }
-        | Quantity::Airbag { .. }
+        | Quantity::OfForce { .. }
         | Quantity::Freedom { .. }
         | Quantity::Switch { .. }
-        | Quantity::User { .. }
         | Quantity::System { .. } => &mut [],
     }
 }
@@ -1241,19 +632,12 @@ impl Quantity {
             Quantity::JointLoad { projection, .. }
             | Quantity::ForceOn { projection, .. }
             | Quantity::ForceOnPoints { projection, .. }
-            | Quantity::User {
-                what: UserQuantity::Force(_, projection) | UserQuantity::Moment(_, projection),
-                ..
-            }
             | Quantity::System { projection, .. } => [Some(&mut projection.axes), None, None],
-            Quantity::Joint { .. }
-            | Quantity::Freedom { .. }
-            | Quantity::Contact { .. }
-            | Quantity::Belt { .. }
-            | Quantity::Spring { .. }
-            | Quantity::Airbag { .. }
-            | Quantity::Switch { .. }
-            | Quantity::User { .. } => [None, None, None],
+            Quantity::OfForce { what, .. } => {
+                let projection = what.projection_mut();
+                [projection.map(|p| &mut p.axes), None, None]
+            }
+            Quantity::Freedom { .. } | Quantity::Switch { .. } => [None, None, None],
         };
         bodies.into_iter().flatten()
     }
@@ -1261,14 +645,9 @@ impl Quantity {
     /// The force that is looked at, by its index.
     pub fn force_mut(&mut self) -> Option<&mut usize> {
         match self {
-            Quantity::Joint { force, .. }
-            | Quantity::Contact { force, .. }
-            | Quantity::Belt { force, .. }
+            Quantity::OfForce { force, .. }
             | Quantity::ForceOnPoints { force, .. }
-            | Quantity::Spring { force, .. }
-            | Quantity::Airbag { force, .. }
-            | Quantity::ForceOn { force, .. }
-            | Quantity::User { force, .. } => Some(force),
+            | Quantity::ForceOn { force, .. } => Some(force),
             Quantity::Point { .. }
             | Quantity::Rotation { .. }
             | Quantity::JointLoad { .. }

@@ -8,20 +8,12 @@ use super::part::{Field, Part};
 use super::rule::{Rule, Ruled};
 use super::unloading;
 use super::{
-    Against, Airbag, Belt, BeltLength, Contact, Curve, Dimension, EdgeRule, Element, Extrapolate,
-    Force, ForceKind, Hysteresis, JointTorque, Model, Number, Plane, Reference, ScaledCurve,
-    Switch, System, Vehicle,
+    Curve, Dimension, Element, Force, Hysteresis, Model, Number, Reference, ScaledCurve, Switch,
+    System, Vehicle,
 };
 
 /// Relative excess of a moment over the sum of the others that is rounding: a flat body has equality.
 const ROUNDING: f64 = 1e-9;
-
-/// Largest product of a tangent and a normal of a plane that is rounding, squared.
-const SQUARE_TO: f64 = 1e-12;
-
-/// What an elastic curve of a joint must do if it has a hysteresis.
-const RETURNS: &str =
-    "must be 0 at the neutral angle and push back to it everywhere, to have a hysteresis";
 
 /// What a number, or several, must keep.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,14 +36,14 @@ pub struct Requirement {
 pub type Curves<'a> = &'a dyn Fn(usize) -> Option<&'a Curve>;
 
 /// Requirements of one owner: "contact "floor"", "man/head".
-struct List<'a> {
+pub struct List<'a> {
     owner: &'a str,
     found: Vec<Requirement>,
 }
 
 impl List<'_> {
     /// A number as written.
-    fn number(&mut self, path: String, value: &Number, rule: Rule) {
+    pub(crate) fn number(&mut self, path: String, value: &Number, rule: Rule) {
         self.found.push(Requirement {
             sentence: format!("`{path}` of {} {}", self.owner, rule.words()),
             path,
@@ -63,7 +55,14 @@ impl List<'_> {
     }
 
     /// What several numbers must keep, in words behind the owner.
-    fn together(&mut self, path: &str, must: &str, value: Number, rule: Rule, help: &'static str) {
+    pub(crate) fn together(
+        &mut self,
+        path: &str,
+        must: &str,
+        value: Number,
+        rule: Rule,
+        help: &'static str,
+    ) {
         self.found.push(Requirement {
             sentence: format!("`{path}` of {} {must}", self.owner),
             path: path.to_owned(),
@@ -74,7 +73,7 @@ impl List<'_> {
         });
     }
 
-    fn ruled(&mut self, term: &str, of_term: Rule, numbers: Vec<Ruled<'_>>) {
+    pub(crate) fn ruled(&mut self, term: &str, of_term: Rule, numbers: Vec<Ruled<'_>>) {
         for Ruled { rule, key, number } in numbers {
             self.number(key.path(term), number, rule.unwrap_or(of_term));
         }
@@ -199,14 +198,7 @@ impl Force {
             owner: &owner,
             found: Vec::new(),
         };
-        if let ForceKind::Contact(contact) = &self.kind
-            && let Against::Plane(plane) = &contact.against
-        {
-            // before its components, which are no numbers where it has no direction
-            let directed = dimension == Dimension::Space && contact.bristle.is_some();
-            let ends = dimension == Dimension::Space && plane.extent.is_some();
-            list.plane(plane, directed || ends);
-        }
+        self.kind.require_first(dimension, &mut list);
         for field in kind.fields(dimension) {
             match field {
                 Field::Body(_) => {}
@@ -214,249 +206,15 @@ impl Force {
                 Field::Term(term, part) => list.ruled(&term.keys[0], term.rule, part.numbers()),
             }
         }
-        match &self.kind {
-            ForceKind::Joint { about, bending, .. } => {
-                for (axis, law) in about.iter().enumerate() {
-                    let below = match dimension {
-                        Dimension::Plane => String::new(),
-                        Dimension::Space => format!("about.{}.", ["x", "y", "z"][axis]),
-                    };
-                    list.law(law, &below, curves);
-                }
-                if let Some(bending) = bending {
-                    list.both_ways(&bending.flexion, "flexion.", curves);
-                    let to = bending.flexion.stop.as_ref().and_then(|s| s.to.as_ref());
-                    if let Some(to) = to {
-                        list.number("flexion.stop.to".into(), to, Rule::Positive);
-                    }
-                    list.law(&bending.torsion, "torsion.", curves);
-                }
-            }
-            ForceKind::Freedom { law, .. } => list.law(law, "", curves),
-            ForceKind::Contact(contact) => list.contact(contact, curves),
-            ForceKind::Belt(belt) => list.belt(belt, curves),
-            ForceKind::Airbag(airbag) => list.airbag(airbag),
-            ForceKind::Field { .. }
-            | ForceKind::Spring(_)
-            | ForceKind::Load(_)
-            | ForceKind::User(_) => {}
-        }
+        self.kind.require(dimension, curves, &mut list);
         list.found
     }
 }
 
+/// Unloading of any law.
 impl List<'_> {
-    /// The law of one coordinate of a joint.
-    fn law(&mut self, law: &JointTorque, below: &str, curves: Curves<'_>) {
-        self.stop(law, below);
-        self.both_ways(law, below, curves);
-    }
-
-    /// A hysteresis on both sides of 0, whose curves must lie between 0 and each other there, the one of unloading below.
-    fn both_ways(&mut self, law: &JointTorque, below: &str, curves: Curves<'_>) {
-        let (Some(loading), Some(hysteresis)) = (&law.elastic, &law.hysteresis) else {
-            return;
-        };
-        let Some(f) = curves(loading.curve) else {
-            return;
-        };
-        self.steep((f, loading), hysteresis, below, curves);
-        let u = hysteresis.unloading.as_ref();
-        let u = u.and_then(|scaled| Some((curves(scaled.curve)?, scaled)));
-        let nothing = unloading::nothing();
-        let none = (&nothing, &unloading::unscaled());
-        let ordered = match u {
-            Some(u) => vec![
-                (
-                    u,
-                    (f, loading),
-                    "unloading",
-                    "must lie between 0 and the elastic curve everywhere",
-                ),
-                (
-                    none,
-                    u,
-                    "unloading",
-                    "must lie between 0 and the elastic curve everywhere",
-                ),
-            ],
-            None => vec![(none, (f, loading), "elastic", RETURNS)],
-        };
-        for (lower, upper, key, must) in ordered {
-            let mirrored = [lower, upper].map(|(curve, _)| unloading::turned(curve));
-            let sides = [
-                unloading::clearances(lower, upper),
-                unloading::clearances((&mirrored[0], lower.1), (&mirrored[1], upper.1)),
-            ];
-            for clearance in sides.into_iter().flatten() {
-                self.together(
-                    &format!("{below}{key}"),
-                    must,
-                    clearance,
-                    Rule::NotNegative,
-                    "let the torque be 0 at the neutral angle and push back to it everywhere; unloading gives back at most what loading took",
-                );
-            }
-        }
-    }
-
-    fn stop(&mut self, law: &JointTorque, below: &str) {
-        let Some(stop) = &law.stop else { return };
-        if let (Some(from), Some(to)) = (&stop.from, &stop.to) {
-            self.together(
-                &format!("{below}stop.to"),
-                "must be larger than `from`",
-                Number::difference(to.clone(), from.clone()),
-                Rule::Positive,
-                "the rotation needs room between the ends; let `from` be smaller than `to`",
-            );
-        }
-    }
-
-    fn contact(&mut self, contact: &Contact, curves: Curves<'_>) {
-        if let (Some(loading), Some(law)) = (&contact.elastic, &contact.hysteresis) {
-            self.hysteresis("elastic", loading, law, curves);
-        }
-    }
-
-    fn plane(&mut self, plane: &Plane, directed: bool) {
-        let product = |a: &[Number; 3], b: &[Number; 3]| {
-            let products = a.iter().zip(b);
-            let products = products.map(|(a, b)| Number::product(a.clone(), b.clone()));
-            products.fold(Number::ZERO, Number::sum)
-        };
-        let length = |vector| Number::difference(product(vector, vector), 0.5.into());
-        self.together(
-            "plane.normal",
-            "must have a direction",
-            length(&plane.normal),
-            Rule::Positive,
-            "write a vector of any finite length that points to the side where the ellipsoid belongs, such as `[1, 0]`",
-        );
-        let tangent = &plane.tangent;
-        if directed {
-            let along = product(tangent, &plane.normal);
-            let slanting = Number::product(along.clone(), along);
-            for value in [
-                length(tangent),
-                Number::difference(SQUARE_TO.into(), slanting),
-            ] {
-                self.together(
-                    "plane.along",
-                    "must be a direction along the plane",
-                    value,
-                    Rule::NotNegative,
-                    "write a vector of any finite length that is not parallel to `normal`, such as `[1, 0, 0]`",
-                );
-            }
-        }
-        if let Some(extent) = &plane.extent
-            && let EdgeRule::Fade(width) = &extent.rule
-        {
-            for half in &extent.half_lengths {
-                self.together(
-                    "plane.edge.width",
-                    "must be at most the shorter half-length",
-                    Number::difference(half.clone(), width.clone()),
-                    Rule::NotNegative,
-                    "the force fades inside the edge: give at most the shorter half-length",
-                );
-            }
-        }
-    }
-
-    fn belt(&mut self, belt: &Belt, curves: Curves<'_>) {
-        let times = &belt.force.times;
-        match belt.force.stiffness {
-            true => self.number("stiffness".into(), times, Rule::Positive),
-            false => self.number("force.times".into(), times, Rule::NotZero),
-        }
-        if let Some(law) = &belt.hysteresis {
-            self.hysteresis("force", &belt.force, law, curves);
-        }
-        if let Some(film) = &belt.film_spool {
-            let path = "retractor.film_spool.times".into();
-            self.number(path, &film.times, Rule::Positive);
-        }
-        let spool = belt.retractor.as_ref().map(|r| &r.spool);
-        if let (Some(spool), Some(limit)) = (spool, &belt.limiter) {
-            self.together(
-                "retractor.spool",
-                "must be smaller than the force of the limiter",
-                Number::difference(limit.clone(), spool.clone()),
-                Rule::Positive,
-                "let `spool` be smaller than the force of the limiter",
-            );
-        }
-        let pretension = match &belt.length {
-            BeltLength::Pretension(force) => Some(force),
-            BeltLength::Given(_) | BeltLength::Slack(_) => None,
-        };
-        let tensions = [
-            ("limiter", belt.limiter.as_ref()),
-            ("retractor.spool", spool.filter(|spool| !spool.is_zero())),
-            ("pretension", pretension),
-        ];
-        let Some(curve) = curves(belt.force.curve) else {
-            return;
-        };
-        for (path, tension) in tensions {
-            if let Some(tension) = tension {
-                self.reached(path, tension, curve, times);
-            }
-        }
-    }
-
-    fn airbag(&mut self, airbag: &Airbag) {
-        if let Some(inflow) = &airbag.inflow {
-            let path = "inflow.flow.times".into();
-            self.number(path, &inflow.flow.times, Rule::NotNegative);
-        }
-        self.together(
-            "gas.gamma",
-            "must be more than 1",
-            Number::difference(airbag.gamma.clone(), 1.0.into()),
-            Rule::Positive,
-            "give the ratio of specific heats: 1.4 of air",
-        );
-        if let Some(start) = &airbag.start {
-            self.together(
-                "start.pressure",
-                "must be at least that around the bag",
-                Number::difference(start.pressure.clone(), airbag.ambient_pressure.clone()),
-                Rule::NotNegative,
-                "a full bag has at least the pressure around it; leave `start` out for one that is folded",
-            );
-        }
-    }
-
-    /// A tension belongs to one elongation only where the curve rises to it. That it does so all the way, or falls, is of its points.
-    fn reached(&mut self, path: &str, tension: &Number, curve: &Curve, times: &Number) {
-        let last = curve.points.len() - 1;
-        let reach = curve.points[last][1];
-        let rising = if reach < 0.0 { -1.0 } else { 1.0 };
-        self.together(
-            path,
-            "must be reached by the force curve, which must rise",
-            Number::product(rising.into(), times.clone()),
-            Rule::Positive,
-            "scale the curve by a factor that lets it rise",
-        );
-        let goes_on =
-            curve.extrapolate == Extrapolate::Linear && curve.tangent(last) * rising > 0.0;
-        if !goes_on {
-            let most = Number::product(reach.into(), times.clone());
-            self.together(
-                path,
-                "must be reached by the force curve, which must rise",
-                Number::difference(most, tension.clone()),
-                Rule::NotNegative,
-                "add points to the curve, or write `extrapolate: linear`",
-            );
-        }
-    }
-
-    fn hysteresis(
+    /// Unloading along a curve at or below that of loading.
+    pub(crate) fn hysteresis(
         &mut self,
         key: &str,
         loading: &ScaledCurve,
@@ -483,7 +241,7 @@ impl List<'_> {
     }
 
     /// The line between two curves, which is at least as steep as both.
-    fn steep(
+    pub(crate) fn steep(
         &mut self,
         loading: (&Curve, &ScaledCurve),
         law: &Hysteresis,

@@ -185,17 +185,7 @@ impl std::fmt::Display for Place {
 
 /// Kind and name of a force.
 fn owner(force: &Force) -> String {
-    let (kind, name) = match force {
-        Force::Joint(f) => return format!("joint {}", f.path()),
-        Force::Field(f) => ("field", &f.field),
-        Force::Contact(f) => ("contact", &f.contact),
-        Force::Belt(f) => ("belt", &f.belt),
-        Force::Spring(f) => ("spring", &f.spring),
-        Force::Airbag(f) => ("airbag", &f.airbag),
-        Force::Load(f) => ("load", &f.load),
-        Force::User(f) => ("user", &f.user),
-    };
-    format!("{kind} {name}")
+    format!("{} {}", force.law().key, force.header().name)
 }
 
 /// Reads a model as [`read`](super::read) does, and keeps where everything stands.

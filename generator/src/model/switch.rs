@@ -1,6 +1,7 @@
 //! Switches: what happens once in a run, and what waits for it.
 
-use super::{Number, Quantity};
+use super::{Digested, Number, Quantity};
+use std::fmt;
 
 /// Something that fires once in a run and from then on has fired.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +15,7 @@ pub struct Switch {
 }
 
 /// What makes a switch fire.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub enum Trigger {
     /// A time is reached \[s\].
     Time(Number),
@@ -22,6 +23,19 @@ pub enum Trigger {
     Above(Quantity, Number),
     /// A quantity is smaller than this.
     Below(Quantity, Number),
+}
+
+/// The digest of a model is made of this.
+impl fmt::Debug for Trigger {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (name, quantity, threshold) = match self {
+            Trigger::Time(time) => return f.debug_tuple("Time").field(time).finish(),
+            Trigger::Above(quantity, threshold) => ("Above", quantity, threshold),
+            Trigger::Below(quantity, threshold) => ("Below", quantity, threshold),
+        };
+        let mut text = f.debug_tuple(name);
+        text.field(&Digested(quantity)).field(threshold).finish()
+    }
 }
 
 /// When a force acts.

@@ -1,6 +1,6 @@
 //! What is known of a model without evaluating anything: what the runtime's `Info` holds, as owned data.
 
-use crate::emit::breakpoints;
+use super::breakpoints;
 use crate::equations::{Equations, LEAST_VOLUME, NO_BEARING, Variable};
 use crate::model::{Dimension, Extrapolate, ForceKind, Model};
 

@@ -1,6 +1,8 @@
-//! What a program is written as: machine code of processors, made without a compiler, and C.
+//! What a program is written as: Rust, C, and machine code of processors, made without a compiler.
 //!
-//! A target turns [lists](crate::program::List) into bytes or text. It runs nothing, so it works on any host.
+//! C and machine code are made of [lists](crate::program::List), Rust of the schedules that the lists are made of, too. A target executes nothing, so it
+//! works on any host, and it knows no other target.
 
 pub mod c;
+pub mod rust;
 pub mod x86_64;

@@ -1,10 +1,10 @@
 //! Robots from URDF, the description format of ROS.
 //!
-//! [`import`] turns the text of a URDF file into the text of a model: links become elements, joints become joints, damping,
-//! friction and limits become joint forces. A URDF file has no forces, no start and no gravity: gravity of 9.81 m/s² along −z
-//! is added, all joints start at 0.
+//! [`import`] turns the text of a URDF file into the text of a model: links become elements, joints become joints, and
+//! damping, friction and limits become joint forces. A URDF file has no forces, no initial state and no gravity. So gravity of
+//! 9.81 m/s² along −z is added, and all joints start at 0.
 //!
-//! What is read is in `robot.rs`, what is made of it in `tree.rs`, how it is written in `write.rs`.
+//! `robot.rs` reads the file, `tree.rs` turns it into systems, and `write.rs` writes these.
 
 mod robot;
 mod tree;
@@ -15,32 +15,33 @@ pub use tree::Base;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
 
-/// How a robot is imported.
+/// The options of an import.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
-    /// What the root link does.
+    /// The motion of the root link.
     pub base: Base,
-    /// Whether angles within 0.001 rad of a multiple of 90° are taken as that multiple.
+    /// Whether angles within 0.001 rad of a multiple of 90° are replaced by that multiple.
     pub right_angles: bool,
-    /// Stiffness of stops at the limits of joints \[N·m/rad or N/m\]; without it there are none.
+    /// Stiffness of stops at the limits of joints \[N·m/rad or N/m\]; `None`: there are no stops.
     pub stops: Option<f64>,
-    /// Whether joints that follow others (`<mimic>`) move by themselves.
+    /// Whether joints that follow others (`<mimic>`) move independently.
     pub uncouple: bool,
 }
 
-/// A model made of a robot.
+/// The model of a robot.
 #[derive(Clone, Debug)]
 pub struct Imported {
     /// The text of the model.
     pub yaml: String,
-    /// What was left out and what to know, a sentence each.
+    /// What was left out and what the user should know, one sentence each.
     pub notes: Vec<String>,
-    /// Lines of the model, from 1, with the place in the URDF file of the link or joint that each was made of; in their order.
+    /// Lines of the model, from 1, in their order, each with the place in the URDF file of the link or joint that it comes
+    /// from.
     pub origins: Vec<(usize, Place)>,
 }
 
 impl Imported {
-    /// The place in the URDF file of what a line of the model was made of.
+    /// The place in the URDF file from which a line of the model comes.
     pub fn origin(&self, line: usize) -> Option<Place> {
         let origins = self.origins.iter();
         let mut same = origins.filter(|(of, _)| *of == line);
@@ -48,10 +49,10 @@ impl Imported {
     }
 }
 
-/// Makes a model of the text of a URDF file. `name` stands for the file in messages.
+/// Makes a model from the text of a URDF file. `name` is the name of the file in messages.
 ///
 /// # Errors
-/// Every problem of the text, with its place; everything in it that a model cannot have.
+/// All problems of the text, with their places, and everything in it that a model cannot have.
 pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Diagnostics> {
     let robot = robot::read(name, text, options.right_angles)?;
     let forest = tree::forest(&robot, options.base, options.uncouple).map_err(|problems| {
@@ -117,7 +118,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
     })
 }
 
-/// "line 3" or "lines 3, 5 and 7", with at most eight of them.
+/// "line 3" or "lines 3, 5 and 7", with at most eight line numbers.
 fn in_lines(lines: &[usize]) -> String {
     const SHOWN: usize = 8;
     let shown: Vec<String> = lines.iter().take(SHOWN).map(usize::to_string).collect();

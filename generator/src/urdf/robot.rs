@@ -1,7 +1,7 @@
-//! The text of a URDF file as links and joints, each with its place in the text.
+//! Reads the text of a URDF file into links and joints, each with its place in the text.
 //!
-//! What is asked of the text is what the parser of ROS (urdfdom) asks of it, shapes and materials included: a file that it
-//! refuses is refused here. In addition a moving joint needs an axis that is not zero.
+//! The text must satisfy the parser of ROS (urdfdom), shapes and materials included: a file that it refuses is refused
+//! here. In addition a moving joint needs an axis that is not zero.
 
 use crate::description::tree::MAX_BYTES;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
@@ -13,14 +13,14 @@ use std::collections::BTreeMap;
 /// A place in the text: line and column from 1, length.
 pub type Place = (usize, usize, usize);
 
-/// A robot as written.
+/// A robot, as written in the file.
 pub struct Robot {
     pub name: String,
     pub links: Vec<Link>,
     pub joints: Vec<Joint>,
-    /// What a simulation of its motion has no use for, by what it is, with the lines.
+    /// Items that do not influence the motion, by kind, with their lines.
     pub left_out: BTreeMap<&'static str, Vec<usize>>,
-    /// Angles of orientations that are almost, and not quite, multiples of 90°, by lines.
+    /// Lines with angles of orientations that are almost, but not exactly, multiples of 90°.
     pub almost_right: Vec<usize>,
 }
 
@@ -30,7 +30,7 @@ pub struct Link {
     pub inertial: Option<Inertial>,
 }
 
-/// Mass, and the tensor about the centre of mass in the axes of `frame`.
+/// Mass, and inertia tensor about the centre of mass in the axes of `frame`.
 pub struct Inertial {
     pub place: Place,
     pub frame: Frame,
@@ -39,7 +39,7 @@ pub struct Inertial {
     pub tensor_place: Place,
 }
 
-/// An `<origin>`: displacement and rotation, both zero where nothing is written.
+/// An `<origin>`: displacement and rotation, both zero if nothing is written.
 #[derive(Clone, Copy)]
 pub struct Frame {
     pub at: Vector,
@@ -63,42 +63,42 @@ pub struct Joint {
     pub parent: usize,
     pub child: usize,
     pub origin: Frame,
-    /// Unit vector in the frame of the child.
+    /// The axis, a unit vector in the frame of the child link.
     pub axis: Vector,
     /// Smallest and largest coordinate \[rad or m\].
     pub limits: Option<[f64; 2]>,
     pub damping: f64,
     pub friction: f64,
-    /// How it follows another.
+    /// The joint that it follows, if any.
     pub mimic: Option<Mimic>,
 }
 
 /// q = multiplier · q of the leader + offset.
 #[derive(Clone)]
 pub struct Mimic {
-    /// The leader, by its name.
+    /// Name of the leader.
     pub leader: String,
-    /// Where it is named.
+    /// The place of that name.
     pub place: Place,
     pub multiplier: f64,
-    /// In rad or m.
+    /// Offset \[rad or m\].
     pub offset: f64,
 }
 
-/// Angles this close to a multiple of 90° are meant as one \[rad\].
+/// An angle this close to a multiple of 90° is meant to be that multiple \[rad\].
 const ALMOST: f64 = 1e-3;
 
-/// A reader of one text, and what is wrong with it.
+/// The reader of one text, with the problems found.
 struct Reader<'a> {
     file: &'a str,
     text: &'a str,
-    /// Whether angles that are almost right angles are taken as such.
+    /// Whether angles that are almost right angles are replaced by right angles.
     right_angles: bool,
     problems: RefCell<Vec<Diagnostic>>,
     almost_right: RefCell<Vec<usize>>,
 }
 
-/// Reads a description.
+/// Reads a URDF file.
 pub fn read(file: &str, text: &str, right_angles: bool) -> Result<Robot, Diagnostics> {
     let fail = |place: Place, message: String, help: &str| {
         Diagnostics::from(Diagnostic::at(file, text, place, message, help))
@@ -148,14 +148,14 @@ impl<'a> Reader<'a> {
         self.problems.borrow_mut().push(problem);
     }
 
-    /// Where an element of the XML begins.
+    /// The place where an element of the XML begins.
     fn place(&self, node: Node<'_, '_>) -> Place {
         let position = node.document().text_pos_at(node.range().start);
         let name = node.tag_name().name().len() + 1;
         (position.row as usize, position.col as usize, name)
     }
 
-    /// Where the value of an attribute stands.
+    /// The place of the value of an attribute.
     fn place_of(&self, node: Node<'_, '_>, attribute: &str) -> Place {
         match node.attribute_node(attribute) {
             None => self.place(node),
@@ -272,7 +272,7 @@ impl<'a> Reader<'a> {
         );
     }
 
-    /// An attribute `name` that is not empty.
+    /// The attribute `name`, which must not be empty.
     fn name(&self, node: Node<'_, '_>, what: &str) -> Option<String> {
         let name = node.attribute("name").map(str::trim).unwrap_or_default();
         if name.is_empty() {
@@ -300,7 +300,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Macros that nobody has expanded.
+    /// Reports macros that were not expanded.
     fn unknown_macros(&self, root: Node<'_, '_>) {
         let of_xacro = |n: &Node<'_, '_>| {
             n.tag_name()
@@ -381,7 +381,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Whether a shape is written as one: it is not taken over.
+    /// Checks that a shape is written correctly; it is not imported.
     fn shape(&self, node: Node<'a, 'a>) {
         self.origin(node);
         let geometry = node.children().find(|n| n.has_tag_name("geometry"));
@@ -485,7 +485,7 @@ impl<'a> Reader<'a> {
                         "give a vector that is not zero",
                     );
                 }
-                // an axis of length 1 up to rounding stays as it is written
+                // an axis whose length is 1 up to rounding is kept as it is written
                 if (norm - 1.0).abs() < 1e-15 {
                     written
                 } else {
@@ -648,7 +648,7 @@ impl<'a> Reader<'a> {
         frame
     }
 
-    /// An angle, as written or as the right angle that it is almost.
+    /// An angle as written, or the right angle that it almost is.
     fn angle(&self, angle: f64, node: Node<'_, '_>) -> f64 {
         let quarter = std::f64::consts::FRAC_PI_2;
         let near = (angle / quarter).round() * quarter;
@@ -669,7 +669,7 @@ impl<'a> Reader<'a> {
         angle
     }
 
-    /// A number that must be there.
+    /// A required number.
     fn required(&self, node: Node<'_, '_>, key: &str) -> Option<f64> {
         let Some(text) = node.attribute(key) else {
             self.problem(
@@ -713,13 +713,13 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A finite number, as C writes it.
+/// A finite number in the notation of C.
 fn number(text: &str) -> Option<f64> {
     let value: f64 = text.trim().parse().ok()?;
     value.is_finite().then_some(value)
 }
 
-/// What is not taken over, in words.
+/// The name of an item that is not imported.
 fn left_out(tag: &str) -> &'static str {
     match tag {
         "transmission" => "transmissions",

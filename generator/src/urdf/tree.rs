@@ -1,8 +1,9 @@
-//! From links and joints to systems of elements.
+//! Turns links and joints into systems of elements.
 //!
-//! All is measured in one frame: that of the root link, with all joints at 0. Links that fixed joints hold together are one body.
-//! The first of its links that has a mass is an element, the others with mass are welded to it, those without are frames.
-//! A body without mass between two moving joints is no element: its joints are a list. For that their axes must meet in one point.
+//! All positions are measured in one frame: that of the root link, with all joints at 0. Links that are connected by fixed joints
+//! are one body. The first of its links that has a mass is an element, its other links with mass are welded to it, and links
+//! without mass are frames. A body without mass between two moving joints is no element; its joints become a list. For that their
+//! axes must meet in one point.
 
 use super::robot::{Frame, Joint, Kind, Link, Place, Robot};
 use crate::diagnostic::quoted;
@@ -11,62 +12,62 @@ use crate::rotation::{
     turned,
 };
 
-/// How far axes of a list may pass each other \[m\].
+/// The largest distance by which the axes of a list may miss each other \[m\].
 const MEET_TO: f64 = 1e-9;
 
-/// Relative excess of a principal moment over the sum of the others that is rounding.
+/// The relative excess of a principal moment over the sum of the others that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// What the root link does.
+/// The motion of the root link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Base {
-    /// It stands still.
+    /// It is at rest.
     #[default]
     Fixed,
-    /// It moves as the forces make it.
+    /// It moves freely.
     Free,
 }
 
-/// A system with its elements, parents first.
+/// A system with its elements; each comes after its parent.
 pub struct System {
     pub free: bool,
     pub elements: Vec<Element>,
 }
 
-/// An element. Points and axes are those of the root link with all joints at 0.
+/// An element. Points and axes are given in the frame of the root link, with all joints at 0.
 pub struct Element {
     pub link: usize,
-    /// Index in the system.
+    /// Index of its carrier in the system.
     pub on: Option<usize>,
     pub origin: Vector,
     pub carried: Carried,
     pub mass: f64,
     pub center: Vector,
-    /// About the centre of mass.
+    /// Inertia tensor about the centre of mass.
     pub tensor: Matrix,
 }
 
-/// What carries an element.
+/// How an element is carried.
 pub enum Carried {
     Weld,
-    /// Nothing: the root of a free system.
+    /// By nothing: it is the root of a free system.
     Freely,
     Joint(Vec<Freedom>),
 }
 
-/// A freedom of a joint.
+/// A degree of freedom of a joint.
 pub struct Freedom {
     pub joint: usize,
     pub slides: bool,
     pub axis: Vector,
-    /// Behind the name of the joint, where it has several freedoms.
+    /// Appended to the name of the joint, if that has several degrees of freedom.
     pub suffix: &'static str,
 }
 
-/// A link without mass, as a frame of an element, or of the absolute frame.
+/// A link without mass, as a frame on an element or on the absolute frame.
 pub struct Marker {
     pub link: usize,
-    /// System and element.
+    /// Its system and element; `None` for the absolute frame.
     pub on: Option<(usize, usize)>,
     pub at: Vector,
 }
@@ -75,34 +76,34 @@ pub struct Marker {
 pub struct Forest {
     pub systems: Vec<System>,
     pub markers: Vec<Marker>,
-    /// Links that stand still, and have a mass.
+    /// Links with a mass that are at rest.
     pub still: Vec<usize>,
-    /// Joints that follow others and move nothing that has a mass.
+    /// Joints that follow others but move no mass.
     pub idle: Vec<usize>,
-    /// Links that are one element, under the name of the first, since some are no bodies by themselves.
+    /// Links that become one element with the name of the first, because some of them are physically impossible bodies.
     pub merged: Vec<(usize, Vec<usize>)>,
 }
 
-/// A problem: its place, what is wrong, what to do.
+/// A problem: its place, the error, and the remedy.
 pub type Problem = (Place, String, String);
 
-/// Where an element is.
+/// What carries an element.
 #[derive(Clone, Copy)]
 enum Carrier {
     Frame,
     Element(usize, usize),
 }
 
-/// Inertia of a link, in root axes.
+/// Inertia of a link, in the axes of the root link.
 struct Part {
     link: usize,
     mass: f64,
     center: Vector,
-    /// About the centre of mass.
+    /// Inertia tensor about the centre of mass.
     tensor: Matrix,
 }
 
-/// Why no body has this inertia.
+/// The reason why no body can have this inertia, if there is one.
 fn wrong_with(part: &Part) -> Option<String> {
     let (moments, _) = principal(&part.tensor);
     let sum: f64 = moments.iter().sum();
@@ -122,7 +123,7 @@ fn wrong_with(part: &Part) -> Option<String> {
     }
 }
 
-/// The inertia of all parts (Steiner).
+/// The inertia of all parts together (parallel axis theorem).
 fn together(link: usize, parts: &[Part]) -> Part {
     let mass: f64 = parts.iter().map(|p| p.mass).sum();
     let moment = parts
@@ -152,17 +153,17 @@ fn together(link: usize, parts: &[Part]) -> Part {
 
 struct Builder<'a> {
     robot: &'a Robot,
-    /// Joints by their parent link, in the order of the text.
+    /// For each link, the joints whose parent it is, in the order of the text.
     outboard: Vec<Vec<usize>>,
-    /// Placement of each link.
+    /// Position and orientation of each link.
     placed: Vec<Frame>,
     forest: Forest,
-    /// Whether joints that follow others move by themselves.
+    /// Whether joints that follow others move independently.
     uncouple: bool,
     problems: Vec<Problem>,
 }
 
-/// The systems of a robot, or everything that stands against them.
+/// The systems of a robot, or all problems that prevent them.
 pub fn forest(robot: &Robot, base: Base, uncouple: bool) -> Result<Forest, Vec<Problem>> {
     let root = root(robot)?;
     let mut outboard = vec![Vec::new(); robot.links.len()];
@@ -209,7 +210,7 @@ pub fn forest(robot: &Robot, base: Base, uncouple: bool) -> Result<Forest, Vec<P
     }
 }
 
-/// The one link that is no child.
+/// The only link that is not a child.
 fn root(robot: &Robot) -> Result<usize, Vec<Problem>> {
     let mut problems: Vec<Problem> = Vec::new();
     let mut inboard: Vec<Option<usize>> = vec![None; robot.links.len()];
@@ -244,7 +245,7 @@ fn root(robot: &Robot) -> Result<usize, Vec<Problem>> {
             ));
         }
     }
-    // whoever walks inwards for longer than there are links walks in a circle
+    // a walk inwards that is longer than the number of links goes in a circle
     for link in 0..robot.links.len() {
         let mut at = link;
         for _ in 0..robot.links.len() {
@@ -277,7 +278,7 @@ impl Builder<'_> {
         &self.robot.links[index]
     }
 
-    /// Places all links, outwards from the root.
+    /// Computes the positions of all links, outwards from the root.
     fn place(&mut self, root: usize) {
         let mut left = vec![root];
         while let Some(link) = left.pop() {
@@ -293,10 +294,10 @@ impl Builder<'_> {
         }
     }
 
-    /// Joints that follow others need the leader in the same system, and no circle.
+    /// Checks joints that follow others: the leader must be in the same system, and there must be no circle.
     fn follow(&mut self) {
         let joints = &self.robot.joints;
-        // of each joint its system and how many freedoms it has
+        // for each joint, its system and number of degrees of freedom
         let mut freedoms: Vec<Option<(usize, usize)>> = vec![None; joints.len()];
         for (s, system) in self.forest.systems.iter().enumerate() {
             for element in &system.elements {
@@ -343,7 +344,7 @@ impl Builder<'_> {
         self.robot.joints.iter().position(|j| j.name == *name)
     }
 
-    /// Whether whoever goes from leader to leader comes back to a joint.
+    /// Whether going from leader to leader leads back to a joint.
     fn is_in_circle(&self, joint: usize) -> bool {
         let joints = &self.robot.joints;
         let mut at = joint;
@@ -361,7 +362,7 @@ impl Builder<'_> {
         self.link(link).inertial.as_ref().map_or(0.0, |i| i.mass)
     }
 
-    /// The links that fixed joints hold to a link, itself first.
+    /// The links that fixed joints connect to a link, starting with the link itself.
     fn held(&self, link: usize) -> Vec<usize> {
         let mut held = vec![link];
         let mut next = 0;
@@ -377,7 +378,7 @@ impl Builder<'_> {
         held
     }
 
-    /// A system of its own, from the body of a link.
+    /// Adds a system of its own, starting with the body of a link.
     fn free(&mut self, link: usize, place: Place) {
         if self.held(link).iter().all(|&l| self.mass(l) == 0.0) {
             let message = format!(
@@ -395,12 +396,12 @@ impl Builder<'_> {
         self.elements(link, None, Carried::Freely, None);
     }
 
-    /// A body: `joints` lie between it and what carries it.
+    /// Adds a body; `joints` lie between it and its carrier.
     fn body(&mut self, link: usize, on: Carrier, joints: Vec<usize>) {
         let held = self.held(link);
         let massive = held.iter().any(|&l| self.mass(l) > 0.0);
         match (joints.is_empty(), massive) {
-            // what a fixed base holds stands still
+            // a body that is fixed to a fixed base is at rest
             (true, _) => {
                 for &link in &held {
                     match self.mass(link) > 0.0 {
@@ -434,7 +435,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A body without mass between moving joints.
+    /// Adds a body without mass between moving joints.
     fn without_mass(&mut self, held: &[usize], on: Carrier, joints: Vec<usize>) {
         let outboard: Vec<usize> = self.moving(held);
         let last = &self.robot.joints[joints[joints.len() - 1]];
@@ -473,14 +474,14 @@ impl Builder<'_> {
         }
     }
 
-    /// The joints that move on these links.
+    /// The moving joints whose parents are these links.
     fn moving(&self, held: &[usize]) -> Vec<usize> {
         let all = held.iter().flat_map(|&l| &self.outboard[l]);
         let moving = all.filter(|&&j| self.robot.joints[j].kind != Kind::Fixed);
         moving.copied().collect()
     }
 
-    /// What moves on these links.
+    /// Adds everything that moves on these links.
     fn outwards(&mut self, held: &[usize], on: Carrier) {
         for index in self.moving(held) {
             let joint = &self.robot.joints[index];
@@ -496,7 +497,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The elements of a body in the last system, and all that they carry.
+    /// Adds the elements of a body to the last system, with everything that they carry.
     fn elements(
         &mut self,
         link: usize,
@@ -519,7 +520,7 @@ impl Builder<'_> {
         self.outwards(&frames, Carrier::Element(system, element));
     }
 
-    /// An element for each part: the first, and the others welded to it.
+    /// An element for each part: the first one, with the others welded to it.
     fn welded(
         &mut self,
         system: usize,
@@ -548,7 +549,7 @@ impl Builder<'_> {
         first
     }
 
-    /// One element for all parts, under the name of the heaviest: some of them are no bodies by themselves.
+    /// One element for all parts, named after the heaviest: some parts are physically impossible bodies by themselves.
     fn merged(
         &mut self,
         system: usize,
@@ -595,7 +596,7 @@ impl Builder<'_> {
         elements.len() - 1
     }
 
-    /// What a link weighs; `None` for a frame.
+    /// The inertia of a link; `None` for a frame.
     fn part(&self, link: usize) -> Option<Part> {
         let here = self.placed[link];
         let inertial = self.link(link).inertial.as_ref()?;
@@ -647,7 +648,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The point that all axes of rotation of a list of joints pass, with all at 0.
+    /// The point in which all axes of rotation of a list of joints meet, with all joints at 0.
     fn meeting_point(&mut self, joints: &[usize]) -> Option<Vector> {
         let robot = self.robot;
         let turns: Vec<usize> = joints
@@ -667,7 +668,7 @@ impl Builder<'_> {
                 let ((p, a), (q, b)) = (line(first), line(second));
                 let normal = cross(a, b);
                 let square = dot(normal, normal);
-                // parallel axes meet only where they are one
+                // parallel axes meet only if they coincide
                 match square < 1e-12 {
                     true => p,
                     false => add(p, scale(a, dot(cross(subtract(q, p), b), normal) / square)),
@@ -701,7 +702,7 @@ impl Builder<'_> {
     }
 }
 
-/// Two directions across an axis: x and y of a plane whose normal is z, the next axes in a circle otherwise.
+/// Two directions perpendicular to an axis: x and y of a plane with the normal z, otherwise the next axes in cyclic order.
 fn across(axis: Vector) -> (Vector, Vector) {
     let unit = |i: usize| -> Vector { std::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }) };
     let largest = (0..3)

@@ -1,4 +1,4 @@
-//! The model as YAML.
+//! Writes the model as YAML.
 
 use super::Options;
 use super::robot::{Joint, Kind, Mimic, Place, Robot};
@@ -8,13 +8,13 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// What is below this part of the numbers that a value was computed of is rounding.
+/// Values below this part of the numbers from which they were computed are rounding errors.
 const ROUNDING: f64 = 1e-15;
 
-/// Gravity of a description that says none, along −z of the root link \[m/s²\].
+/// Gravity if the description gives none, along −z of the root link \[m/s²\].
 const GRAVITY: f64 = 9.81;
 
-/// Names of a list, each a word that may be one, and none twice.
+/// The names of a list. Each is a valid word, and all are different.
 struct Names {
     given: Vec<String>,
 }
@@ -26,7 +26,7 @@ impl Names {
             let word = word(name, '_', otherwise);
             let mut unique = word.clone();
             let mut number = 2;
-            // identifiers have no dashes, and must differ, too
+            // identifiers have no dashes, and must also differ
             while !taken.insert(unique.clone()) {
                 unique = format!("{word}_{number}");
                 number += 1;
@@ -39,7 +39,7 @@ impl Names {
     }
 }
 
-/// A name as a word of small letters and digits.
+/// A name as a word of lower-case letters and digits.
 fn word(name: &str, separator: char, otherwise: &str) -> String {
     let mut word = String::new();
     for c in name.to_lowercase().chars() {
@@ -76,12 +76,12 @@ fn list(values: &[f64]) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
-/// A vector without what is rounding beside `size`.
+/// A vector without components that are rounding errors relative to `size`.
 fn vector(v: Vector, size: f64) -> String {
     list(&v.map(|c| without_rounding(c, size)))
 }
 
-/// The number of fewest decimals that a value differs from by rounding alone, as sums of numbers of size `size` leave it.
+/// The number with the fewest decimals that differs from a value only by the rounding of sums of numbers of size `size`.
 fn without_rounding(value: f64, size: f64) -> f64 {
     let decimals = (0..=17).map(|digits| format!("{value:.digits$}").parse().unwrap_or(value));
     let mut close = decimals.filter(|short: &f64| (short - value).abs() <= ROUNDING * size);
@@ -99,7 +99,7 @@ fn axis(v: Vector) -> String {
     }
 }
 
-/// Writes the model; with its lines that are made of a link or a joint, and where these stand.
+/// Writes the model. Also returns its lines that come from a link or a joint, with the places of these.
 pub fn yaml(
     file: &str,
     robot: &Robot,
@@ -115,7 +115,7 @@ pub fn yaml(
         origins: RefCell::default(),
     };
     let mut text = String::new();
-    // a String takes all
+    // writing to a String never fails
     let _ = writer.write(file, options, &mut text);
     (text, writer.origins.into_inner())
 }
@@ -130,7 +130,7 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// The line of the text that is begun is made of what stands there.
+    /// Records that the current line of the text comes from this place.
     fn origin(&self, text: &str, place: Place) {
         let line = text.matches('\n').count() + 1;
         self.origins.borrow_mut().push((line, place));
@@ -200,7 +200,7 @@ impl Writer<'_> {
         self.frames(text)
     }
 
-    /// The coordinates of a joint, by the names of the joints; the position of a free root.
+    /// Outputs for the coordinates of a joint, by the names of the joints; for a free root, its position.
     fn outputs(&self, system: usize, element: &Element, text: &mut String) -> std::fmt::Result {
         let (system, name) = (self.system(system), &self.links.given[element.link]);
         let freedoms = match &element.carried {
@@ -228,7 +228,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Which names are not those of the description.
+    /// A comment on the names that differ from those of the description.
     fn renamed(&self, text: &mut String) -> std::fmt::Result {
         let links = self
             .robot
@@ -344,7 +344,7 @@ impl Writer<'_> {
         )
     }
 
-    /// The key `follows` of a freedom, whose leader is in the same system.
+    /// The key `follows` of a degree of freedom whose leader is in the same system.
     fn follows(&self, elements: &[Element], mimic: &Mimic) -> String {
         let freedoms = elements.iter().flat_map(|element| {
             let freedoms = match &element.carried {
@@ -388,7 +388,7 @@ impl Writer<'_> {
             if joint.damping != 0.0 {
                 write!(law, ", damping: {}", number(joint.damping))?;
             }
-            // of a planar joint, friction and damping are those of each freedom
+            // the friction and damping of a planar joint apply to each degree of freedom
             if joint.friction != 0.0 {
                 write!(law, ", friction: {}", number(joint.friction))?;
             }
@@ -432,7 +432,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Links without mass, and those that stand still.
+    /// Frames: links without mass, and links that are at rest.
     fn frames(&self, text: &mut String) -> std::fmt::Result {
         if !self.forest.markers.is_empty() {
             writeln!(text, "# Links without mass, as points of elements:")?;

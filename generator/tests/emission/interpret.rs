@@ -1,4 +1,4 @@
-//! The emitted text evaluated without a compiler: what is read here is the Rust, so a bracket too few shows.
+//! Evaluates the emitted text without a compiler. It reads the Rust text itself, so a missing bracket is an error.
 
 use quote::ToTokens;
 use std::cell::RefCell;
@@ -6,21 +6,21 @@ use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 use syn::{Expr, ImplItem, ImplItemFn, Item, Lit, Pat, Stmt, UnOp};
 
-/// What the text calls outside itself: "WEBBING.value", "force::belt::tension".
+/// The functions that the text calls outside of itself: "WEBBING.value", "force::belt::tension".
 pub type Library<'a> = &'a dyn Fn(&str, &[f64]) -> f64;
 
 /// A value of the interpreted text.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A scalar, whole or not.
+    /// A scalar or an integer.
     Number(f64),
     /// An array or a tuple.
     List(Vec<Value>),
     /// A struct by its fields.
     Struct(BTreeMap<String, Value>),
-    /// What numbers are put into, each once, by their places.
+    /// The output writer: numbers by their index, each written once.
     Sink(Rc<RefCell<BTreeMap<usize, f64>>>),
-    /// A sink that takes what comes from a place on, as if that were the first.
+    /// An output writer with an offset: its index 0 is a later index of the other.
     Beyond(Rc<RefCell<BTreeMap<usize, f64>>>, usize),
 }
 
@@ -68,7 +68,7 @@ impl Value {
 /// A module that can be called.
 pub struct Module<'a> {
     methods: HashMap<String, ImplItemFn>,
-    /// `const COORDINATES: usize = 4;` and its like.
+    /// The constants of lengths, such as `const COORDINATES: usize = 4;`.
     lengths: HashMap<String, usize>,
     library: Library<'a>,
 }
@@ -117,7 +117,7 @@ impl<'a> Module<'a> {
         self.lengths[&length]
     }
 
-    /// Statements of the longest method.
+    /// Number of statements of the longest method.
     pub fn longest(&self) -> usize {
         self.methods
             .values()
@@ -150,7 +150,7 @@ impl<'a> Module<'a> {
             match statement {
                 Stmt::Local(local) => {
                     let init = local.init.as_ref().expect("a value");
-                    // `let num = T::from_f64;` is known.
+                    // `let num = T::from_f64;` needs no evaluation.
                     if matches!(&*init.expr, Expr::Path(path) if path.path.segments.len() == 2) {
                         continue;
                     }
@@ -158,7 +158,7 @@ impl<'a> Module<'a> {
                     bind(&local.pat, &value, &mut scope);
                 }
                 Stmt::Expr(Expr::Assign(assign), Some(_)) => self.assign(assign, &mut scope),
-                // of a method that puts everything into a sink
+                // the end of a method that writes everything into an output writer
                 Stmt::Expr(Expr::MethodCall(call), Some(_)) => drop(self.method(call, &scope)),
                 Stmt::Expr(expression, None) => {
                     result = Some(match self.eval(expression, &scope) {
@@ -320,7 +320,7 @@ impl<'a> Module<'a> {
     }
 }
 
-/// How many results a function has that has several.
+/// The number of results of a function with several results.
 fn results(name: &str) -> Option<usize> {
     match name {
         "force::ellipsoid::support" => Some(4),

@@ -1,13 +1,14 @@
-//! The emitted Rust: as a person reads it, and as it evaluates.
+//! The emitted Rust: the text for a reader, and its values.
 
 mod interpret;
 
 use bryant_generator::dynamics::derive;
-use bryant_generator::emit::{self, Options};
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Function, NodeId};
 use bryant_generator::model::{Coordinates, Model, read, read_str};
+use bryant_generator::program::Options;
+use bryant_generator::target::rust;
 use interpret::{Module, Value};
 use std::path::Path;
 
@@ -16,7 +17,7 @@ fn model(path: &str) -> Model {
     read(&path).expect("a valid model").0
 }
 
-/// Models with everything that a module can have: parameters, laws, quaternions, Bryant angles, a large matrix.
+/// Models with all parts that a module can have: parameters, laws, quaternions, Bryant angles, a large matrix.
 fn models() -> Vec<Model> {
     let of = |path: &str, coordinates| Model {
         coordinates,
@@ -31,7 +32,7 @@ fn models() -> Vec<Model> {
     ]
 }
 
-/// Everything a parameter, and names that Rust does not allow or the emitted text needs itself.
+/// A model in which every number is a parameter, with names that Rust does not allow or that the emitted text uses itself.
 fn parametric() -> Model {
     let text = "
 model: parametric
@@ -74,11 +75,11 @@ outputs:
 }
 
 fn text(model: &Model, options: &Options) -> String {
-    emit::module(model, &derive(model), options)
+    rust::module(model, &derive(model), options)
 }
 
-/// Some law or other that depends on all arguments and on its name: which one is called with what must not matter here. Only a
-/// choice is one, for rotations are made by it.
+/// An arbitrary law that depends on all arguments and on its name, because the test checks only which law is called with which arguments.
+/// Only a choice is real, because rotations are made with it.
 fn law(name: &str, arguments: &[f64]) -> f64 {
     if let ("force::switch::choose", &[a, b, then, otherwise]) = (name, arguments) {
         return if a < b { then } else { otherwise };
@@ -91,7 +92,7 @@ fn law(name: &str, arguments: &[f64]) -> f64 {
     })
 }
 
-/// The same law for a call of the graph.
+/// The same law for a call in the graph.
 fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
     let curve = |i: u32, method: &str| {
         let name = &model.curves[i as usize].name;
@@ -99,7 +100,7 @@ fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
             .chars()
             .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
             .collect();
-        // The name of the size and of the table of the module are taken.
+        // The names of the size and of the table of the module are already used.
         let suffix = if name == "info" { "_2" } else { "" };
         format!("{}{suffix}.{method}", name.to_ascii_uppercase())
     };
@@ -146,7 +147,7 @@ fn state(equations: &Equations) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     )
 }
 
-/// What each method of a module gives.
+/// The results of each method of a module.
 fn values(model: &Model, equations: &Equations, text: &str) -> Vec<(&'static str, Vec<f64>)> {
     let module = Module::new(text, &law);
     let names = model
@@ -174,7 +175,7 @@ fn values(model: &Model, equations: &Equations, text: &str) -> Vec<(&'static str
             .collect();
         module.call(name, &arguments)
     };
-    // methods that orientation enters are given the charts
+    // methods that depend on orientation get the charts
     let call = |name: &str, arguments: &[&Value]| {
         plain(name, &[arguments, &[&m][..usize::from(charted)]].concat())
     };
@@ -282,11 +283,11 @@ fn the_text_evaluates_to_what_the_graph_means() {
         let values = values(
             &model,
             &equations,
-            &emit::module(&model, &equations, &Options::default()),
+            &rust::module(&model, &equations, &Options::default()),
         );
         for ((method, values), expected) in values.iter().zip(&expected) {
             assert_eq!(values.len(), expected.len(), "{} {method}", model.name);
-            // Both round thousands of operations differently; a condition of S of 10⁴ takes four more digits.
+            // Both round thousands of operations differently; a condition of S of 10⁴ loses four more digits.
             let scale = expected
                 .iter()
                 .fold(1.0, |scale: f64, x| scale.max(x.abs()));
@@ -307,7 +308,7 @@ fn pieces_give_the_bits_of_the_whole() {
     for model in models() {
         let equations = derive(&model);
         let with = |statements| {
-            emit::module(
+            rust::module(
                 &model,
                 &equations,
                 &Options {
@@ -338,7 +339,7 @@ fn no_function_is_longer_than_the_compiler_bears() {
                 ..Options::default()
             };
             let text = text(&model, &options);
-            // Besides the lines: inputs, each read once at most, `num`, the pieces read from, the results.
+            // Besides the statements: inputs, each read at most once, `num`, the slices that are read, the results.
             let allowed = statements + inputs + 40;
             let large_matrix = 2 * 51 * 51;
             let longest = Module::new(&text, &law).longest();
@@ -369,11 +370,11 @@ fn only_very_long_methods_are_compiled_in_calls() {
     };
     let always = Options::default().merged;
     assert_eq!(calls("models/dummy15.yaml", always), (false, false));
-    // fifteen elements, few of which are like each other
+    // fifteen elements, of which few are similar
     assert_eq!(calls("models/dummy15.yaml", 1000), (false, true));
     let path = "tests/models/large/chain100.yaml";
     assert_eq!(calls(path, always), (true, false));
-    // what is left beside what is shared is one function, of 3000 statements at most and the arguments taken apart
+    // besides the shared functions there is one function, of at most 3000 statements and the destructured arguments
     let text = text(&model(path), &options(always));
     let lets = text
         .split("\n    }\n")
@@ -440,7 +441,7 @@ fn every_place_has_a_name_of_its_own() {
     );
 }
 
-/// The whole state is one argument, so its parts change no signature: models with memory (Bryant angles) and without.
+/// The whole state is one argument, so that its parts do not change signatures: models with memory (Bryant angles) and without.
 #[test]
 fn accelerations_of_a_state_have_one_signature() {
     for model in models() {
@@ -497,7 +498,7 @@ fn the_text_names_no_date_and_no_place() {
     }
 }
 
-/// The module that the examples of the runtime's first page use: `INSTA_UPDATE=always` writes it anew.
+/// The module for the examples of the runtime's front page: `INSTA_UPDATE=always` writes it again.
 #[test]
 fn the_examples_of_the_runtime_use_what_is_written_now() {
     let text = text(

@@ -1,25 +1,25 @@
-//! Points that are painted over, within clips and in groups of an opacity.
+//! A canvas of pixels, with clips and with groups of an opacity.
 
 use super::RasterError;
 use super::style::Colour;
 use zeno::{Command, Mask, Style};
 
-/// More points are refused: about 600 MB while the picture is drawn.
+/// Pictures with more pixels are refused: they would need about 600 MB during drawing.
 const MOST: usize = 40_000_000;
 
-/// A picture of points.
+/// A picture of pixels.
 pub struct Canvas {
     width: usize,
     height: usize,
-    /// Red, green, blue, opacity; the colours times the opacity. The first layer is white paper.
+    /// Red, green, blue and opacity; the colours are multiplied by the opacity. The first layer is white paper.
     layers: Vec<Vec<[f32; 4]>>,
     groups: Vec<Group>,
 }
 
 struct Group {
-    /// Left, top, right, bottom: what is drawn outside is cut off.
+    /// Left, top, right, bottom: everything outside is clipped.
     clip: [f32; 4],
-    /// Opacity of the group's own layer, where it has one.
+    /// Opacity of the group's own layer, if it has one.
     opacity: Option<f32>,
 }
 
@@ -44,7 +44,7 @@ impl Canvas {
         self.groups.last().map_or(all, |group| group.clip)
     }
 
-    /// Opens a group that is cut off outside left, top, right, bottom.
+    /// Opens a group that is clipped outside of left, top, right, bottom.
     pub fn open_clipped(&mut self, [left, top, right, bottom]: [f32; 4]) {
         let clip = self.clip();
         self.groups.push(Group {
@@ -58,7 +58,7 @@ impl Canvas {
         });
     }
 
-    /// Opens a group that is drawn by itself and then put on what is there.
+    /// Opens a group that is drawn on its own layer and then put on the layer below.
     pub fn open(&mut self, opacity: f32) {
         let clip = self.clip();
         let opacity = (opacity < 1.0).then_some(opacity);
@@ -86,11 +86,11 @@ impl Canvas {
     }
 
     fn top(&mut self) -> &mut Vec<[f32; 4]> {
-        // Each layer but the first belongs to a group, and groups take away their own alone.
+        // each layer but the first belongs to a group, and a group removes only its own layer
         self.layers.last_mut().expect("the paper stays")
     }
 
-    /// Paints the inside or the stroke of a path, whose points are finite and not far outside.
+    /// Paints the inside or the stroke of a path; its points must be finite and not far outside.
     pub fn paint(&mut self, path: &[Command], style: Style<'_>, colour: Colour, opacity: f32) {
         let clip = self.clip();
         let bounds = zeno::bounds(path, style, None);
@@ -108,7 +108,7 @@ impl Canvas {
             .offset([-(left as f32), -(top as f32)])
             .size(width as u32, height as u32)
             .render_into(&mut mask, None);
-        // How much of a row or column of points is inside of the clip.
+        // the part of a row or column of pixels that is inside of the clip
         let inside = |index: usize, low: f32, high: f32| {
             let (from, to) = (index as f32, index as f32 + 1.0);
             (to.min(high) - from.max(low)).clamp(0.0, 1.0)
@@ -127,7 +127,7 @@ impl Canvas {
         }
     }
 
-    /// Width and height, and red, green, blue of each point, row after row.
+    /// Width and height, and red, green and blue of each pixel, row after row.
     pub fn finish(mut self) -> ([usize; 2], Vec<u8>) {
         while !self.groups.is_empty() {
             self.close();

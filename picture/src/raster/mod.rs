@@ -1,5 +1,5 @@
-//! A picture as points: PNG, with a font that is part of the program, so that the text does not depend on what the machine
-//! has. It knows the shapes of a [`Drawing`] and no other SVG.
+//! A picture as pixels: PNG with a font that is part of the program, so that the text does not depend on the fonts of the machine. It draws
+//! the shapes of a [`Drawing`], not SVG in general.
 
 mod canvas;
 mod font;
@@ -14,40 +14,40 @@ use zeno::{Command, Fill, PathBuilder, Stroke, Transform};
 /// The picture could not be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RasterError {
-    /// A rule of the style is not known here.
+    /// The style has an unknown rule.
     #[error(
-        "the picture cannot be drawn as points: its style has \"{0}\"\n  help: write it as .svg"
+        "the picture cannot be drawn as pixels: its style has \"{0}\"\n  help: write it as .svg"
     )]
     Style(String),
-    /// Width and height in points.
+    /// Width and height in pixels.
     #[error(
-        "the picture cannot be drawn as points: {} x {} are too many or none\n  help: write it as .svg",
+        "the picture cannot be drawn as pixels: its size {} x {} is too large, or 0\n  help: write it as .svg",
         .0[0],
         .0[1]
     )]
     Size([f64; 2]),
-    /// A shape is too far outside, or nowhere.
+    /// The coordinates of a shape are too far outside, or not finite.
     #[error(
-        "the picture cannot be drawn as points: a shape lies at ({}, {})\n  help: write it as .svg",
+        "the picture cannot be drawn as pixels: a shape lies at ({}, {})\n  help: write it as .svg",
         .0[0],
         .0[1]
     )]
     Place([f32; 2]),
     /// The font cannot be read.
-    #[error("the picture cannot be drawn as points: its font: {0}\n  help: write it as .svg")]
+    #[error("the picture cannot be drawn as pixels: its font: {0}\n  help: write it as .svg")]
     Font(String),
 }
 
-/// Points per pixel of the SVG: sharp on screens of high resolution and in print.
+/// Pixels of the raster for each pixel of the SVG: sharp on screens of high resolution and in print.
 const SCALE: f64 = 2.0;
 
-/// Points from the corner of the picture beyond which nothing is drawn; the library would overflow far beyond.
+/// Shapes beyond this distance from the corner of the picture are not drawn \[pixels\]; the library would overflow far beyond.
 const FARTHEST: f32 = 1e5;
 
 /// The PNG of a drawing.
 ///
 /// # Errors
-/// A style that is not known, a picture that is too large.
+/// The style is not known, or the picture is too large.
 pub fn png(drawing: &Drawing) -> Result<Vec<u8>, RasterError> {
     let (size, points) = points(drawing)?;
     Ok(png::encode(size, &points))
@@ -64,7 +64,7 @@ fn points(drawing: &Drawing) -> Result<([usize; 2], Vec<u8>), RasterError> {
                 let edges = [x, y, x + width, y + height];
                 canvas.open_clipped(edges.map(|edge| (SCALE * edge) as f32));
             }
-            // Shapes do not inherit from their groups here.
+            // here shapes do not inherit from their groups
             Item::Group { class, .. } if rules.any("g", class) => {
                 return Err(RasterError::Style(format!("g.{class}")));
             }
@@ -79,7 +79,7 @@ fn points(drawing: &Drawing) -> Result<([usize; 2], Vec<u8>), RasterError> {
     Ok(canvas.finish())
 }
 
-/// The outline of a shape in points of the picture.
+/// The outline of a shape in pixels of the raster.
 fn path(shape: &Shape, style: &Style) -> Result<Vec<Command>, RasterError> {
     let mut path: Vec<Command> = Vec::new();
     let scaled = |at: &[f64; 2]| at.map(|part| (SCALE * part) as f32);
@@ -122,7 +122,7 @@ fn path(shape: &Shape, style: &Style) -> Result<Vec<Command>, RasterError> {
     Ok(path)
 }
 
-/// The inside, then the stroke on it.
+/// Paints the inside, then the stroke on it.
 fn paint(canvas: &mut Canvas, path: &[Command], style: &Style) -> Result<(), RasterError> {
     let points = path.iter().flat_map(|part| match *part {
         Command::MoveTo(a) | Command::LineTo(a) => vec![a],

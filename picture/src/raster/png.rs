@@ -4,21 +4,21 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 
 /// The first bytes of every PNG.
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
-/// Of 0 to 10; what is above takes long and saves little.
+/// From 0 to 10; higher values take long and save little.
 const COMPRESSION: u8 = 7;
 
 /// The file. `points` are red, green, blue, row after row.
 pub fn encode([width, height]: [usize; 2], points: &[u8]) -> Vec<u8> {
     let mut header = Vec::new();
     for length in [width, height] {
-        // The canvas has no length beyond 32 bits.
+        // the canvas has no length beyond 32 bits
         header.extend((length as u32).to_be_bytes());
     }
-    // Bits of a part, red-green-blue, and the only compression, filter and order without interlacing.
+    // bits of a channel, red-green-blue, the only compression and filter, no interlacing
     header.extend([8, 2, 0, 0, 0]);
     let mut rows = Vec::with_capacity(points.len() + height);
     for row in points.chunks_exact(3 * width) {
-        // Rows are as they are, not differences from their neighbours: pictures of lines compress best so.
+        // rows are stored as they are, not as differences from their neighbours: pictures of lines compress best this way
         rows.push(0);
         rows.extend(row);
     }

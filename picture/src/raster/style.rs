@@ -1,4 +1,4 @@
-//! The part of CSS that our pictures use: selectors of one element or of classes, and the properties of [`Style::set`].
+//! The part of CSS that these pictures use: selectors of one element or of classes, and the properties of [`Style::set`].
 
 use super::RasterError;
 use zeno::{Cap, Join};
@@ -16,13 +16,13 @@ pub struct Style {
     pub stroke_width: f32,
     pub cap: Cap,
     pub join: Join,
-    /// Lengths on and off by turns; empty for a whole line.
+    /// Lengths on and off in turn; empty for a solid line.
     pub dashes: Vec<f32>,
     pub font_size: f32,
     pub bold: bool,
 }
 
-/// What SVG says where a style says nothing.
+/// The defaults of SVG.
 impl Default for Style {
     fn default() -> Self {
         Self {
@@ -41,10 +41,10 @@ impl Default for Style {
 }
 
 impl Style {
-    /// `None` for what is not known.
+    /// Sets a property; `None` if it is not known.
     fn set(&mut self, property: &str, value: &str) -> Option<()> {
         match property {
-            // There is this font alone.
+            // this is the only font
             "font-family" => return value.contains("DejaVu Sans").then_some(()),
             "font-size" => self.font_size = number(value.strip_suffix("px")?)?,
             "font-weight" => self.bold = word(&[("bold", true), ("normal", false)], value)?,
@@ -69,7 +69,7 @@ impl Style {
     }
 }
 
-/// What a word of a property means.
+/// The meaning of a word in a property.
 fn word<T: Copy>(known: &[(&str, T)], value: &str) -> Option<T> {
     let found = known.iter().find(|(word, _)| *word == value);
     found.map(|(_, meaning)| *meaning)
@@ -80,7 +80,7 @@ fn number(text: &str) -> Option<f32> {
     (value.is_finite() && value >= 0.0).then_some(value)
 }
 
-/// "none", "#rgb" or "#rrggbb"; the outer `None` for what is not known.
+/// "none", "#rgb" or "#rrggbb"; the outer `None` if the text is not known.
 fn colour(text: &str) -> Option<Option<Colour>> {
     if text == "none" {
         return Some(None);
@@ -95,11 +95,11 @@ fn colour(text: &str) -> Option<Option<Colour>> {
     Some(Some([part(0)?, part(1)?, part(2)?]))
 }
 
-/// Rules, the stronger ones last.
+/// The rules; stronger ones come last.
 pub struct Rules<'a>(Vec<Rule<'a>>);
 
 struct Rule<'a> {
-    /// "" for any.
+    /// The element; "" for any.
     element: &'a str,
     classes: Vec<&'a str>,
     declarations: Vec<(&'a str, &'a str)>,
@@ -136,22 +136,22 @@ impl<'a> Rules<'a> {
                 });
             }
         }
-        // More classes win, then an element; of equal ones the later, for the order is kept.
+        // a rule with more classes wins, then a rule with an element; among equal rules the later one, because sorting is stable
         rules.sort_by_key(|rule| (rule.classes.len(), !rule.element.is_empty()));
         Ok(Rules(rules))
     }
 
-    /// How an element with these classes is drawn.
+    /// The style of an element with these classes.
     pub fn style(&self, element: &str, classes: &str) -> Style {
         let mut style = Style::default();
         for (property, value) in self.of(element, classes) {
-            // Known since the rules were read.
+            // the property was checked when the rules were read
             let _ = style.set(property, value);
         }
         style
     }
 
-    /// Whether any rule speaks of such an element.
+    /// Whether any rule applies to such an element.
     pub fn any(&self, element: &str, classes: &str) -> bool {
         self.of(element, classes).next().is_some()
     }

@@ -12,7 +12,7 @@ fn blank() -> Drawing {
     Drawing::new(40.0, 20.0, "", STYLE)
 }
 
-/// Red, green and blue at a pixel of the drawing, from the first of its points.
+/// Red, green and blue at a pixel of the drawing, from the first pixel of its raster.
 fn colour(drawing: &Drawing, [x, y]: [usize; 2]) -> [u8; 3] {
     let ([width, height], points) = points(drawing).unwrap();
     assert_eq!((width, height), (80, 40));
@@ -20,7 +20,7 @@ fn colour(drawing: &Drawing, [x, y]: [usize; 2]) -> [u8; 3] {
     [points[at], points[at + 1], points[at + 2]]
 }
 
-/// The sum of what is missing to white, in whole points.
+/// The amount of ink, as the number of black pixels of the raster with the same sum.
 fn ink(drawing: &Drawing) -> f64 {
     let (_, points) = points(drawing).unwrap();
     let greens = points.iter().skip(1).step_by(3);
@@ -34,7 +34,7 @@ fn areas_are_those_of_geometry() {
     let area = |draw: &dyn Fn(&mut Drawing)| {
         let mut drawing = blank();
         draw(&mut drawing);
-        // 4 points are a pixel
+        // 4 pixels of the raster are one pixel of the drawing
         ink(&drawing) / 4.0
     };
     let close = |area: f64, expected: f64| {
@@ -50,7 +50,7 @@ fn areas_are_those_of_geometry() {
         area(&|d| d.line("line", [5.0, 5.0], [29.0, 15.0])),
         2.0 * 26.0,
     );
-    // two dashes of 4 and, between them, a gap of 4
+    // two dashes of 4 and a gap of 4 between them
     let dashed = area(&|d| d.line("line dashed", [10.0, 10.0], [22.0, 10.0]));
     close(dashed, 2.0 * 8.0);
     let crossing = [([10.0, 10.0], [20.0, 10.0]), ([15.0, 5.0], [15.0, 15.0])];
@@ -76,7 +76,7 @@ fn what_is_outside_of_a_clip_is_cut_off() {
     drawing.close();
     drawing.rectangle("red", [30.0, 5.0, 2.0, 10.0]);
     assert_eq!(colour(&drawing, [9, 10]), [255, 0, 0]);
-    // half of this point is inside
+    // half of this pixel is inside
     assert_eq!(colour(&drawing, [10, 10]), [255, 128, 128]);
     assert_eq!(colour(&drawing, [11, 10]), WHITE);
     assert_eq!(colour(&drawing, [31, 10]), [255, 0, 0]);
@@ -90,7 +90,7 @@ fn a_group_is_drawn_by_itself_before_its_opacity_counts() {
         drawing.rectangle("red", [x, 5.0, 10.0, 10.0]);
     }
     drawing.close();
-    // where both lie, as where one lies
+    // the overlap at [10, 10] looks like one rectangle alone at [6, 10]
     assert_eq!(colour(&drawing, [6, 10]), [255, 128, 128]);
     assert_eq!(colour(&drawing, [10, 10]), [255, 128, 128]);
 }
@@ -106,15 +106,15 @@ fn text_is_drawn_without_fonts_of_the_system() {
     for text in ["M", "10⁻⁶", "≤", "\u{fffff}"] {
         assert!(ink(&label(text, 2.0, Anchor::Start)) > 20.0, "{text}");
     }
-    // The outline of "=" in the font is two bars of 1282 by 170 of 2048 units per em, the upper of 168.
+    // In the font, the outline of "=" is two bars of 1282 by 170, of 2048 units per em; the upper one is 168 high.
     let equals = ink(&label("=", 2.0, Anchor::Start)) / 4.0;
     let outline = 1282.0 * (168.0 + 170.0) * (16.0f64 / 2048.0).powi(2);
     assert!((equals / outline - 1.0).abs() < 0.01, "{equals}, {outline}");
-    // an anchor moves the text by its width, here a whole number of points: 2048 units are 32 points, "—" has 2048
+    // an anchor moves the text by its width, which is a whole number of pixels here: 2048 units are 32 pixels, and "—" has 2048
     let starts = points(&label("—", 2.0, Anchor::Start)).unwrap();
     assert_eq!(starts, points(&label("—", 10.0, Anchor::Middle)).unwrap());
     assert_eq!(starts, points(&label("—", 18.0, Anchor::End)).unwrap());
-    // "AV" is kerned: less wide than the letters
+    // "AV" is kerned: it is narrower than its letters together
     let ends = |text| {
         let (_, points) = points(&label(text, 2.0, Anchor::Start)).unwrap();
         let columns = points.chunks(3).enumerate().filter(|(_, c)| c[0] < 255);

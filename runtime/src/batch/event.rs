@@ -7,6 +7,15 @@ use crate::simulate::excursion::Excursion;
 use crate::simulate::{Bracket, Course, WIDTH, Zero, change, opposite};
 use crate::{Dynamics, Real};
 
+/// The fraction of a step within which an event is found. It is no finer than fractions of a step can be told apart.
+pub const fn width<T: Several>() -> f64 {
+    if T::EPSILON > WIDTH {
+        T::EPSILON
+    } else {
+        WIDTH
+    }
+}
+
 /// Half of the distance over which the rate of a guard is taken, as a part of the step: the error is of its square, and of rounding
 /// over it.
 const APART: f64 = 1e-4;
@@ -94,8 +103,7 @@ pub fn first_change<T: Several>(
     let (nought, one) = (c(0.0), c(1.0));
     let below: T::Part = change(probe.functions.zero(), before, before).part(0);
     let above = probe.change(before, T::of_part(end)).part(0);
-    // no finer than fractions of a step can be told apart
-    let mut bracket = Bracket::new([below, above], end, WIDTH.max(T::EPSILON));
+    let mut bracket = Bracket::new([below, above], end, width::<T>());
     loop {
         let open = wanted.and(bracket.open());
         if !open.any() {

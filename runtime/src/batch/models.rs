@@ -47,9 +47,9 @@ pub(super) trait Numbers {
     type One: Real;
     /// The scalar of [`Width::Plain`].
     type Plain: Several<One = Self::One>;
-    /// The scalar of [`Width::One`].
-    type Alone: Several<One = Self::One>;
-    /// The scalar of [`Width::Four`]; where no processor has such registers, that of [`Width::One`].
+    /// The scalar of [`Width::One`] and [`Width::Four`]. A processor of x86-64 that fuses products and sums has registers of four, and a
+    /// lane has the same bits in each: so the time loop is not compiled once more for one lane. Other processors have no such registers; there it is
+    /// one lane.
     type Four: Several<One = Self::One>;
     /// The scalar of [`Width::Eight`]; where no processor has such registers, that of [`Width::One`].
     type Eight: Several<One = Self::One>;
@@ -85,7 +85,6 @@ mod wide {
 impl Numbers for Doubles {
     type One = f64;
     type Plain = Lanes<Alone<f64, false>>;
-    type Alone = Lanes<Alone<f64, true>>;
     type Four = wide::Four;
     type Eight = wide::Eight;
     fn one(_: &impl Family) -> Option<Box<dyn Schedule<f64> + '_>> {
@@ -96,7 +95,6 @@ impl Numbers for Doubles {
 impl Numbers for Singles {
     type One = f32;
     type Plain = Lanes<Alone<f32, false>>;
-    type Alone = Lanes<Alone<f32, true>>;
     type Four = wide::FourOfSingles;
     type Eight = wide::EightOfSingles;
     fn one(_: &impl Family) -> Option<Box<dyn Schedule<f32> + '_>> {
@@ -107,7 +105,6 @@ impl Numbers for Singles {
 impl<N: Numbers> Numbers for Duals<N> {
     type One = Dual<N::One>;
     type Plain = Dual<N::Plain>;
-    type Alone = Dual<N::Alone>;
     type Four = Dual<N::Four>;
     type Eight = Dual<N::Eight>;
     fn one(family: &impl Family) -> Option<Box<dyn Schedule<Dual<N::One>> + '_>> {
@@ -118,17 +115,12 @@ impl<N: Numbers> Numbers for Duals<N> {
 /// Models over the registers of every width. Whoever calls a function of a width has asked [`Width::there`].
 pub(super) trait Source<N: Numbers> {
     fn plain(&self) -> Models<'_, N::Plain>;
-    fn alone(&self) -> Models<'_, N::Alone>;
     fn four(&self) -> Models<'_, N::Four>;
     fn eight(&self) -> Models<'_, N::Eight>;
 }
 
 impl<N: Numbers, F: Family> Source<N> for F {
     fn plain(&self) -> Models<'_, N::Plain> {
-        Models::new(self, N::one(self))
-    }
-
-    fn alone(&self) -> Models<'_, N::Alone> {
         Models::new(self, N::one(self))
     }
 
@@ -157,8 +149,7 @@ pub(super) fn with_models<N: Numbers, W: OfModels<N::One>>(
 ) -> Option<W::Output> {
     width.there().then(|| match width {
         Width::Plain => task.run(source.plain()),
-        Width::One => task.run(source.alone()),
-        Width::Four => task.run(source.four()),
+        Width::One | Width::Four => task.run(source.four()),
         Width::Eight => task.run(source.eight()),
     })
 }

@@ -15,7 +15,7 @@
 
 use super::bend::Bends;
 use super::control::{ESTIMATE, Power, first_step, norm};
-use super::event::{Sides, Values};
+use super::event::{Sides, Values, width};
 use super::jump::Sided;
 use super::models::Models;
 use super::onset::{END, Onsets};
@@ -32,6 +32,7 @@ use crate::patience::Patience;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, Task};
 use crate::simulate::finest;
+use crate::simulate::standing::Standing;
 use crate::{Arrival, Family, Info, Real, Schedule};
 
 /// Smallest step \[s\].
@@ -68,6 +69,7 @@ pub(super) struct Lane<S> {
     pub(super) steps: u32,
     pub(super) rejected: u32,
     pub(super) searches: u32,
+    standing: Standing,
     /// How long it may take, from when its run began.
     patience: Patience,
     /// How long it had taken when that was told last \[s\].
@@ -85,6 +87,7 @@ impl<S: Real> Lane<S> {
             steps: 0,
             rejected: 0,
             searches: 0,
+            standing: Standing::default(),
             patience: Patience::new(None, [0.0, 0.0]),
             told: 0.0,
         }
@@ -375,6 +378,7 @@ impl<'a, T: Several> Run<'a, T> {
             self.bends.forget(i);
             self.onsets.missed[i] = None;
             (lane.steps, lane.rejected, lane.searches) = (0, 0, 0);
+            lane.standing.forget();
             lane.patience = Patience::new(self.settings.time_limit, [0.0, self.settings.duration]);
             lane.told = 0.0;
             self.find_stop(i, 0.0);
@@ -563,11 +567,12 @@ impl<'a, T: Several> Run<'a, T> {
         (hidden.or(over), T::Part::select(over, part, shorter))
     }
 
-    /// Goes to where steps that are good end: those in which a guard changes its sign end there.
+    /// Takes over the ends of accepted steps. A step ends where a guard changes its sign.
     #[inline(always)]
     fn land(&mut self, accepted: T::Mask, easy: T::Mask, reach: &Reach<T>) -> Landing<T> {
         let t = self.step.t;
         let (Sides { ahead, behind }, whole) = self.place(accepted, easy, reach.reached);
+        let whole = whole.or(self.going_on(whole.not().and(accepted), behind));
         let reached = T::select(whole, reach.reached, behind * self.step.h + t);
         self.deliver(accepted, whole, reached);
         let broken = whole.not().and(accepted);
@@ -619,6 +624,9 @@ impl<'a, T: Several> Run<'a, T> {
         for i in each(accepted.lanes()) {
             self.lanes[i].steps += 1;
             self.lanes[i].searches = 0;
+            if whole.lanes() >> i & 1 != 0 {
+                self.lanes[i].standing.forget();
+            }
         }
         for i in each(arrived.lanes()) {
             self.arrive(i);
@@ -641,7 +649,7 @@ impl<'a, T: Several> Run<'a, T> {
             self.state.copy_from_slice(&self.step.k[0]);
             self.rate(unknown);
             if alike.any() {
-                goes_on = goes_on.or(self.goes_on().and(alike));
+                goes_on = goes_on.or(self.moves_alike().and(alike));
             }
         }
         // where memory stays, they are known
@@ -655,11 +663,11 @@ impl<'a, T: Several> Run<'a, T> {
         self.count_steps(whole.not().and(going));
     }
 
-    /// Where the motion goes on as it did in the step before, whose derivative at its end is in `state`, though memory was renewed: the derivative has
-    /// changed by no more than the error allowed would in such a step. So it is of a hysteresis under load, whose memory goes along with the
-    /// state. Nowhere of fixed steps.
+    /// Where the motion goes on as it did in the step before, whose derivative at its end is in `state`, although memory was renewed: over such a step,
+    /// the change of the derivative makes no more than the error allowed. So it is of a hysteresis under load, whose memory goes along with the
+    /// state. Never of fixed steps, for which no error is allowed.
     #[inline(always)]
-    fn goes_on(&mut self) -> T::Mask {
+    fn moves_alike(&mut self) -> T::Mask {
         if self.allowed.is_empty() {
             return T::Mask::of_lanes(0);
         }
@@ -668,6 +676,21 @@ impl<'a, T: Several> Run<'a, T> {
         }
         let size = norm::<T>(&self.allowed, &self.step.y, &self.state);
         T::Part::from_f64(1.0).lt(size).not()
+    }
+
+    /// Which of these lanes, whose steps are cut to a part, go on all the same, because they stand still.
+    #[inline(always)]
+    fn going_on(&mut self, cut: T::Mask, part: T) -> T::Mask {
+        let mut going_on = 0;
+        for i in each(cut.lanes()).take_while(|i| *i < T::LANES) {
+            let [t, h, part] = [self.step.t, self.step.h, part].map(|x| x.lane(i).to_f64());
+            let finest = T::EPSILON / f64::EPSILON * finest(t);
+            let standing = &mut self.lanes[i].standing;
+            if standing.goes_on([part * h, h], finest, width::<T>()) {
+                going_on |= 1 << i;
+            }
+        }
+        T::Mask::of_lanes(going_on)
     }
 
     /// Gives up runs that take too many steps, or too long.
@@ -824,9 +847,9 @@ impl<'a, T: Several> Run<'a, T> {
                 let unstable = watch.unstable(i, status != Status::Done || !finite);
                 let unstable = unstable.map(|found| Doubt::Unstable(found.index));
                 let momentum = watch.momentum(i).then_some(Doubt::Momentum);
-                let unexplained = watch.unexplained(i).map(Doubt::Unexplained);
+                let errs = watch.error(i).map(Doubt::Error);
                 let energy = watch.energy(i).map(Doubt::Energy);
-                (unstable, energy.or(momentum).or(unexplained))
+                (unstable, energy.or(momentum).or(errs))
             }
             None => (None, None),
         };

@@ -65,8 +65,8 @@ pub enum Doubt {
     Energy(Option<usize>),
     /// The same of the momentum of what moves freely.
     Momentum,
-    /// A coordinate or a velocity is not what its rate within fixed steps makes of it: its entry of the state.
-    Unexplained(usize),
+    /// Fixed steps err by too much, as estimated along with them: the entry of the state that was farthest off when this began.
+    Error(usize),
 }
 
 /// Whether a run reached its end.

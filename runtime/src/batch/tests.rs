@@ -5,6 +5,7 @@ use super::{Ended, Fixed, Method, Pace, STEPS_BETWEEN, Scenarios, Series, Settin
 use crate::real::lanes::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
 use crate::response::Response;
 use crate::simulate::{Settings as Single, simulate};
+use crate::test_models::Ledge;
 use crate::{
     Compiled, Dual, Formula, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind,
     Tolerances,
@@ -157,6 +158,7 @@ impl<T: Real> Bumper<T> {
 }
 
 const BUMPER: Compiled<Bumper> = Compiled::new();
+const LEDGE: Compiled<Ledge> = Compiled::new();
 const SWING: Compiled<Swing> = Compiled::new();
 
 /// Rows of parameters, and what became of them.
@@ -240,6 +242,61 @@ impl<F: Real> OfAnyWidth<F> for Values<'_> {
         let runs = rows.all().into_iter();
         runs.map(|(ended, values)| (ended, as_doubles(values)))
             .collect()
+    }
+}
+
+/// Runs without parameters and outputs.
+struct Ends(Vec<Option<Ended>>);
+
+impl<S: Real> Scenarios<S> for Ends {
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+    fn parameter(&self, _: usize, _: usize) -> S {
+        unreachable!("there are none")
+    }
+    fn level(&self, _: usize) -> f64 {
+        1.0
+    }
+    fn outputs(&self) -> &[usize] {
+        &[]
+    }
+    fn ended(&mut self, scenario: usize, ended: &Ended, _: &Series<S>) {
+        self.0[scenario] = Some(*ended);
+    }
+}
+
+struct Ledges<'a>(&'a Settings);
+
+impl<F: Real> OfAnyWidth<F> for Ledges<'_> {
+    type Output = Vec<Option<Ended>>;
+    fn run<T: Several<One = F>>(self) -> Self::Output {
+        let mut ends = Ends(vec![None; 11]);
+        run::<T>(&LEDGE, self.0, &mut ends);
+        ends.0
+    }
+}
+
+/// As of single runs: a guard that jumps where a run stands would cut every step down to nothing, for ever.
+#[test]
+fn a_guard_that_jumps_where_a_lane_stands_does_not_stop_it() {
+    let rk4 = |step| fixed(Method::Rk4, step).pace;
+    for pace in [adaptive().pace, rk4(0.01), rk4(0.5)] {
+        let settings = Settings {
+            duration: 10.0,
+            samples: 21,
+            max_steps: 200_000,
+            ..settings(pace)
+        };
+        for width in [Width::One, Width::Four, Width::Eight] {
+            let doubles = with_width(width, Ledges(&settings));
+            let singles = with_width_of_singles(width, Ledges(&settings));
+            for ended in doubles.into_iter().chain(singles).flatten() {
+                let ended = ended.unwrap();
+                assert_eq!((ended.status, ended.t), (Status::Done, 10.0), "{ended:?}");
+                assert!(ended.steps > 100, "{ended:?}");
+            }
+        }
     }
 }
 
@@ -564,7 +621,7 @@ fn finals(settings: Settings, varied: usize, estimate: bool) -> Job {
 }
 
 #[test]
-fn fixed_steps_converge_with_their_order_and_estimates_tell_the_error() {
+fn fixed_steps_have_their_order_and_estimate_their_error() {
     // at 0.7 s, near ωt = 3π/4, neither phase nor amplitude of any of them hides its error
     let frequencies: Vec<f64> = (0..11).map(|i| 3.2 + 0.03 * f64::from(i)).collect();
     let found = |method, step| {
@@ -597,7 +654,7 @@ fn fixed_steps_converge_with_their_order_and_estimates_tell_the_error() {
 }
 
 #[test]
-fn over_kinks_the_error_falls_like_the_step_or_faster_and_no_more_is_taken_for_granted() {
+fn the_error_estimate_over_kinks_assumes_first_order() {
     let all: Vec<f64> = scenarios(24).concat();
     let found = |step, estimate| {
         let settings = fixed(Method::Rk4, step);

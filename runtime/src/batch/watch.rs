@@ -3,13 +3,15 @@
 //! estimate of their error.
 
 use super::run::{Run, Section, each, replace};
-use super::settings::{Fixed, Pace};
+use super::settings::{Fixed, Method, Pace};
+use super::step::Step;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::balance::{NODES, Rule};
 use crate::simulate::watch::account::{
-    Account, Energies, Entry, Explained, GAUSS, Stability, Unstable, WEIGHT_OF_GAUSS, rate_squared,
+    Account, Energies, Entry, Stability, Unstable, rate_squared,
 };
+use crate::simulate::watch::error::{Errors, Estimated, GAUSS};
 use crate::{Info, Real, StateKind};
 
 /// How powers are summed up: fixed steps may be as long as they like.
@@ -25,18 +27,22 @@ pub(super) struct Watch<T: Several> {
     stability: [Stability; MOST_LANES],
     /// The effect whose power was largest when energy began to be missing in each lane.
     effect: [Option<usize>; MOST_LANES],
-    /// The entry of the state that was farthest off when the motion of each lane began to be unexplained.
-    unexplained: [usize; MOST_LANES],
+    errors: [Errors; MOST_LANES],
     /// Kinetic energy at the start, and where the last step ended \[J\].
     kinetic: [OfLanes; 2],
     /// Work of each effect \[J\].
     works: Box<[OfLanes]>,
     /// Momentum at the start, what forces gave, and the sum of their magnitudes.
     momentum: [[OfLanes; 3]; 6],
-    /// What each entry has changed by beyond what its rate gives; nothing where nothing may begin to act.
-    owed: Box<[OfLanes]>,
-    /// Derivatives within the step.
-    rates: [Box<[T]>; GAUSS.len()],
+    /// The start, how far each entry is off by the estimate, what the step leaves unexplained of it, and a derivative.
+    start: Box<[T]>,
+    error: Box<[T]>,
+    defect: Box<[T]>,
+    rates: Box<[T]>,
+    /// A step from the corrected solution.
+    corrected: Step<T>,
+    /// Whether coordinates may change their charts.
+    charts: bool,
     /// In which lanes the exchange at the beginning of the step is known.
     known: T::Mask,
     /// Powers of all effects and forces on what is free at the nodes of the step, and at any place.
@@ -52,23 +58,23 @@ const ANY: usize = NODES;
 
 impl<T: Several> Watch<T> {
     /// Of a model, with the share of energy and momentum that may be missing.
-    fn new(info: &Info, limit: f64) -> Self {
+    fn new(info: &Info, method: Method, limit: f64) -> Self {
         let zeros = |length: usize| vec![T::from_f64(0.0); length].into_boxed_slice();
         let entries = info.state_length();
         Watch {
             account: [Account::new(limit); MOST_LANES],
             stability: [Stability::NONE; MOST_LANES],
             effect: [None; MOST_LANES],
-            unexplained: [0; MOST_LANES],
+            errors: [Errors::new(limit); MOST_LANES],
             kinetic: [[0.0; MOST_LANES]; 2],
             works: vec![[0.0; MOST_LANES]; info.powers.len()].into_boxed_slice(),
             momentum: [[[0.0; MOST_LANES]; 3]; 6],
-            owed: match info.onsets.is_empty() {
-                true => Box::default(),
-                false => vec![[0.0; MOST_LANES]; info.coordinates.len() + info.velocities.len()]
-                    .into_boxed_slice(),
-            },
-            rates: core::array::from_fn(|_| zeros(entries)),
+            start: zeros(entries),
+            error: zeros(entries),
+            defect: zeros(entries),
+            rates: zeros(entries),
+            corrected: Step::new(method, entries),
+            charts: info.memory.iter().any(|name| name.ends_with(": chart")),
             known: T::Mask::of_lanes(0),
             powers: core::array::from_fn(|_| zeros(info.powers.len())),
             external_wrenches: [[T::from_f64(0.0); 6]; NODES + 1],
@@ -80,7 +86,10 @@ impl<T: Several> Watch<T> {
 
     /// One where steps are fixed.
     pub(super) fn of(info: &Info, pace: &Pace, limit: f64) -> Option<Box<Self>> {
-        matches!(pace, Pace::Fixed(_)).then(|| Box::new(Watch::new(info, limit)))
+        match pace {
+            Pace::Fixed(Fixed { method, .. }) => Some(Box::new(Watch::new(info, *method, limit))),
+            Pace::Adaptive(_) => None,
+        }
     }
 
     /// Since when a lane is above the limit of stability, for whatever reason its run ended.
@@ -93,10 +102,9 @@ impl<T: Several> Watch<T> {
         self.account[lane].energy().map(|_| self.effect[lane])
     }
 
-    /// Whether the motion of a lane is not what its rates make of it: the entry of the state.
-    pub(super) fn unexplained(&self, lane: usize) -> Option<usize> {
-        let since = self.account[lane].unexplained();
-        since.map(|_| self.unexplained[lane])
+    /// Whether a lane errs by too much, as estimated: the entry of the state.
+    pub(super) fn error(&self, lane: usize) -> Option<usize> {
+        self.errors[lane].found().map(|(_, index)| index)
     }
 
     /// Whether momentum is missing in the balance of a lane.
@@ -163,6 +171,13 @@ impl<T: Several> Run<'_, T> {
             return;
         };
         watch.known = watch.known.and(going.not()).or(same.and(going));
+        if watch.charts {
+            // the coordinates may be others
+            let elsewhere = going.and(same.not());
+            for error in &mut watch.error {
+                *error = T::select(elsewhere, T::from_f64(0.0), *error);
+            }
+        }
         let [first, .., last, _] = &mut watch.powers;
         replace(same, first, last);
         let [first, .., last, _] = &mut watch.external_wrenches;
@@ -220,16 +235,22 @@ impl<T: Several> Run<'_, T> {
             (of_one, model.momentum(t, y))
         });
         let limit = self.settings.energy_limit;
-        watch.known = watch.known.and(T::Mask::of_lanes(lanes).not());
+        let fresh = T::Mask::of_lanes(lanes);
+        watch.known = watch.known.and(fresh.not());
+        replace(fresh, &mut watch.start, y);
+        for error in &mut watch.error {
+            *error = T::select(fresh, T::from_f64(0.0), *error);
+        }
         for lane in each(lanes).take_while(|lane| *lane < T::LANES) {
             let of = |value: T| value.lane(lane).to_f64();
             watch.stability[lane] = Stability::NONE;
             watch.effect[lane] = None;
             let kinetic = of(energy);
             (watch.kinetic[0][lane], watch.kinetic[1][lane]) = (kinetic, kinetic);
-            for sum in watch.works.iter_mut().chain(&mut watch.owed) {
+            for sum in &mut watch.works {
                 sum[lane] = 0.0;
             }
+            watch.errors[lane] = Errors::new(limit);
             let account = &mut watch.account[lane];
             *account = Account::new(limit);
             account.open(kinetic, 0.0);
@@ -309,47 +330,56 @@ impl<T: Several> Run<'_, T> {
                 }
             }
         }
-        if !watch.owed.is_empty() {
-            self.explain(watch, lanes, part);
-        }
+        self.estimate_error(watch, accepted, part);
         for lane in each(lanes) {
             let kinetic = kinetic.lane(lane).to_f64();
             self.close(watch, lane, kinetic, momentum);
         }
     }
 
-    /// Whether the motion in the steps of these lanes, of which the first `part` counts, is what its rates within them give.
+    /// Carries the estimate of the error over the steps of these lanes, of which the first `part` counts.
     #[inline(always)]
-    fn explain(&mut self, watch: &mut Watch<T>, lanes: u32, part: T) {
+    fn estimate_error(&mut self, watch: &mut Watch<T>, accepted: T::Mask, part: T) {
         let model = &*self.models.all;
-        for (x, rates) in GAUSS.into_iter().zip(&mut watch.rates) {
+        let length = part * self.step.h;
+        for (i, defect) in watch.defect.iter_mut().enumerate() {
+            *defect = self.end[i] - self.step.y[i];
+        }
+        for (x, weight) in GAUSS {
             let theta = part * T::from_f64(x);
             self.step.inside(model, theta, &mut self.state);
             let t = theta * self.step.h + self.step.t;
-            model.derivative(t, &self.state, rates);
+            model.derivative(t, &self.state, &mut watch.rates);
+            let weight = T::from_f64(weight) * length;
+            for (defect, rate) in watch.defect.iter_mut().zip(&watch.rates) {
+                *defect += -(weight * *rate);
+            }
         }
-        let whole = part * self.step.h;
-        let length = whole * T::from_f64(WEIGHT_OF_GAUSS);
+        let step = &mut watch.corrected;
+        (step.t, step.h, step.latest) = (self.step.t, length, self.step.latest);
+        for ((state, y), error) in step.y.iter_mut().zip(&self.step.y).zip(&watch.error) {
+            *state = *y - *error;
+        }
+        model.normalize(&mut step.y);
+        let [first, ..] = &mut step.k;
+        model.derivative(step.t.min(step.latest), &step.y, first);
+        step.take(model);
+        let integrated = self.info.varying_length();
+        for (i, error) in watch.error.iter_mut().enumerate().take(integrated) {
+            let found = self.end[i] - (step.end[i] - watch.defect[i]);
+            *error = T::select(accepted, found, *error);
+        }
         let coordinates = self.info.coordinates.len();
-        let [first, second] = &watch.rates;
-        for (i, owed) in watch.owed.iter_mut().enumerate() {
-            let given = length * (first[i] + second[i]);
-            let owes = self.end[i] - self.step.y[i] - given;
-            for lane in each(lanes) {
-                // of coordinates in this step alone
-                let before = if i < coordinates { 0.0 } else { owed[lane] };
-                owed[lane] = before + owes.lane(lane).to_f64();
-            }
-        }
-        for lane in each(lanes) {
-            let entry = |i: usize| Explained {
-                value: self.end[i].lane(lane).to_f64(),
-                owed: watch.owed[i][lane],
+        for lane in each(accepted.lanes()).take_while(|lane| *lane < T::LANES) {
+            let of = |value: T| value.lane(lane).to_f64();
+            let entry = |i: usize| Estimated {
+                size: match i < coordinates {
+                    true => of(self.end[i] - watch.start[i]),
+                    false => of(self.end[i]),
+                },
+                error: of(watch.error[i]),
             };
-            let span = [self.step.t, whole].map(|time| time.lane(lane).to_f64());
-            if let Some(index) = watch.account[lane].explain(span, self.info, entry) {
-                watch.unexplained[lane] = index;
-            }
+            watch.errors[lane].observe(of(self.step.t), self.info, entry);
         }
     }
 

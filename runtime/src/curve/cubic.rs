@@ -1,40 +1,40 @@
-//! Smooth functions through points, piece by piece a cubic of given slopes m at both ends (Hermite):
+//! Smooth functions through points. Each piece is a cubic with given slopes m at both ends (Hermite):
 //!
 //! y(x) = y_k + m_k s + c₂ s² + c₃ s³,   s = x − x_k,   h c₂ = 3Δ − 2 m_k − m_{k+1},   h² c₃ = m_k + m_{k+1} − 2Δ
 //!
-//! with h the length and Δ the secant of the piece. The slopes come with the points: whoever makes the curve chooses them
-//! such that it is monotone where the points are (Fritsch and Carlson 1980).
+//! where h is the length and Δ the secant of the piece. The slopes are given with the points. The caller chooses them such that the curve is
+//! monotone where the points are (Fritsch and Carlson 1980).
 
 use super::stop::{Searched, stop};
 use super::zigzag::{rounding, zigzag};
 use super::{Extrapolate, candidates, guard, kink};
 use crate::real::Real;
 
-/// A piecewise cubic function through `N` points, continuous with its slope.
+/// A piecewise cubic function through `N` points, continuous together with its slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cubic<const N: usize> {
     /// Abscissae and ordinates.
     points: [[f64; 2]; N],
-    /// m, c₂, c₃ of the piece to the right of each point; the last one is that of the extrapolation.
+    /// m, c₂, c₃ of the piece to the right of each point. The last entry is that of the extrapolation.
     coefficients: [[f64; 3]; N],
     /// Slope to the left of the first point.
     slope_before: f64,
-    /// At each point, ∫ and ∬ of the curve from the first one.
+    /// ∫ and ∬ of the curve from the first point to each point.
     integrals: [[f64; 2]; N],
-    /// The abscissae at which the curve is not smooth: the first so many.
+    /// The abscissae at which the curve is not smooth, and how many of the entries are used.
     kinks: ([f64; N], usize),
     extrapolate: Extrapolate,
 }
 
-/// Halvings that find a root to the last digit of a piece.
+/// Number of halvings that find a root to the last digit of a piece.
 const HALVINGS: usize = 54;
 
 impl<const N: usize> Cubic<N> {
-    /// The curve through points (x, y) of increasing x, with the slope m at each: `[x, y, m]`.
+    /// Makes the curve through points (x, y), x increasing, with the slope m at each: `[x, y, m]`.
     ///
     /// # Panics
-    /// With fewer than two points, a number that is not finite, or abscissae that do not increase. In a `const`, where
-    /// generated code keeps its curves, that is an error of compilation.
+    /// With fewer than two points, with a number that is not finite, or with abscissae that do not increase. Generated code keeps its curves
+    /// in `const`s, where this is an error of compilation.
     pub const fn new(given: [[f64; 3]; N], extrapolate: Extrapolate) -> Self {
         let (mut points, mut integrals) = ([[0.0; 2]; N], [[0.0; 2]; N]);
         let (mut coefficients, mut kinks) = ([[0.0; 3]; N], [0.0; N]);
@@ -68,20 +68,20 @@ impl<const N: usize> Cubic<N> {
         }
     }
 
-    /// Ordinate at `x`: exact at the points, NaN for NaN.
+    /// Ordinate at `x`: exact at the points; NaN where `x` is NaN.
     #[inline(always)]
     pub fn value<T: Real>(&self, x: T) -> T {
         self.cubics().value(x)
     }
 
-    /// Slope at `x`; NaN for NaN.
+    /// Slope at `x`; NaN where `x` is NaN.
     #[inline(always)]
     pub fn slope<T: Real>(&self, x: T) -> T {
         self.cubics().slope(x)
     }
 
-    /// Second derivative at `x`: at a point that of the piece to the right, at the last point of a curve that must not be
-    /// left that of the last piece; NaN for NaN.
+    /// Second derivative at `x`. At a point it is that of the piece to the right; at the last point of a curve that must not be left, that
+    /// of the last piece. NaN where `x` is NaN.
     #[inline(always)]
     pub fn second_derivative<T: Real>(&self, x: T) -> T {
         self.cubics().second_derivative(x)
@@ -99,50 +99,50 @@ impl<const N: usize> Cubic<N> {
         self.cubics().double_integral(x)
     }
 
-    /// The smallest x on a rising piece with value(x) = `y`, NaN where there is none; of a curve that is monotone between
-    /// its points. Halving finds the last digits of a double, and two of Newton's steps those of other scalars and derivatives.
+    /// The smallest x on a rising piece with value(x) = `y`; NaN where there is none. The curve must be monotone between its points.
+    /// Bisection finds all digits of a double, then two Newton steps find those of other scalars and the derivatives.
     #[inline(always)]
     pub fn inverse<T: Real>(&self, y: T) -> T {
         self.cubics().inverse(y)
     }
 
-    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never does. A velocity of 0
-    /// counts from where it is not 0. Of a curve that is monotone between its points.
+    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never does. Where the
+    /// velocity is 0 at first, the search begins where it no longer is. The curve must be monotone between its points.
     #[inline(always)]
     pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
         self.cubics().stop(velocity, factor)
     }
 
-    /// A function whose sign changes where the curve is not smooth: of slope ±1, its magnitude the distance to the nearest
-    /// such point, and 1 where there is none. NaN for NaN alone.
+    /// The breakpoint indicator: a function whose sign changes where the curve is not smooth. Its slope is ±1 and its magnitude is the
+    /// distance to the nearest such point; it is 1 where there is none. NaN only where `x` is NaN.
     #[inline(always)]
     pub fn zigzag<T: Real>(&self, x: T) -> T {
         zigzag(self.cubics().kinks, x)
     }
 
-    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane, for all of them, with its derivatives;
-    /// +∞ where none is left.
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this time, each with its own
+    /// derivatives. +∞ where no point is left.
     pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
         kink::after(&self.points, |point| point[0], rate, t)
     }
 }
 
-/// The parts of a piecewise cubic function, as many of each as points, wherever they are kept.
+/// The parts of a piecewise cubic function, wherever they are stored. Each part has one entry for each point.
 #[derive(Clone, Copy)]
 pub(super) struct Cubics<'a> {
     pub points: &'a [[f64; 2]],
-    /// m, c₂, c₃ of the piece to the right of each point; the last one is that of the extrapolation.
+    /// m, c₂, c₃ of the piece to the right of each point. The last entry is that of the extrapolation.
     pub coefficients: &'a [[f64; 3]],
     /// Slope to the left of the first point.
     pub slope_before: f64,
-    /// At each point, ∫ and ∬ from the first one.
+    /// ∫ and ∬ from the first point to each point.
     pub integrals: &'a [[f64; 2]],
-    /// The abscissae at which it is not smooth, increasing.
+    /// The abscissae at which the function is not smooth, increasing.
     pub kinks: &'a [f64],
     pub extrapolate: Extrapolate,
 }
 
-/// Fills in the parts that follow from points and slopes, `[x, y, m]`. Returns the slope before the first point and the number of kinks.
+/// Computes the parts that follow from points and slopes, `[x, y, m]`. Returns the slope before the first point and the number of kinks.
 ///
 /// # Panics
 /// With fewer than two points, a number that is not finite, or abscissae that do not increase.
@@ -186,7 +186,7 @@ pub(super) const fn fill(
     coefficients[count - 1] = match extrapolate {
         Extrapolate::Linear => [given[count - 1][2], 0.0, 0.0],
         Extrapolate::Hold => [0.0; 3],
-        // the last point still belongs to the curve, with its slope and bend from the left
+        // the last point still belongs to the curve: it keeps slope and second derivative of the last piece
         Extrapolate::Error => {
             let h = given[count - 1][0] - x;
             let end = m + h * (2.0 * c2 + 3.0 * h * c3);
@@ -268,7 +268,7 @@ impl Cubics<'_> {
                 x,
             );
         }
-        // from the right, so that the leftmost piece is the one that stays
+        // from right to left, so that the leftmost piece is kept
         let mut chosen = [nowhere; 6];
         for k in (0..self.points.len() - 1).rev() {
             let ([x_k, y_k], [x_next, y_next]) = (self.points[k], self.points[k + 1]);
@@ -289,7 +289,7 @@ impl Cubics<'_> {
         x + y.taint()
     }
 
-    /// Where a velocity comes to rest: [`Cubic::stop`].
+    /// The time of rest: [`Cubic::stop`].
     #[inline(always)]
     pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
         let searched = Searched {
@@ -335,7 +335,7 @@ impl Cubics<'_> {
         [once, twice]
     }
 
-    /// Of the results of all pieces the one that holds at `x`.
+    /// Chooses among the results of all pieces the one that holds at `x`.
     #[inline(always)]
     fn choose<T: Real>(&self, x: T, of: impl Fn(usize) -> T) -> T {
         let (first, last) = candidates(self.points.len(), |k| self.points[k][0], x);
@@ -346,7 +346,7 @@ impl Cubics<'_> {
         guard(self.points, self.extrapolate, x, y)
     }
 
-    /// Piece 0 lies left of the first point, piece k + 1 right of point k: s, y_k and the coefficients.
+    /// s = x − x_k, y_k and the coefficients of a piece. Piece 0 lies left of the first point, piece k + 1 right of point k.
     #[inline(always)]
     fn piece<T: Real>(&self, piece: usize, x: T) -> (T, f64, [f64; 3]) {
         let [x_k, y_k] = self.points[piece.saturating_sub(1)];
@@ -358,7 +358,7 @@ impl Cubics<'_> {
     }
 }
 
-/// The points at which the second derivative changes, or where the curve is left the slope. Returns how many these are.
+/// Finds the points at which the second derivative changes, and the ends of a held curve where the slope changes. Returns their number.
 const fn find_kinks(
     given: &[[f64; 3]],
     points: &[[f64; 2]],
@@ -367,7 +367,7 @@ const fn find_kinks(
     kinks: &mut [f64],
 ) -> usize {
     let mut found = 0;
-    // of the piece to the left of each point: the second derivative at its end, and how far that may be off
+    // for the piece to the left of each point: the second derivative at its end, and a bound of its rounding error
     let (mut bend, mut off) = (0.0, 0.0);
     let mut k = 0;
     while k < given.len() {
@@ -401,7 +401,7 @@ const fn find_kinks(
     found
 }
 
-/// Where a rising piece `[x_k, y_k, m, c₂, c₃, h]` has the ordinate `y`.
+/// The abscissa at which a rising piece `[x_k, y_k, m, c₂, c₃, h]` has the ordinate `y`.
 #[inline(always)]
 fn solve<T: Real>([x_k, y_k, m, c2, c3, h]: [T; 6], y: T) -> T {
     let value = |s: T| c3.mul_add(s, c2).mul_add(s, m).mul_add(s, y_k);
@@ -412,7 +412,7 @@ fn solve<T: Real>([x_k, y_k, m, c2, c3, h]: [T; 6], y: T) -> T {
         low = T::select(below, middle, low);
         high = T::select(below, high, middle);
     }
-    // the first step is as good as a double, the second as its square, and so is then the derivative
+    // the first step has the accuracy of a double, the second its square; the derivative then has it, too
     let mut s = high;
     for _ in 0..2 {
         let slope = c::<T>(3.0).mul_add(c3 * s, c::<T>(2.0) * c2).mul_add(s, m);
@@ -435,7 +435,7 @@ mod tests {
     use crate::test_scalars::Pair;
     use crate::{DoubleDouble, Dual, Real};
 
-    /// x³ − 3x + 1 with its exact slopes: the pieces are the polynomial itself.
+    /// x³ − 3x + 1 with its exact slopes: each piece is the polynomial itself.
     const POINTS: [[f64; 3]; 4] = [
         [-2.0, -1.0, 9.0],
         [-1.0, 3.0, 0.0],
@@ -467,7 +467,7 @@ mod tests {
                     curve.double_integral(x),
                 ];
                 for (what, (ours, expected)) in ours.iter().zip(expected).enumerate() {
-                    // on the right of the last point another law holds, but where there is none
+                    // another law holds to the right of the last point, except where leaving the curve is an error
                     if last && curve != ERROR && (1..=2).contains(&what) {
                         continue;
                     }
@@ -499,7 +499,7 @@ mod tests {
             assert!(ERROR.value(x).is_nan() && ERROR.slope(x).is_nan());
             assert!(ERROR.second_derivative(x).is_nan() && ERROR.integral(x).is_nan());
         }
-        // the line of slope 15.75 from 9.125
+        // the line continues with slope 15.75 from 9.125
         let gained: f64 = LINEAR.integral(3.5) - LINEAR.integral(2.5);
         assert!((gained - (9.125 + 15.75 / 2.0)).abs() <= 1e-13, "{gained}");
     }
@@ -558,8 +558,8 @@ mod tests {
             near(slope.slope, c(6.0) * x, bound);
             near(LINEAR.second_derivative(x), c(6.0) * x, bound);
         }
-        // halving ends at 2⁻⁵⁴ of a piece, and each of Newton's steps squares that, the derivative a step behind, where
-        // the curve is not about to turn (at y = 3)
+        // bisection ends at 2⁻⁵⁴ of a piece, and each Newton step squares that error (of the derivative a step later), where the curve is
+        // not about to turn (at y = 3)
         for i in 1..=30 {
             let y = c(f64::from(i)) * c(0.3) - c(0.1) / c(3.0);
             let x = LINEAR.inverse(Dual::variable(y));

@@ -1,11 +1,13 @@
-//! When a curve of time passes its points, where its abscissa is `rate` · t, rate > 0: t_k = x_k / rate.
+//! When a curve of time passes its points: t_k = x_k / rate, where the abscissa of the curve is `rate` · t and rate >
+//! 0.
 //!
-//! A kink is the smallest representable time at which rate · t ≥ x_k as it is computed, so that a step that ends on it
-//! has its last stage on the left of the point and the next one its first on the right.
+//! A kink is the smallest representable time at which the computed rate · t is ≥ x_k. So a step that ends on it has
+//! its last stage on the left of the point, and the next step has its first stage on the right.
 
 use crate::real::{Mask, Real};
 
-/// The first kink after `t` in any lane, for all of them, with its derivatives; +∞ where none is left.
+/// The first kink after `t` in any lane. All lanes get this time, each with its own derivatives; +∞ where no kink is
+/// left.
 pub(super) fn after<T: Real, P>(points: &[P], abscissa: impl Fn(&P) -> f64, rate: T, t: f64) -> T {
     let mut next = f64::INFINITY;
     for point in points {
@@ -15,10 +17,10 @@ pub(super) fn after<T: Real, P>(points: &[P], abscissa: impl Fn(&P) -> f64, rate
         if !ahead.any() {
             continue;
         }
-        // of the lanes that have the point ahead the first one: `to_f64` takes the largest
+        // the earliest time of all lanes that have the point ahead: `to_f64` takes the largest, so times are negated
         let far = T::from_f64(f64::NEG_INFINITY);
         let mut time = -T::select(ahead, -(x / rate), far).to_f64();
-        // division and multiplication may disagree by a rounding or two
+        // division and multiplication may differ by one or two roundings
         let (one, none) = (T::from_f64(1.0), T::from_f64(0.0));
         let reached = |time: f64| {
             let there = T::select(before(time), none, one);
@@ -38,7 +40,7 @@ pub(super) fn after<T: Real, P>(points: &[P], abscissa: impl Fn(&P) -> f64, rate
     if next == f64::INFINITY {
         return T::from_f64(next);
     }
-    // d(x_k / rate) = −t_k d(rate) / rate; of the value, nothing changes
+    // d(x_k / rate) = −t_k d(rate) / rate; the value itself does not change
     let (nought, one) = (T::from_f64(0.0), T::from_f64(1.0));
     let moves = nought.lt(rate);
     let part = rate.frozen() / T::select(moves, rate, one);

@@ -1,26 +1,26 @@
-//! Piecewise linear functions, wherever their points are kept: what curves of a known and of an unknown number of points evaluate.
+//! Piecewise linear functions. Curves with a fixed number of points and tables of any length both evaluate these.
 
 use super::stop::{Searched, stop};
 use super::zigzag::rounding;
 use super::{Extrapolate, candidates, guard};
 use crate::real::Real;
 
-/// The parts of a piecewise linear function, as many of each as points.
+/// The parts of a piecewise linear function, wherever they are stored. Each part has one entry for each point.
 #[derive(Clone, Copy)]
 pub(super) struct Lines<'a> {
     pub points: &'a [[f64; 2]],
-    /// Slope to the right of each point; the last one is that of the extrapolation.
+    /// Slope to the right of each point. The last one is the slope of the extrapolation.
     pub slopes: &'a [f64],
     /// Slope to the left of the first point.
     pub slope_before: f64,
-    /// At each point, ∫ and ∬ from the first one.
+    /// ∫ and ∬ from the first point to each point.
     pub integrals: &'a [[f64; 2]],
-    /// The abscissae at which it is not smooth, increasing.
+    /// The abscissae at which the function is not smooth, increasing.
     pub kinks: &'a [f64],
     pub extrapolate: Extrapolate,
 }
 
-/// Fills in the parts that follow from the points. Returns the slope before the first point and the number of kinks.
+/// Computes the parts that follow from the points. Returns the slope before the first point and the number of kinks.
 ///
 /// # Panics
 /// With fewer than two points, a number that is not finite, or abscissae that do not increase.
@@ -58,7 +58,7 @@ pub(super) const fn fill(
     (slope_before, find_kinks(points, extrapolate, slopes, kinks))
 }
 
-/// Where the slope changes, and where a curve that is held is left. Returns how many these are.
+/// Finds the points where the slope changes, and the ends of a held curve. Returns their number.
 const fn find_kinks(
     points: &[[f64; 2]],
     extrapolate: Extrapolate,
@@ -130,7 +130,7 @@ impl Lines<'_> {
         to - from - slope * x
     }
 
-    /// Where a velocity comes to rest: [`Curve::stop`](super::Curve::stop).
+    /// The time of rest: [`Curve::stop`](super::Curve::stop).
     #[inline(always)]
     pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
         let searched = Searched {
@@ -185,7 +185,7 @@ impl Lines<'_> {
         let nowhere = T::from_f64(f64::NAN);
         let goes_on = matches!(self.extrapolate, Extrapolate::Linear);
 
-        // from the right, so that the leftmost solution is the one that stays
+        // from right to left, so that the leftmost solution is kept
         let mut x = nowhere;
         if self.slopes[self.points.len() - 2] > 0.0 {
             let [x_last, y_last] = self.points[self.points.len() - 1];
@@ -217,7 +217,7 @@ impl Lines<'_> {
         candidates(self.points.len(), |k| self.points[k][0], x)
     }
 
-    /// Piece 0 lies left of the first point, piece k + 1 right of point k.
+    /// The value on one piece: piece 0 lies left of the first point, piece k + 1 right of point k.
     #[inline(always)]
     fn piece<T: Real>(&self, piece: usize, x: T) -> T {
         let [x_k, y_k] = self.points[piece.saturating_sub(1)];
@@ -238,7 +238,7 @@ impl Lines<'_> {
         T::from_f64(self.points[k][0])
     }
 
-    /// Where the line of segment `k` has the ordinate `y`.
+    /// The abscissa at which the line of segment `k` has the ordinate `y`.
     #[inline(always)]
     fn solve<T: Real>(&self, k: usize, y: T) -> T {
         let [x_k, y_k] = self.points[k];
@@ -251,7 +251,7 @@ impl Lines<'_> {
         self.guard(x, x.taint())
     }
 
-    /// NaN outside a curve that must not be left.
+    /// The value `y`, but NaN outside a curve that must not be left.
     #[inline(always)]
     fn guard<T: Real>(&self, x: T, y: T) -> T {
         guard(self.points, self.extrapolate, x, y)

@@ -1,36 +1,36 @@
-//! When what a curve of time accelerates comes to rest: the first x > 0 at which v(x) = velocity + factor · ∫₀ˣ of the curve is 0.
+//! When a body that a curve of time accelerates comes to rest: the first x > 0 at which v(x) = velocity + factor · ∫₀ˣ of the curve is 0.
 //!
-//! The search goes piece by piece, and each piece is divided where the curve changes its sign. The curve is monotone in a piece, so there is one
-//! such place at most; v is monotone on either side of it and has one root at most there, which is found by halving. The search is in
-//! doubles, lane by lane, of additions and products rounded one by one: it gives the same bits for every scalar on every machine. Two of
-//! Newton's steps then find the digits and the derivatives that the scalar has.
+//! The search goes from piece to piece and divides each piece where the curve changes its sign. The curve is monotone in a piece, so there is at
+//! most one such place. On either side of it v is monotone and has at most one root, which bisection finds. The search uses doubles, lane by
+//! lane, and rounds each addition and product, so every scalar gets the same bits on every machine. Two Newton steps then find the digits and
+//! the derivatives that the scalar has.
 //!
-//! Where v turns back within rounding of 0 without crossing it, it has reached 0. The curve is 0 there, so the place depends on neither
-//! velocity nor factor, and has no derivatives. A velocity of 0 at the beginning is none that was reached: it counts from where v is
-//! not 0.
+//! If v turns back within rounding of 0 without crossing it, it has reached 0. The curve is 0 there, so the place depends on neither velocity
+//! nor factor and has no derivatives. A velocity that is 0 at the beginning does not count as reached: the search starts where v is no longer 0.
 
 use super::Extrapolate;
 use crate::real::{Mask, Real};
 
-/// What v may differ from 0 by where it turns back, relatively to all that it was made of: a few roundings in each of some pieces.
+/// How far v may be from 0 where it turns back, relative to the magnitudes that it was summed from: a few roundings in each of some pieces.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// How far Newton's steps go at most, relatively: they are roundings. Where v is so flat that they are more, the place is known no better.
+/// The largest relative change by Newton's steps: they only correct rounding. Where v is so flat that they would be longer, the place is not
+/// known better.
 const FAR: f64 = 1e-3;
 
-/// Where v reaches 0.
+/// The place where v reaches 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stop {
     x: f64,
-    /// It goes through 0; otherwise it turns back there, or stays.
+    /// Whether v goes through 0. Otherwise v turns back there, or stays at 0.
     crosses: bool,
 }
 
-/// The curve as the search sees it.
+/// The curve, as the search needs it.
 pub(super) struct Searched<'a> {
     pub points: &'a [[f64; 2]],
     pub extrapolate: Extrapolate,
-    /// Slope and higher coefficients of a piece about its point: piece 0 lies left of the first point, piece k + 1 right of point k.
+    /// Slope and higher coefficients of a piece, about its point: piece 0 lies left of the first point, piece k + 1 right of point k.
     pub coefficients: &'a dyn Fn(usize) -> [f64; 3],
 }
 
@@ -75,7 +75,7 @@ pub(super) fn stop<T: Real>(
 }
 
 impl Searched<'_> {
-    /// The first stop of a velocity; `None` where it never reaches 0, or the curve is left before.
+    /// The first stop, in doubles; `None` where v never reaches 0, or where the argument leaves the curve before.
     #[inline(never)]
     fn first(&self, velocity: f64, factor: f64) -> Option<Stop> {
         if !velocity.is_finite() || !factor.is_finite() || factor == 0.0 {
@@ -134,19 +134,19 @@ impl Searched<'_> {
     }
 }
 
-/// What was gone through, up to where the search is.
+/// The state of the search, up to the current place.
 struct Walk {
     velocity: f64,
-    /// Of the velocity ever since it was not 0; 0 before.
+    /// The sign that the velocity has had since it was not 0; 0 before.
     sign: f64,
-    /// The sum of the magnitudes of all that the velocity was made of.
+    /// The sum of the magnitudes of all terms of the velocity.
     size: f64,
-    /// It is 0 within rounding, and has not been for long.
+    /// Whether the velocity is 0 within rounding at the current place, and was not 0 before.
     near: bool,
 }
 
 impl Walk {
-    /// Goes over a part of a piece in which v is monotone.
+    /// Passes a part of a piece in which v is monotone.
     fn over(&mut self, piece: &Piece, from: f64, to: f64) -> Option<Stop> {
         let (begin, end) = (piece.integral(from), piece.integral(to));
         let gain = end - begin;
@@ -169,9 +169,9 @@ impl Walk {
         None
     }
 
-    /// Goes on to infinity, monotonously.
+    /// Passes the last part, which goes to infinity and in which v is monotone.
     fn for_ever(&self, piece: &Piece, from: f64) -> Option<Stop> {
-        // a line changes to the side of its slope, once it does not turn back
+        // the sign of a line far away is that of its slope, as its turn lies behind; without a slope it is that of its value
         let ahead = match piece.factor * piece.coefficients[0] {
             0.0 => piece.acceleration(from),
             slope => slope,
@@ -197,7 +197,7 @@ impl Walk {
         None
     }
 
-    /// Whether the velocity was 0 where a part begins, in which it changes to the side of `gain`.
+    /// The stop at the beginning of a part, if the velocity was 0 there. `gain` tells to which side the velocity changes in this part.
     fn reached(&self, gain: f64, from: f64) -> Option<Stop> {
         let turns_back = self.sign * gain >= 0.0;
         let is_there = turns_back || self.sign * self.velocity <= 0.0;
@@ -207,7 +207,7 @@ impl Walk {
         })
     }
 
-    /// Where v goes through 0, between these.
+    /// Where v goes through 0 between `from` and `to`.
     fn crossed(&self, piece: &Piece, from: f64, to: f64) -> Stop {
         let begin = piece.integral(from);
         let moves = |x: f64| self.sign * (self.velocity + (piece.integral(x) - begin)) > 0.0;
@@ -218,7 +218,7 @@ impl Walk {
     }
 }
 
-/// One polynomial of the curve.
+/// One polynomial of the curve, times the factor: an acceleration.
 struct Piece {
     x: f64,
     y: f64,
@@ -232,13 +232,13 @@ impl Piece {
         self.factor * (((c3 * s + c2) * s + m) * s + self.y)
     }
 
-    /// ∫ of the acceleration from the point of the piece.
+    /// ∫ of the acceleration from the point of the piece to `x`.
     fn integral(&self, x: f64) -> f64 {
         let ([m, c2, c3], s) = (self.coefficients, x - self.x);
         self.factor * (s * (self.y + s * (m / 2.0 + s * (c2 / 3.0 + s * c3 / 4.0))))
     }
 
-    /// Where the acceleration changes its sign between these, or the end. Beyond the outermost points it is a line.
+    /// Where the acceleration changes its sign between `from` and `to`; `to` where it does not. Beyond the outermost points it is a line.
     fn turn(&self, from: f64, to: f64) -> f64 {
         let begin = self.acceleration(from);
         if to == f64::INFINITY {
@@ -255,7 +255,8 @@ impl Piece {
     }
 }
 
-/// The end of `low` … `high` at which a condition first fails that holds at `low` and fails at `high`: halved until no number is left between.
+/// The smallest number in `low` … `high` at which a condition fails that holds at `low` and fails at `high`, by bisection until no number is
+/// left between.
 fn halve(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     loop {
         let middle = low + 0.5 * (high - low);
@@ -269,7 +270,7 @@ fn halve(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     }
 }
 
-/// −1, 0, 1.
+/// −1, 0 or 1.
 fn sign(x: f64) -> f64 {
     match x {
         x if x > 0.0 => 1.0,
@@ -289,7 +290,7 @@ mod tests {
     }
 
     const CONSTANT: Curve<2> = lines([[0.0, 1.0], [1.0, 1.0]], Extrapolate::Hold);
-    /// 0, up to 4 in 1, there for 2, down to 0 in 1: an area of 12.
+    /// From 0 up to 4 in 1, there for 2, down to 0 in 1: an area of 12.
     const TRAPEZOID: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 4.0], [3.0, 4.0], [4.0, 0.0]];
 
     #[test]
@@ -334,14 +335,14 @@ mod tests {
                 let x = pulse.stop(v, -1.0);
                 assert!((x - exact).abs() <= 8.0 * f64::EPSILON * exact, "{v}: {x}");
             }
-            // more than all of it
+            // more than the whole area
             assert_eq!(pulse.stop(12.5, -1.0), 0.0);
-            // just all of it: the last point, where the pulse ends
+            // exactly the whole area: it stops at the last point, where the pulse ends
             assert_eq!(pulse.stop(12.0, -1.0), 4.0);
             assert_eq!(pulse.stop(12.0 * (1.0 + f64::EPSILON), -1.0), 4.0);
             assert_eq!(pulse.stop(1.2, -0.1), 4.0);
         }
-        // Beyond the last point the line goes on below 0, so v rises again: what was left comes back, and nothing stops
+        // Beyond the last point the line goes on below 0, so v rises again: nothing stops
         let goes_on = lines(TRAPEZOID, Extrapolate::Linear);
         assert_eq!(goes_on.stop(13.0, -1.0), 0.0);
         // and in the other direction: from −13 it goes up to −1, and then down
@@ -356,7 +357,7 @@ mod tests {
 
     #[test]
     fn what_touches_0_stops_there() {
-        // brakes to 0 at 1, where it would be driven on: 1 − x + x²/4 … with the turn inside of a piece
+        // brakes until 1, where the acceleration changes its sign inside a piece
         let turns = lines([[0.0, -1.0], [2.0, 1.0]], Extrapolate::Hold);
         // v = v₀ − x + x²/2, lowest at 1 with v₀ − 1/2
         assert_eq!(turns.stop(0.5, 1.0), 1.0);
@@ -364,7 +365,7 @@ mod tests {
         assert_eq!(turns.stop(0.51, 1.0), 0.0);
         let x = turns.stop(0.48, 1.0);
         assert!((x - 0.8).abs() <= 1e-15, "{x}");
-        // its derivatives are none
+        // a place of turning back has no derivatives
         let x = turns.stop(Dual::variable(0.5), Dual::constant(1.0));
         assert_eq!((x.value, x.slope), (1.0, 0.0));
         // at a point of the curve

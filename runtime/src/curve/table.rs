@@ -6,7 +6,7 @@ use super::{Extrapolate, kink, zigzag};
 use crate::real::Real;
 use std::vec::Vec;
 
-/// A curve of any number of points: a [`Curve`](super::Curve) or a [`Cubic`](super::Cubic), with the same results to the last bit.
+/// A curve of any number of points, with the same results as a [`Curve`](super::Curve) or a [`Cubic`](super::Cubic) to the last bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     points: Vec<[f64; 2]>,
@@ -17,7 +17,7 @@ pub struct Table {
     extrapolate: Extrapolate,
 }
 
-/// What is between the points.
+/// The pieces between the points.
 #[derive(Clone, Debug, PartialEq)]
 enum Pieces {
     /// Lines, with their slopes.
@@ -26,7 +26,7 @@ enum Pieces {
     Cubics(Vec<[f64; 3]>),
 }
 
-/// A function of both kinds of curves.
+/// Functions that both kinds of curves have.
 macro_rules! functions {
     ($($(#[$text:meta])* $name:ident;)*) => {
         $(
@@ -43,10 +43,10 @@ macro_rules! functions {
 }
 
 impl Table {
-    /// Straight lines through points (x, y) of increasing x: [`Curve::new`](super::Curve::new).
+    /// Makes straight lines through points (x, y), x increasing: [`Curve::new`](super::Curve::new).
     ///
     /// # Panics
-    /// With fewer than two points, a number that is not finite, or abscissae that do not increase.
+    /// With fewer than two points, with a number that is not finite, or with abscissae that do not increase.
     pub fn of_lines(points: &[[f64; 2]], extrapolate: Extrapolate) -> Self {
         let count = points.len();
         let (mut slopes, mut kinks) = (vec![0.0; count], vec![0.0; count]);
@@ -64,10 +64,10 @@ impl Table {
         }
     }
 
-    /// Cubics through points (x, y) of increasing x with the slope m at each, `[x, y, m]`: [`Cubic::new`](super::Cubic::new).
+    /// Makes cubics through points (x, y), x increasing, with the slope m at each, `[x, y, m]`: [`Cubic::new`](super::Cubic::new).
     ///
     /// # Panics
-    /// With fewer than two points, a number that is not finite, or abscissae that do not increase.
+    /// With fewer than two points, with a number that is not finite, or with abscissae that do not increase.
     pub fn of_cubics(given: &[[f64; 3]], extrapolate: Extrapolate) -> Self {
         let count = given.len();
         let (mut points, mut integrals) = (vec![[0.0; 2]; count], vec![[0.0; 2]; count]);
@@ -116,17 +116,17 @@ impl Table {
     }
 
     functions! {
-        /// Ordinate at `x`: exact at the points, NaN for NaN.
+        /// Ordinate at `x`: exact at the points; NaN where `x` is NaN.
         value;
-        /// Slope at `x`; NaN for NaN.
+        /// Slope at `x`; NaN where `x` is NaN.
         slope;
-        /// Second derivative at `x`; NaN for NaN.
+        /// Second derivative at `x`; NaN where `x` is NaN.
         second_derivative;
         /// ∫ of the curve from 0 to `x`.
         integral;
         /// ∬ of the curve from 0 to `x`.
         double_integral;
-        /// The smallest x on a rising piece with value(x) = the argument, NaN where there is none.
+        /// The smallest x on a rising piece with value(x) = the argument; NaN where there is none.
         inverse;
     }
 
@@ -139,14 +139,14 @@ impl Table {
         }
     }
 
-    /// A function whose sign changes where the curve is not smooth.
+    /// The breakpoint indicator: a function whose sign changes where the curve is not smooth.
     #[inline(always)]
     pub fn zigzag<T: Real>(&self, x: T) -> T {
         zigzag::zigzag(&self.kinks, x)
     }
 
-    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane, for all of them, with its derivatives;
-    /// +∞ where none is left.
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this time, each with its
+    /// own derivatives. +∞ where no point is left.
     pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
         kink::after(&self.points, |point| point[0], rate, t)
     }

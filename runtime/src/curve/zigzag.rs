@@ -1,14 +1,14 @@
-//! Where a curve is not smooth, as a function whose sign changes there: continuous, of slope ±1, its magnitude the distance
-//! to the nearest such point.
+//! The breakpoint indicator of a curve: a continuous function of slope ±1 whose sign changes where the curve is not smooth. Its magnitude
+//! is the distance to the nearest such point.
 //!
-//! A point counts where the slope changes, of cubics also where the second derivative does, the outermost points where what
-//! lies beyond changes it. What rounding makes of points on a line does not count.
+//! A point counts where the slope changes, for cubics also where the second derivative changes. The outermost points count where the
+//! extrapolation changes them. Changes that are due to rounding alone do not count.
 
 use super::candidates;
 use crate::real::Real;
 
-/// The zigzag of a curve that is not smooth at these abscissae, which increase: positive left of the first one; 1 everywhere where there is
-/// none. NaN for NaN.
+/// The indicator of a curve that is not smooth at `kinks`, which increase. It is positive left of the first one, and 1 everywhere where
+/// there is none. NaN only where `x` is NaN.
 #[inline(always)]
 pub(super) fn zigzag<T: Real>(kinks: &[f64], x: T) -> T {
     if kinks.is_empty() {
@@ -22,7 +22,7 @@ pub(super) fn zigzag<T: Real>(kinks: &[f64], x: T) -> T {
     y
 }
 
-/// Piece 0 lies left of the first kink, piece k + 1 right of kink k.
+/// The value on one piece: piece 0 lies left of the first kink, piece k + 1 right of kink k.
 #[inline(always)]
 fn piece<T: Real>(kinks: &[f64], piece: usize, x: T) -> T {
     let distance = if piece == 0 {
@@ -44,7 +44,7 @@ fn before<T: Real>(kink: f64, x: T) -> T {
     T::from_f64(kink) - x
 }
 
-/// How far off the slope of a line through two points may be, as their coordinates are rounded.
+/// A bound of the error in the slope of a line through two points, due to the rounding of their coordinates.
 pub(super) const fn rounding([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
     let run = x1 - x0;
     let slope = ((y1 - y0) / run).abs();
@@ -108,13 +108,13 @@ mod tests {
         );
         let smooth = line.map(|[x, y]| [x, y, 3e4]);
         assert_eq!(Cubic::new(smooth, Extrapolate::Linear).zigzag(0.2), 1.0);
-        // held, it is left at both ends
+        // a held curve has kinks at both ends
         assert_eq!(Curve::new(line, Extrapolate::Hold).zigzag(0.25), -0.25);
     }
 
     #[test]
     fn of_cubics_the_bend_counts() {
-        // x³ with its slopes: one polynomial, which lines leave at 2 but not at 0, where it neither rises nor bends
+        // x³ with its slopes: one polynomial. At 2 a line continues differently, at 0 it does not: slope and second derivative are 0 there
         let cube = [[0.0, 0.0, 0.0], [1.0, 1.0, 3.0], [2.0, 8.0, 12.0]];
         let curve = Cubic::new(cube, Extrapolate::Linear);
         for x in [-3.0, 0.5, 1.0, 1.5, 2.0, 4.0] {

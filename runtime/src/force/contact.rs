@@ -2,10 +2,11 @@
 
 use crate::Real;
 
-/// Normal force \[N\] at `penetration` \[m\], of its elastic force and viscous force \[N\].
+/// Normal force \[N\] at `penetration` \[m\], given its elastic force and viscous force \[N\].
 ///
-/// The sum never pulls: damping may not hold back an ellipsoid that leaves. While apart the force is zero whatever the
-/// other arguments are, even NaN (a curve need not be defined for negative penetration); a NaN penetration gives NaN.
+/// The sum never pulls: damping must not hold back an ellipsoid that leaves. While the bodies are apart the force is
+/// 0, whatever the other arguments are, even NaN, because a curve need not be defined for negative penetration. A NaN
+/// penetration gives NaN.
 #[inline(always)]
 pub fn normal_force<T: Real>(penetration: T, elastic: T, viscous: T) -> T {
     let zero = T::from_f64(0.0);

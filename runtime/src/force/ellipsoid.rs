@@ -1,13 +1,14 @@
-//! How far an ellipsoid of even degree n reaches, Σ |x_i/a_i|ⁿ = 1: the norm dual to its own.
+//! The support function of an ellipsoid of even degree n, Σ |x_i/a_i|ⁿ = 1: how far it reaches in a direction. It is the dual
+//! norm.
 //!
-//! In the direction n, with s_i = a_i n_i and m = n/(n − 1): h = (Σ |s_i|^m)^(1/m), reached where x_i = a_i ∂h/∂s_i with
-//! ∂h/∂s_i = sign(s_i) (|s_i|/h)^(m−1). Of degree 2 it is √(Σ s_i²); of a high degree the body is nearly a box, and
+//! In the direction n, with s_i = a_i n_i and m = n/(n − 1): h = (Σ |s_i|^m)^(1/m). The furthest point has x_i = a_i ∂h/∂s_i with
+//! ∂h/∂s_i = sign(s_i) (|s_i|/h)^(m−1). For degree 2, h = √(Σ s_i²). For a high degree the body is nearly a box, and
 //! h nearly Σ |s_i|.
 
 use crate::Real;
 
-/// Below this part of the largest |s_i| an s_i counts as this part: a root of it is far less than rounding, and its
-/// derivative is finite.
+/// The smallest part of the largest |s_i| that counts: a smaller s_i is replaced by it. A root of it is far less than rounding,
+/// and its derivative is finite.
 const SMALLEST: f64 = 1e-200;
 
 /// \[h, ∂h/∂s_x, ∂h/∂s_y, ∂h/∂s_z\] of s = (`x`, `y`, `z`) \[m\], not all 0, with the exponent `power` = m, 1 < m ≤ 2.
@@ -16,7 +17,7 @@ pub fn support<T: Real>(x: T, y: T, z: T, power: T) -> [T; 4] {
     let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
     let s = [x, y, z];
     let size = s.map(T::abs);
-    // sizes are taken in parts of the largest, so that no power runs under or over
+    // relative to the largest one, so that no power overflows or underflows
     let largest = size[0].max(size[1]).max(size[2]);
     let part = size.map(|size| (size / largest).max(T::from_f64(SMALLEST)));
     let rest = part.map(|part| part.powf(power - one));
@@ -116,8 +117,8 @@ mod tests {
                     moving[along].slope = c(1.0);
                     let power = Dual::constant(c(power));
                     let [h, dx, dy, dz] = support(moving[0], moving[1], moving[2], power);
-                    // h is the sum of its slopes times s (Euler); powers of parts down to 10⁻²⁰⁰ are within 40 · 460 u², but their
-                    // part of the sum is that much smaller; those of parts above 10⁻⁹ within 40 · 21 u²
+                    // h is the sum of its slopes times s (Euler). Powers of parts down to 10⁻²⁰⁰ have errors up to 40 · 460 u²,
+                    // but these parts of the sum are that much smaller; powers of parts above 10⁻⁹ have errors up to 40 · 21 u²
                     let bound = 1024.0 * u2;
                     let d = [dx.value, dy.value, dz.value];
                     let euler = s[0] * d[0] + s[1] * d[1] + s[2] * d[2];

@@ -1,7 +1,7 @@
 //! Coulomb friction with a linear ramp through zero speed: F = −F_max · clamp(v/v_tol, −1, 1).
 //!
-//! The ramp makes the law a function of the state: below the tolerance speed friction is viscous, so a body at rest
-//! under load creeps, slower the smaller the tolerance.
+//! The ramp makes the law a function of the state. Below the tolerance speed the friction is viscous, so a body at rest
+//! under load creeps; the smaller the tolerance, the slower it creeps.
 
 use crate::Real;
 
@@ -17,8 +17,8 @@ pub fn coulomb<T: Real>(limit: T, speed: T, tolerance: T) -> T {
 /// The factor s of a friction force −s·v for a sliding velocity vector v: s = `limit`/√max(v², tolerance²).
 ///
 /// `limit` \[N\], not negative; `speed_squared` v² \[m²/s²\]; `tolerance` \[m/s\], positive; result \[N s/m\]. The force
-/// has the magnitude `limit` where |v| ≥ tolerance and falls linearly to zero at rest; the root is never taken of
-/// zero, so neither the value nor a derivative is undefined at rest.
+/// has the magnitude `limit` where |v| ≥ tolerance and falls linearly to zero at rest. The argument of the root is never
+/// zero, so the value and its derivatives are defined at rest.
 #[inline(always)]
 pub fn coulomb_scale<T: Real>(limit: T, speed_squared: T, tolerance: T) -> T {
     limit / speed_squared.max(tolerance * tolerance).sqrt()

@@ -1,9 +1,9 @@
 //! The constitutive laws of the force interactions (MADYMO 1980, "Force interaction models"): scalars in, scalars out.
 //!
-//! Where a force acts and in which direction is algebra, written out by the generator for each scene; what remains are
-//! the few functions with a case distinction in them. Every one is a lane-wise choice, carries a NaN of its arguments
-//! into its result (a curve that was left must stop the run, not vanish in a `max`), and has finite derivatives for
-//! finite arguments, so dual numbers pass through it.
+//! The generator writes out the algebra for each scene: where a force acts, and in which direction. Here are the few
+//! functions that distinguish cases. Each chooses lane by lane. Each passes a NaN of its arguments on to its result,
+//! because leaving a curve must stop the run and not vanish in a `max`. Each has finite derivatives for finite
+//! arguments, so dual numbers pass through it.
 
 pub mod approach;
 pub mod belt;

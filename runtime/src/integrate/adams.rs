@@ -1,29 +1,29 @@
-//! Steps of one length from the derivatives of the last six: the method of Adams and Bashforth of order 6, one evaluation a step.
+//! Steps of one length by the method of Adams and Bashforth of order 6. It uses the derivatives of the last six steps: one evaluation a step.
 //!
-//! y⁺ = y + h Σ bⱼ fⱼ,  f₀ = f(y) and fⱼ that of j steps before,  b = (4277, −7923, 9982, −7298, 2877, −475) / 1440   \[Bashforth and Adams 1883\]
+//! y⁺ = y + h Σ bⱼ fⱼ,  f₀ = f(y), fⱼ = f of j steps before,  b = (4277, −7923, 9982, −7298, 2877, −475) / 1440   \[Bashforth and Adams 1883\]
 //!
-//! The integral over the step ahead of the polynomial through six derivatives: exact where y is one of degree six, else off by
-//! 19087/60480 h⁷ y⁽⁷⁾. The first five steps are by Dormand & Prince's method of order 8. Beside the error of the method a step rounds an
-//! entry by ½ ε|y| to first order in h, and what the derivatives are rounded by counts Σ|bⱼ| = 23 times.
+//! This is the integral, over the step ahead, of the polynomial through six derivatives. It is exact where y is a polynomial of degree six;
+//! otherwise the error is 19087/60480 h⁷ y⁽⁷⁾. The first five steps use Dormand & Prince's method of order 8. In addition a step rounds an entry
+//! by ½ ε|y| to first order in h, and rounding errors of the derivatives count Σ|bⱼ| = 23 times.
 
 use super::{Rate, march_dop853};
 use crate::{Change, Model, Real, Task, Vector};
 
-/// Derivatives that a step is made of.
+/// Number of derivatives in a step.
 const ORDER: usize = 6;
-/// What they count, the latest first, times [`OVER`].
+/// The weights of the derivatives, the latest first, times [`OVER`].
 const WEIGHTS: [f64; ORDER] = [4277.0, -7923.0, 9982.0, -7298.0, 2877.0, -475.0];
 const OVER: f64 = 1440.0;
 
-/// Takes steps as [`march()`](super::march()) does, by the method of Adams and Bashforth of order 6: one evaluation each, and 13 in each of
-/// the first five, which are of order 8.
+/// Takes steps as [`march()`](super::march()) does, by the method of Adams and Bashforth of order 6. Each step takes one evaluation; the first
+/// five steps, which are of order 8, take 13 each.
 ///
-/// For smooth motions without stiff forces, in many steps that have to be short. Where they may be long,
-/// [`march_dop853`](super::march_dop853) takes fewer evaluations in all.
+/// It is for smooth motions without stiff forces, in many steps that have to be short. Where steps may be long,
+/// [`march_dop853`] takes fewer evaluations in all.
 ///
-/// What decays faster than 2/(h Σ|bⱼ|) = 0.0877/h grows instead (2.78/h by `march`), and so does what swings faster than 0.114/h (2.8/h), where
-/// a root of the recurrence other than that of the motion leaves the unit circle; slower swings that nothing damps grow by 0.8 (ωh)⁸ in a step.
-/// A kink costs it the order in six steps.
+/// Stability: a motion that decays faster than 2/(h Σ|bⱼ|) = 0.0877/h grows instead (2.78/h by `march`). So does an oscillation faster than
+/// 0.114/h (2.8/h), because another root of the recurrence leaves the unit circle. Slower undamped oscillations grow by 0.8 (ωh)⁸ in a step. A
+/// kink costs the method its order for six steps.
 ///
 /// ```
 /// # use bryant_runtime::{Real, Model, integrate::march_adams};
@@ -35,7 +35,8 @@ const OVER: f64 = 1440.0;
 /// ```
 ///
 /// # Panics
-/// With a model that has memory: switches, permanent sets, the charts of Bryant angles. Derivatives from before it changed are of another motion.
+/// With a model that has discrete states: switches, permanent sets, the charts of Bryant angles. Derivatives from before a change of them belong
+/// to another motion.
 #[inline(always)]
 pub fn march_adams<T: Real, M: Model<T>>(model: &M, t: T, h: T, steps: u32, y: &mut M::State) -> T {
     assert!(
@@ -74,7 +75,7 @@ impl<T: Real, M: Model<T>> Task for MarchAdams<'_, T, M, M::State> {
         let number = T::from_f64;
         // divided here, to the precision of any scalar
         let weights = WEIGHTS.map(|weight| h * number(weight) / number(OVER));
-        // that of step i is at i mod 6
+        // the derivative of step i stands at i mod 6
         let mut rates = [*y; ORDER];
         for step in 0..steps {
             let t = number(f64::from(step)) * h + start;
@@ -121,7 +122,7 @@ mod tests {
     use crate::DoubleDouble;
     use crate::test_models::{Counter, Kepler, Pendulum, Spin};
 
-    /// Σ bⱼ (−j)ᵐ = ∫₀¹ tᵐ dt for all degrees m up to five, in whole numbers, and off by 19087/60480 · 6! in the next.
+    /// Σ bⱼ (−j)ᵐ = ∫₀¹ tᵐ dt for all degrees m up to five, in whole numbers. For degree six it is off by 19087/60480 · 6!.
     #[test]
     fn the_weights_integrate_polynomials() {
         for degree in 0..=6_u32 {
@@ -135,7 +136,7 @@ mod tests {
         }
     }
 
-    /// The same steps as the formula has them.
+    /// The same steps, written as in the formula.
     fn textbook<T: Real, M: Model<T>>(model: &M, h: f64, steps: u32, y: &mut M::State) {
         let number = T::from_f64;
         let mut rates = Vec::new();
@@ -183,7 +184,7 @@ mod tests {
         all::<DoubleDouble>(f64::EPSILON * f64::EPSILON);
     }
 
-    /// With half the step the error falls by 2 to the order; a tenth of an order is left for higher terms.
+    /// Half the step divides the error by 2 to the order; a tenth of an order is left for higher terms.
     #[test]
     fn it_is_of_order_six() {
         let end = |steps: u32| {
@@ -202,7 +203,7 @@ mod tests {
         assert!((order - 6.0).abs() < 0.1, "{order}");
     }
 
-    /// How far y' = z y, from the exact solution, is from the circle or the decay that it should keep to after so many steps of length 1.
+    /// How far the numerical solution of y' = z y departs from the circle or the decay of the exact solution, after so many steps of length 1.
     fn growth([re, im]: [f64; 2], steps: u32) -> f64 {
         let times = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
         let exact = |j: f64| {
@@ -225,7 +226,7 @@ mod tests {
 
     #[test]
     fn decays_and_swings_are_kept_up_to_the_limits_that_are_said() {
-        // beyond a limit what rounding leaves of another root grows by 0.1 % a step or more: by e^50 in 50 000 at the least
+        // beyond a limit, rounding excites another root, which grows by 0.1 % a step or more: by at least e^50 in 50 000 steps
         let limit = OVER * 2.0 / WEIGHTS.iter().map(|w| w.abs()).sum::<f64>();
         assert!((limit - 0.0877).abs() < 5e-5, "{limit}");
         assert!(growth([-0.99 * limit, 0.0], 50_000) < 1e-9);
@@ -236,7 +237,7 @@ mod tests {
         for swing in [0.114, 0.1, 0.05] {
             let steps = 50_000;
             let grown = growth([0.0, swing], steps).ln() / f64::from(steps);
-            // the next term is of (ωh)¹⁰: some ten times (ωh)² of this one; and the root of a sum of roundings in each step
+            // the next term is of (ωh)¹⁰: about ten times (ωh)² of this one; then the root of the sum of a rounding in each step
             let told = 0.8 * swing.powi(8);
             let bound = 10.0 * swing * swing * told + f64::EPSILON;
             assert!((grown - told).abs() < bound, "{swing}: {grown:e} {told:e}");

@@ -1,25 +1,23 @@
-//! Control of the step: h⁺ = h · s · (err₋/err³)^(1/5k), the controller PI.4.2 (Söderlind 2003) for an estimate that falls
-//! like h^k.
+//! Step size control: h⁺ = h · s · (err₋/err³)^(1/5k), the controller PI.4.2 (Söderlind 2003) for an error estimate that falls like h^k.
 //!
-//! err is the largest ratio of estimated error to tolerance, err₋ that of the step before. The proportional part keeps
-//! steps from oscillating where stability and not accuracy bounds them, as in stiff contacts. Only basic arithmetic is
-//! used, so a run takes the same steps on every machine as long as the model gives the same derivatives.
+//! err is the largest ratio of estimated error to tolerance, and err₋ that of the step before. The proportional part keeps the step from oscillating
+//! where stability, not accuracy, limits it, as in stiff contacts. Only basic arithmetic is used, so a run takes the same steps on every machine if
+//! the model gives the same derivatives.
 
 use super::workspace::Workspace;
 use super::{Evaluator, combine};
 use crate::real::{Mask, Number};
 use crate::{Info, Real, StateKind};
 
-/// Error allowed in one step, for each entry of the state by what it is: absolute + relative · |y| of velocities and states of
-/// laws; of positions and angles the absolute part alone, for their size says only where the origin is, and how often
-/// something turned.
+/// The error allowed in one step, for each kind of entry of the state. For velocities and states of laws it is absolute + relative · |y|. For
+/// positions and angles it is the absolute part alone, because their size says only where the origin is and how often something turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
     /// Relative part, below 1.
     pub relative: f64,
     /// Absolute part of positions \[m\].
     pub positions: f64,
-    /// Absolute part of angles \[rad\] and components of quaternions, below 1, the size of the latter.
+    /// Absolute part of angles \[rad\] and of components of quaternions. It is below 1, the size of a quaternion.
     pub angles: f64,
     /// Absolute part of velocities \[m/s\].
     pub velocities: f64,
@@ -30,18 +28,18 @@ pub struct Tolerances {
 }
 
 impl Default for Tolerances {
-    /// [`Tolerances::of`] 10⁻⁷: outputs of crash scenes are then better than 0.1 % (docs/accuracy.md).
+    /// [`Tolerances::of`] 10⁻⁷. With it the outputs of crash scenes are accurate to 0.1 % (docs/accuracy.md).
     fn default() -> Self {
         Tolerances::of(1e-7)
     }
 }
 
-/// Nobody can ask for less of a number than its rounding: 16 ε.
+/// The smallest relative tolerance of a number, because of rounding: 16 ε.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl Tolerances {
-    /// A relative tolerance r with the absolute ones that go with it: r/10 for positions \[m\] and angles \[rad\], as of what moves by
-    /// decimetres, r for velocities; 10⁻⁷ stands for 10 nm and 0.002 arc seconds.
+    /// A relative tolerance r and the absolute ones that go with it: r/10 for positions \[m\] and angles \[rad\], because bodies move by decimetres,
+    /// and r for velocities. 10⁻⁷ stands for 10 nm and 0.002 arc seconds.
     pub const fn of(relative: f64) -> Tolerances {
         Tolerances {
             relative,
@@ -65,7 +63,7 @@ impl Tolerances {
         }
     }
 
-    /// Absolute part for an entry of this kind.
+    /// The absolute part for an entry of this kind.
     #[inline(always)]
     const fn absolute(&self, kind: StateKind) -> f64 {
         match kind {
@@ -73,7 +71,7 @@ impl Tolerances {
             StateKind::Angle => self.angles,
             StateKind::Velocity => self.velocities,
             StateKind::AngularVelocity => self.angular_velocities,
-            // memory does not change in a step
+            // discrete states do not change in a step
             StateKind::Law | StateKind::Memory => self.laws,
         }
     }
@@ -89,22 +87,22 @@ impl Tolerances {
     }
 }
 
-/// Errors allowed in the entries of a state.
+/// The error allowed in each entry of a state.
 pub(crate) struct Allowed<'w, T> {
-    /// What of the magnitude of each entry its error may be, and what besides.
+    /// The relative part for each entry.
     relative: &'w mut [T],
     absolute: &'w mut [T],
 }
 
 impl<T> Allowed<'_, T> {
-    /// Scalars of workspace that they take for a state of this length.
+    /// Number of scalars of workspace for a state of this length.
     pub const fn length(state: usize) -> usize {
         2 * state
     }
 }
 
 impl<'w, T: Real> Allowed<'w, T> {
-    /// For the states of a model.
+    /// The errors allowed in the states of a model.
     pub fn new(tolerances: &Tolerances, info: &Info, workspace: &mut Workspace<'w, T>) -> Self {
         let state = info.state_length();
         let allowed = Allowed {
@@ -119,7 +117,7 @@ impl<'w, T: Real> Allowed<'w, T> {
         allowed
     }
 
-    /// Error allowed in each entry, where that has a magnitude.
+    /// The error allowed in each entry, given the magnitudes of the entries.
     #[inline(always)]
     fn each(&self, magnitudes: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
         let parts = self.relative.iter().zip(&*self.absolute);
@@ -127,7 +125,7 @@ impl<'w, T: Real> Allowed<'w, T> {
         each.map(|((relative, absolute), magnitude)| relative.mul_add(magnitude, *absolute))
     }
 
-    /// Estimated error of each entry over what is allowed, of a step from `y` to `end`; NaN where its end is not finite.
+    /// The ratio of estimated to allowed error of each entry, for a step from `y` to `end`; NaN where `end` is not finite.
     #[inline(always)]
     fn ratios(&self, y: &[T], end: &[T], estimate: &[T]) -> impl Iterator<Item = T> {
         let ends = || y.iter().zip(end);
@@ -136,15 +134,15 @@ impl<'w, T: Real> Allowed<'w, T> {
         errors.map(|((scale, estimate), end)| estimate.abs() / scale + end.taint())
     }
 
-    /// Largest ratio of estimated error to what is allowed over all entries (and lanes) of a step from `y` to `end`, `None` where
-    /// something is not finite. At most 1 is a good step.
+    /// The largest ratio of estimated to allowed error over all entries (and lanes) of a step from `y` to `end`; `None` where something is not
+    /// finite. A good step has at most 1.
     ///
-    /// The largest, not the mean: one element gone astray must not hide among thirty quiet ones.
+    /// It is the largest and not the mean, because one element with a large error must not hide among thirty quiet ones.
     pub fn error(&self, y: &[T], end: &[T], estimate: &[T]) -> Option<f64> {
         let (mut worst, mut sum) = (T::from_f64(0.0), T::from_f64(0.0));
         for ratio in self.ratios(y, end, estimate) {
             worst = worst.max(ratio);
-            // what is not finite gets lost in the maximum, not in the sum
+            // a value that is not finite may get lost in the maximum, but not in the sum
             sum += ratio;
         }
         sum.is_finite().then(|| worst.to_f64())
@@ -163,7 +161,7 @@ impl<'w, T: Real> Allowed<'w, T> {
         index
     }
 
-    /// The largest ratio of an entry of `change` to the error allowed in that of `y`.
+    /// The largest ratio of an entry of `change` to the error allowed in the same entry of `y`.
     pub fn norm(&self, change: &[T], y: &[T]) -> f64 {
         let mut worst = T::from_f64(0.0);
         for (change, scale) in change.iter().zip(self.each(y.iter().map(|y| y.abs()))) {
@@ -173,11 +171,11 @@ impl<'w, T: Real> Allowed<'w, T> {
     }
 }
 
-/// Aim a little below the tolerance.
+/// Safety factor: the step aims a little below the tolerance.
 const SAFETY: f64 = 0.95;
-/// Largest change of the step in one go, either way.
+/// Largest factor on the step in one go, up or down.
 const LIMIT: f64 = 5.0;
-/// Errors below are taken as this: they say no more than that the step may grow.
+/// Smaller errors count as this one: they only say that the step may grow.
 const SMALLEST_ERROR: f64 = 1e-10;
 
 /// How roots are taken.
@@ -186,7 +184,7 @@ pub(crate) trait Roots<P> {
     fn root(x: P, parts: [u32; 2]) -> P;
 }
 
-/// By basic arithmetic alone: [`root`].
+/// Roots by basic arithmetic alone: [`root`].
 pub(crate) struct Basic;
 
 impl Roots<f64> for Basic {
@@ -196,17 +194,17 @@ impl Roots<f64> for Basic {
     }
 }
 
-/// The memory of the controller, of a single run or of each lane.
+/// The step size controller of a single run or of each lane, with the error of the step before.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Controller<P: Number> {
-    /// The estimate falls like this power of the step.
+    /// The error estimate falls like this power of the step.
     estimate: u32,
     previous_error: P,
     just_rejected: P::Mask,
 }
 
 impl<P: Number> Controller<P> {
-    /// At the start, and wherever the derivative jumps.
+    /// The controller at the start, and wherever the derivative jumps.
     #[inline(always)]
     pub fn new(estimate: u32) -> Self {
         Controller {
@@ -234,7 +232,7 @@ impl<P: Number> Controller<P> {
         shrunk.max(c(1.0 / LIMIT)).min(c(0.9))
     }
 
-    /// As at the start, where the mask says so: where a run begins, and where the derivative jumps.
+    /// Resets these lanes to the controller at the start: where a run begins, and where the derivative jumps.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub fn reset(&mut self, lanes: P::Mask) {
@@ -242,8 +240,8 @@ impl<P: Number> Controller<P> {
         self.just_rejected = self.just_rejected.and(lanes.not());
     }
 
-    /// Factor on the step after one with these errors was accepted, where `accepted` says so, and rejected elsewhere among
-    /// `taken`; whatever was not taken leaves no trace.
+    /// Factor on the step after one with these errors. Of the lanes in `taken`, the step was accepted in `accepted` and rejected in the others. Lanes
+    /// outside of `taken` do not change.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub fn factor<R: Roots<P>>(&mut self, error: P, accepted: P::Mask, taken: P::Mask) -> P {
@@ -264,7 +262,7 @@ impl<P: Number> Controller<P> {
 }
 
 impl Controller<f64> {
-    /// Factor on the step after one with `error` ≤ 1 was accepted.
+    /// Factor on the step after an accepted step, whose `error` is ≤ 1.
     pub fn accepted(&mut self, error: f64) -> f64 {
         let error = error.max(SMALLEST_ERROR);
         let factor = self.grown::<Basic>(error);
@@ -272,14 +270,14 @@ impl Controller<f64> {
         factor
     }
 
-    /// Factor on the step after one with `error` > 1 was rejected, or one that led nowhere finite (`None`).
+    /// Factor on the step after a rejected step: its `error` is > 1, or its end is not finite (`None`).
     pub fn rejected(&mut self, error: Option<f64>) -> f64 {
         self.just_rejected = true;
         error.map_or(1.0 / LIMIT, |error| self.shrunk::<Basic>(error))
     }
 }
 
-/// A first guess of the step by the sizes of y and ẏ, over what is allowed, at most `largest`.
+/// A first guess of the step by the sizes of y and ẏ, each over the error allowed. At most `largest`.
 #[inline(always)]
 pub(crate) fn first_guess<P: Number>([d0, d1]: [P; 2], largest: P) -> P {
     let c = P::from_f64;
@@ -288,7 +286,7 @@ pub(crate) fn first_guess<P: Number>([d0, d1]: [P; 2], largest: P) -> P {
     P::select(few, c(1e-6), quotient).min(largest)
 }
 
-/// A first step of a method of this order by that guess, and by the sizes of ẏ and of its change over the guess. Positive and at most `largest`.
+/// The first step of a method of this order, by that guess and by the sizes of ẏ and of its change over the guess. Positive and at most `largest`.
 #[inline(always)]
 pub(crate) fn first_length<P: Number, R: Roots<P>>(
     guess: P,
@@ -302,12 +300,12 @@ pub(crate) fn first_length<P: Number, R: Roots<P>>(
     let by_curvature = R::root(c(0.01) / steepest.max(c(1e-15)), [1, order + 1]);
     let by_curvature = P::select(c(1e-15).lt(steepest), by_curvature, flat);
     let h = (c(100.0) * guess).min(by_curvature).min(largest);
-    // numbers near the ends of the range: begin small, the controller will find its way
+    // near the ends of the range of numbers: begin with a small step; the controller corrects it
     P::select(c(0.0).lt(h), h, largest.min(c(1e-6)))
 }
 
-/// A first step of a method of this order from `y` at time `t`, where the derivative is `k1`, by comparison of y, ẏ and ÿ (Hairer, Nørsett & Wanner,
-/// *Solving ODEs I*, II.4); one evaluation. Positive and at most `largest`. The last two slices are scratch.
+/// The first step of a method of this order from `y` at time `t` with the derivative `k1`. It compares y, ẏ and ÿ (Hairer, Nørsett & Wanner,
+/// *Solving ODEs I*, II.4) and takes one evaluation. The result is positive and at most `largest`. The last two slices are scratch.
 pub(crate) fn first_step<T: Real>(
     f: &mut Evaluator<'_, T>,
     t: f64,
@@ -319,7 +317,7 @@ pub(crate) fn first_step<T: Real>(
 ) -> f64 {
     let (d0, d1) = (allowed.norm(y, y), allowed.norm(k1, y));
     let guess = first_guess([d0, d1], largest);
-    // an Euler step shows the second derivative
+    // an Euler step gives the second derivative
     combine(y, guess, &[1.0], k1, between);
     f.at(t + guess, between, k2);
     for (k2, k1) in k2.iter_mut().zip(k1) {
@@ -329,7 +327,7 @@ pub(crate) fn first_step<T: Real>(
     first_length::<_, Basic>(guess, [d1, change], largest, order)
 }
 
-/// x^(1/n) of a positive finite number to a few rounding errors, by basic arithmetic alone; 0 of what is not positive.
+/// x^(1/n) of a positive finite number by basic arithmetic alone, to a few rounding errors; 0 where x is not positive.
 pub(crate) fn root(x: f64, n: u32) -> f64 {
     if x.is_nan() || x < f64::MIN_POSITIVE {
         return 0.0;
@@ -337,7 +335,7 @@ pub(crate) fn root(x: f64, n: u32) -> f64 {
     if x == f64::INFINITY || n < 2 {
         return x;
     }
-    // an n-th of the exponent, then Newton's iteration for yⁿ = x
+    // divides the exponent by n, then takes Newton's iteration for yⁿ = x
     let parts = u64::from(n);
     let mut y = f64::from_bits(x.to_bits() / parts + ONE_BITS / parts * (parts - 1));
     let share = 1.0 / f64::from(n);

@@ -1,7 +1,7 @@
 //! A step of the semi-implicit Euler method:  v⁺ = v + h v̇(t, q, v),  q⁺ = q + h q̇(q, v⁺);  states of force laws like v.
 //!
-//! Order 1, one evaluation. Of a system whose energy is conserved it keeps a nearby one (it is symplectic where q̇ = v), which
-//! is why programs that need no more than a picture like it.
+//! The order is 1, with one evaluation a step. If energy is conserved and q̇ = v, the method is symplectic: it conserves a
+//! nearby energy. So programs that need no more than a picture often use it.
 
 use super::workspace::Workspace;
 use super::{Evaluator, Span, Stepper, combine};
@@ -13,22 +13,22 @@ pub(crate) struct SemiImplicitEuler<'w, T> {
     span: Span<'w, T>,
     /// Number of coordinates.
     coordinates: usize,
-    /// The derivative at the beginning.
+    /// The derivative at the beginning of the step.
     rate: &'w mut [T],
-    /// Old coordinates and new velocities, and q̇ there.
+    /// The old coordinates with the new velocities, then q̇ there.
     between: &'w mut [T],
     coordinate_rates: &'w mut [T],
 }
 
 impl<T> SemiImplicitEuler<'_, T> {
-    /// Scalars of workspace that a step takes for a state of this length.
+    /// Number of scalars of workspace that a step needs for a state of this length.
     pub const fn length(state: usize) -> usize {
         5 * state
     }
 }
 
 impl<'w, T: Real> SemiImplicitEuler<'w, T> {
-    /// A step for a state of this length, of which the first are coordinates.
+    /// A step for a state of this length, whose first entries are the coordinates.
     pub fn new(state: usize, coordinates: usize, workspace: &mut Workspace<'w, T>) -> Self {
         SemiImplicitEuler {
             span: Span::new(state, workspace),

@@ -10,8 +10,8 @@ use core::marker::PhantomData;
 /// A step of the method of a tableau.
 pub(crate) struct Explicit<'w, T, B> {
     span: Span<'w, T>,
-    /// k₁ …, one after the other: the first is the derivative at the beginning, given; behind those of the step stand those that only the
-    /// interpolant needs.
+    /// The derivatives k₁, k₂, … one after the other. The first is the derivative at the beginning, which is given. Behind those of the
+    /// step stand those that only the interpolant needs.
     k: &'w mut [T],
     /// The state of a stage.
     stage: &'w mut [T],
@@ -21,7 +21,7 @@ pub(crate) struct Explicit<'w, T, B> {
 }
 
 impl<T, B: Tableau> Explicit<'_, T, B> {
-    /// Scalars of workspace that a step takes for a state of this length.
+    /// Number of scalars of workspace that a step needs for a state of this length.
     pub const fn length(state: usize) -> usize {
         (3 + B::ALL) * state
     }
@@ -39,7 +39,7 @@ impl<'w, T: Real, B: Tableau> Explicit<'w, T, B> {
         }
     }
 
-    /// Evaluates a stage. The state of the last one is the end, where that is the first of the next step.
+    /// Evaluates a stage. Where the last stage is the first of the next step, its state is the end of the step.
     #[inline(always)]
     fn stage<const I: usize>(&mut self, f: &mut Evaluator<'_, T>) {
         let Span { t, h, y, end } = &mut self.span;
@@ -52,10 +52,10 @@ impl<'w, T: Real, B: Tableau> Explicit<'w, T, B> {
         f.at(*t + B::C[I] * *h, state, &mut rest[..y.len()]);
     }
 
-    /// Evaluates the stages from `FROM` to before `TO`.
+    /// Evaluates the stages from `from` to before `to`.
     #[inline(always)]
     fn stages(&mut self, f: &mut Evaluator<'_, T>, from: usize, to: usize) {
-        // written out, so that every stage knows its coefficients when it is compiled
+        // written out, so that the compiler knows the coefficients of every stage
         macro_rules! stages {
             ($($i:literal)*) => {
                 $(if from <= $i && $i < to { self.stage::<$i>(f); })*
@@ -164,7 +164,7 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
     }
 
     fn end_rate(&self) -> Option<&[T]> {
-        // the last stage of the step, or the first of those for the interpolant, is at the end
+        // the last stage of the step, or the first stage for the interpolant, is at the end
         let index = B::STAGES - usize::from(B::LAST_IS_FIRST);
         if !(self.complete || B::LAST_IS_FIRST) || index >= B::ALL {
             return None;
@@ -174,7 +174,7 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
     }
 
     fn neighbour(&self, state: &mut [T]) -> Option<&[T]> {
-        // the state of a last stage that is the first of the next step is the end itself
+        // where the last stage is the first of the next step, its state is the end itself
         let before = B::STAGES - usize::from(B::LAST_IS_FIRST);
         let index = (1..before).rev().find(|&i| B::C[i] == 1.0)?;
         let Span { h, y, .. } = &self.span;

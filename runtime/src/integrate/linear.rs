@@ -1,56 +1,56 @@
-//! Solving A x = b by elimination.
+//! Solves A x = b by Gaussian elimination.
 //!
-//! A = I/(hγ) − ∂ẏ/∂y of a mechanism has q̇ = K(q) v in its first rows, nearly diagonal. These are eliminated first and without
-//! exchange of rows, which leaves the system of the velocities that a structural engineer would have written down,
-//! I/(hγ) − ∂v̇/∂v − hγ ∂v̇/∂q, half as large; there the pivot is the largest of its column. Zeros are skipped, so that the first
-//! part costs what the sparse q̇ costs.
+//! The matrix is A = I/(hγ) − ∂ẏ/∂y. For a mechanism its first rows come from q̇ = K(q) v and are nearly diagonal. They are eliminated
+//! first, without exchange of rows. This leaves the system of the velocities, I/(hγ) − ∂v̇/∂v − hγ ∂v̇/∂q, which is half as large and
+//! which a structural engineer would write. There the pivot is the largest entry of its column. Zeros are skipped, so the first part
+//! costs no more than the sparse q̇.
 
 use super::workspace::Workspace;
 use crate::Real;
 
-/// A matrix, factored into L (unit diagonal) and U, rows exchanged.
+/// A matrix factored into L (unit diagonal) and U, with rows exchanged.
 pub(crate) struct Factored<'w, T> {
     /// The entries by rows.
     rows: &'w mut [T],
-    /// Row i was exchanged with this one when i was eliminated. An index is kept as a scalar, which is exact below 2²⁴ in all of them, so
-    /// that all memory of a run is of one type.
+    /// The row that row i was exchanged with when it was eliminated. The index is stored as a scalar, so that all memory of a run is of
+    /// one type; every scalar is exact below 2²⁴.
     exchanged: &'w mut [T],
-    /// Where the columns of a row that are not zero begin and end, run by run.
+    /// The first and last columns of the runs of entries of a row that are not zero, one run after the other.
     runs: &'w mut [T],
-    /// Rows and columns there are.
+    /// Number of rows and columns.
     order: usize,
-    /// Rows and columns in use, from the first.
+    /// Number of rows and columns in use, from the first.
     size: usize,
 }
 
-/// An index that is kept as a scalar.
+/// Reads an index that is stored as a scalar.
 #[inline(always)]
 fn index<T: Real>(scalar: T) -> usize {
     scalar.to_f64() as usize
 }
 
 impl<T> Factored<'_, T> {
-    /// Scalars of workspace that a matrix of so many rows takes.
+    /// Number of scalars of workspace for a matrix of so many rows.
     pub const fn length(order: usize) -> usize {
         order * order + 2 * order + 1
     }
 }
 
 impl<'w, T: Real> Factored<'w, T> {
-    /// Nothing yet, with place for a matrix of so many rows.
+    /// Room for a matrix of so many rows; nothing is factored yet.
     pub fn new(order: usize, workspace: &mut Workspace<'w, T>) -> Self {
         Factored {
             rows: workspace.part(order * order),
             exchanged: workspace.part(order),
-            // between two runs there is a zero
+            // between two runs there is at least one zero
             runs: workspace.part(order + 1),
             order,
             size: 0,
         }
     }
 
-    /// Factors diagonal · I − `matrix`, of whose rows and columns the first `size` count; the first `fixed` pivots stay in
-    /// their places. A singular matrix gives what is not finite.
+    /// Factors diagonal · I − `matrix`. Only the first `size` rows and columns count. The first `fixed` pivots stay in their places. For
+    /// a singular matrix the results are not finite.
     pub fn factor(&mut self, diagonal: T, matrix: &[T], size: usize, fixed: usize) {
         self.size = size;
         let order = self.order;
@@ -89,7 +89,7 @@ impl<'w, T: Real> Factored<'w, T> {
         let (zero, order, size) = (T::from_f64(0.0), self.order, self.size);
         let (above, below) = self.rows.split_at_mut((k + 1) * order);
         let row_k = &above[k * order..][..size];
-        // of the rows of q̇ few entries are not zero
+        // few entries of the rows of q̇ are not zero
         let mut ends = 0;
         for j in k + 1..size {
             let begins = row_k[j] != zero && (j == k + 1 || row_k[j - 1] == zero);
@@ -120,7 +120,7 @@ impl<'w, T: Real> Factored<'w, T> {
         }
     }
 
-    /// Solves for one right-hand side, in its place.
+    /// Solves for one right-hand side, in place.
     pub fn solve(&self, b: &mut [T]) {
         let zero = T::from_f64(0.0);
         let row = |i: usize| &self.rows[i * self.order..][..self.size];
@@ -161,7 +161,7 @@ mod tests {
         (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// (diagonal · I − matrix) x = b, of which the first `size` rows count and the first `fixed` pivots stay in their places.
+    /// Solves (diagonal · I − matrix) x = b. The first `size` rows count, and the first `fixed` pivots stay in their places.
     fn solve(diagonal: f64, matrix: &[f64], [size, fixed]: [usize; 2], b: &mut [f64]) {
         // whatever the memory holds before
         let mut memory = vec![f64::NAN; Factored::<f64>::length(b.len())];
@@ -179,7 +179,7 @@ mod tests {
             let mut matrix = [[0.0; 6]; 6];
             for (i, row) in matrix.iter_mut().enumerate() {
                 for (j, entry) in row.iter_mut().enumerate() {
-                    // the first three rows like q̇ = v, the others full and stiff
+                    // the first three rows are like q̇ = v, the others full and stiff
                     *entry = match (i < 3, j == i + 3) {
                         (true, true) => 1.0,
                         (true, false) => 0.0,
@@ -197,7 +197,7 @@ mod tests {
             let b = product(&x);
             let mut solved = b;
             solve(diagonal, matrix.as_flattened(), [6, 3], &mut solved);
-            // backward error: the growth of the fixed part is at most max(1, |∂v̇/∂q| / diagonal) each time
+            // backward error: in the fixed part each elimination grows entries by at most max(1, |∂v̇/∂q| / diagonal)
             let residual = product(&solved);
             let largest = matrix
                 .iter()

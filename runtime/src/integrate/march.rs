@@ -1,30 +1,28 @@
-//! Steps of one length and nothing else: what a loop of one's own calls that wants neither samples nor events nor estimates of the error,
-//! at the cost of little more than the evaluations. [`march()`] is by the classical method of Runge and Kutta, for steps as short as a loop
-//! has them; [`march_dop853`] by Dormand & Prince's method of order 8, for long ones. [`march_adams`](super::march_adams) takes one evaluation a
-//! step, for many short ones where a motion is smooth.
+//! Steps of one length for loops of your own: no samples, no events, no error estimates, and hardly more cost than the evaluations. [`march()`] is
+//! the classical Runge–Kutta method, for short steps. [`march_dop853`] is Dormand & Prince's method of order 8, for long steps.
+//! [`march_adams`](super::march_adams) takes one evaluation a step, for many short steps of a smooth motion.
 //!
 //! **Runge and Kutta.** With the states of the stages Y₁ = y, Y₂ = y + h/2 k₁, Y₃ = y + h/2 k₂, Y₄ = y + h k₃ and kᵢ = f(Yᵢ),
 //!
 //! y⁺ = y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄) = Y₃ + ((Z₂ − y) + (Y₄ − Y₃)) / 3,  Z₂ = Y₂ + h/2 k₄
 //!
-//! Derivatives are not stored at all: each entry becomes one of the next stage's state as soon as it is found ([`Sink`]), and a step keeps
-//! four states, Z₂ in the place of Y₂. In wide registers those of a larger model leave the first cache otherwise. What is left to do when k₄ is
-//! known, is done entry by entry, and so in one pass with [`Model::normalize`]: that divides while states are fetched. To first order in h a step
-//! rounds an entry by at most 4/3 ε|y|, ε being the distance from 1 to the next number: 5/6 because Y₂, Y₃, Y₄ and Z₂ are rounded, and 1/2 for
-//! the sum.
-//! [`Formula::Rk4`](super::Formula::Rk4), which adds four terms one after the other, rounds it by at most 2 ε|y|.
+//! Derivatives are not stored. Each entry becomes an entry of the next stage's state as soon as it is computed ([`Sink`]), and a step stores four
+//! states, with Z₂ in the place of Y₂. With wide registers, the derivatives of a larger model would not fit into the first cache. When k₄ is known,
+//! the rest is done entry by entry, in one pass with [`Model::normalize`], which divides while states are fetched. Rounding: to first order in h a
+//! step rounds an entry by at most 4/3 ε|y|, where ε is the distance from 1 to the next number: 5/6 because Y₂, Y₃, Y₄ and Z₂ are rounded, and 1/2
+//! for the sum. [`Formula::Rk4`](super::Formula::Rk4) adds four terms one after the other and rounds an entry by at most 2 ε|y|.
 //!
-//! **Order 8.** Twelve derivatives are stored and combined as the tableau says ([`Formula::Dop853`](super::Formula::Dop853)).
+//! **Order 8.** The step stores twelve derivatives and combines them as the tableau says ([`Formula::Dop853`](super::Formula::Dop853)).
 
 use super::tableau::Tableau;
 use super::tableau::dormand_prince::Dop853;
 use super::{Rate, combine_into};
 use crate::{Change, Model, Real, Sink, Task, Vector};
 
-/// Takes `steps` steps of length `h` \[s\] from time `t` \[s\] and state `y`, where it leaves the last state, and says when that is.
+/// Takes `steps` steps of length `h` \[s\] from time `t` \[s\] and state `y`. It leaves the last state in `y` and returns its time \[s\].
 ///
-/// Every step ends on the manifold ([`Model::normalize`]), and begins with memory that is renewed until nothing changes ([`Model::renew`]), as in
-/// [`simulate`](crate::simulate()). Kinks and events are passed over, and a state that is no number any more is not found out: look at it. All
+/// As in [`simulate`](crate::simulate()), every step ends on the manifold ([`Model::normalize`]) and begins with discrete updates, repeated until
+/// nothing changes ([`Model::renew`]). Steps pass over kinks and events. No check finds a state that is no longer finite, so look at the state. All
 /// lanes have the same time and step.
 ///
 /// ```
@@ -107,8 +105,8 @@ impl<T: Real, M: Model<T>> Task for March<'_, T, M, M::State> {
 
 /// Takes steps as [`march()`] does, by Dormand & Prince's method of order 8, twelve evaluations each.
 ///
-/// Where a motion is smooth its steps may be many times as long as those of [`march()`] for the same error; across a kink it gains nothing.
-/// It keeps thirteen states on the stack, in wide registers of a large model half a megabyte. Coefficients: [`Formula::Dop853`](super::Formula::Dop853).
+/// Where a motion is smooth, its steps may be many times as long as those of [`march()`] for the same error. Across a kink it gains nothing. It keeps
+/// thirteen states on the stack: half a megabyte for a large model in wide registers. Coefficients: [`Formula::Dop853`](super::Formula::Dop853).
 ///
 /// ```
 /// # use bryant_runtime::{Real, Model, integrate::march_dop853};
@@ -162,7 +160,7 @@ impl<T: Real, M: Model<T>> Task for MarchDop853<'_, T, M, M::State> {
         let mut k = [*y; Dop853::STAGES];
         let mut at = *y;
         for step in 0..steps {
-            // written out, so that every stage knows its coefficients when it is compiled; the equations are compiled once
+            // written out, so that the compiler knows the coefficients of every stage; the equations are compiled once
             macro_rules! stages {
                 ($($i:literal)*) => {$({
                     combine_into(y, h, Dop853::A[$i], &k, &mut at);
@@ -181,8 +179,8 @@ impl<T: Real, M: Model<T>> Task for MarchDop853<'_, T, M, M::State> {
     }
 }
 
-/// Renews memory until that changes nothing: what one switch does may be what another waits for. Each guard stands for at most one link
-/// of such a chain.
+/// Repeats the discrete update until nothing changes, because one switch may wait for another. A chain of such switches has at most one link for each
+/// event function.
 #[inline(always)]
 fn renew<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
     if M::INFO.memory.is_empty() {
@@ -197,8 +195,8 @@ fn renew<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
     }
 }
 
-/// to = from + length · f(t, at). Where these are one state, it goes ahead where it is: a parameter of the type for that would be a second
-/// copy of the equations, and they are more than the first cache of instructions holds.
+/// Computes to = from + length · f(t, at). `from` and `to` may be the same state, which is then updated in place. A type parameter for this case
+/// would compile the equations twice, and they are larger than the first instruction cache.
 struct Stage<'a, T, M, S> {
     model: &'a M,
     t: T,
@@ -224,7 +222,7 @@ impl<T: Real, M: Model<T>> Task for Stage<'_, T, M, M::State> {
     }
 }
 
-/// Makes of each rate the state that it leads to.
+/// Turns each rate into the entry of the next state.
 struct Ahead<T, S> {
     from: *const S,
     length: T,
@@ -235,7 +233,7 @@ impl<T: Real, S: Vector<T>> Sink<T> for Ahead<T, S> {
     #[inline(always)]
     #[expect(unsafe_code, reason = "both may be one state")]
     fn put(&mut self, index: usize, rate: T) {
-        // SAFETY: both are states of the step that made this, and no reference to what is written to is kept while a stage runs.
+        // SAFETY: both are states of the step that made this. No reference to the state that is written is kept while a stage runs.
         unsafe {
             let from = (&*self.from)[index];
             (&mut *self.to)[index] = self.length.mul_add(rate, from);
@@ -243,7 +241,7 @@ impl<T: Real, S: Vector<T>> Sink<T> for Ahead<T, S> {
     }
 }
 
-/// y⁺ of y and what the stages found, Z₂ in the place of Y₂.
+/// y⁺ from y and the states of the stages, with Z₂ in the place of Y₂.
 struct Sum<'a, T, S> {
     third: T,
     second: &'a S,
@@ -269,14 +267,14 @@ mod tests {
     #[cfg(feature = "std")]
     use crate::{Several, Width};
 
-    /// A model whose memory changes with every renewal is renewed once more for each of its guards.
+    /// A model whose discrete state changes with every update is updated once more than it has event functions.
     fn renew_all<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
         for _ in 0..=M::Guards::LEN {
             model.renew(t, y);
         }
     }
 
-    /// The same steps as the textbook has them: y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄).
+    /// The same steps, written as in textbooks: y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄).
     fn textbook<T: Real, M: Model<T>>(model: &M, h: f64, steps: u32, y: &mut M::State) {
         let number = T::from_f64;
         renew_all(model, number(0.0), y);
@@ -302,7 +300,7 @@ mod tests {
         }
     }
 
-    /// y + h Σ b k, stage after stage, of any tableau.
+    /// y + h Σ b k, stage after stage, for any tableau.
     fn by_tableau<B: Tableau, T: Real, M: Model<T>>(
         model: &M,
         h: f64,
@@ -332,7 +330,7 @@ mod tests {
         }
     }
 
-    /// Both ways round to the precision of a scalar, and differ in nothing else.
+    /// Checks that both ways round differently, and differ in nothing else, to the precision of a scalar.
     fn compare<T: Real, M: Model<T>>(model: &M, epsilon: f64) {
         compare_with(model, epsilon, march, textbook);
         compare_with(model, epsilon, march_dop853, by_tableau::<Dop853, T, M>);
@@ -344,13 +342,14 @@ mod tests {
         march: impl Fn(&M, T, T, u32, &mut M::State) -> T,
         textbook: impl Fn(&M, f64, u32, &mut M::State),
     ) {
-        // a power of two, so that half and all of it are known to the scalar
+        // a power of two, so that it and its half are exact in every scalar
         let (h, steps) = (1.0 / 32.0, 60);
         let (mut expected, mut found) = (model.initial_state(), model.initial_state());
         textbook(model, h, steps, &mut expected);
         let end = march(model, T::from_f64(0.0), T::from_f64(h), steps, &mut found);
         assert_eq!(end.to_f64(), h * f64::from(steps));
-        // some ten roundings of numbers below 100 in each step (weights of order 8 go to 44, but times h), and what they grow by in two seconds
+        // some ten roundings of numbers below 100 in each step (weights of order 8 go up to 44, but are multiplied by h), and their growth in two
+        // seconds
         let bound = 10.0 * epsilon * 100.0 * f64::from(steps) * 10.0;
         for i in 0..M::State::LEN {
             let difference = (found[i] - expected[i]).to_f64().abs();
@@ -374,7 +373,7 @@ mod tests {
         all::<DoubleDouble>(f64::EPSILON * f64::EPSILON);
     }
 
-    /// A march of every lane from another start, and where each lane ends, in bits.
+    /// A march with another start in every lane: the end of each lane, in bits.
     #[cfg(feature = "std")]
     struct Abreast;
 
@@ -414,7 +413,7 @@ mod tests {
         }
     }
 
-    /// Where Kepler's ellipse is after so many steps of a march, against four times as many.
+    /// How far Kepler's ellipse is off after so many steps of a march, compared with four times as many.
     fn error(march: impl Fn(DoubleDouble, u32, &mut [DoubleDouble; 4]), steps: u32) -> f64 {
         let end = |steps: u32| {
             let mut y: [DoubleDouble; 4] = Kepler.initial_state();
@@ -430,7 +429,7 @@ mod tests {
         each.fold(0.0, f64::max)
     }
 
-    /// With half the step the error falls by 2 to the order; a tenth of an order is left for higher terms.
+    /// Half the step divides the error by 2 to the order; a tenth of an order is left for higher terms.
     #[test]
     fn marches_have_their_orders() {
         let nought = DoubleDouble::from_f64(0.0);
@@ -442,7 +441,7 @@ mod tests {
         };
         let order = (error(fourth, 1024) / error(fourth, 2048)).log2();
         assert!((order - 4.0).abs() < 0.1, "{order}");
-        // with few steps: its weights are given as doubles, and an error of 10⁻¹⁷ in them is of order 1
+        // with few steps: the weights are given as doubles, and their error of 10⁻¹⁷ is of order 1
         let order = (error(eighth, 64) / error(eighth, 128)).log2();
         assert!((order - 8.0).abs() < 0.1, "{order}");
     }

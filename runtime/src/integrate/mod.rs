@@ -1,8 +1,8 @@
-//! One step of a method for ẏ = f(t, y): where it leads, how far it errs, and what lies inside it.
+//! One step of a method for ẏ = f(t, y): the state at its end, its error, and the states inside it.
 //!
-//! Steps of runs work on slices, meet the model as [`Dynamics`], and take their memory from a workspace, so they are compiled once for
-//! each scalar. Time and step are `f64`, shared by all lanes; where lanes differ in what they need, the most demanding one decides. Every
-//! method is a `Stepper`; the time loop, which chooses steps and looks for events, is `simulate`.
+//! Steps of runs work on slices, call the model as [`Dynamics`], and take their memory from a workspace, so they are compiled once for each
+//! scalar. Time and step are `f64` and the same for all lanes; where lanes need different steps, the most demanding lane decides. Every method
+//! is a `Stepper`. The time loop in `simulate` chooses the steps and looks for events.
 //!
 //! | file | what |
 //! |---|---|
@@ -10,9 +10,9 @@
 //! | `explicit` | a step of any of them |
 //! | `euler` | a step of the semi-implicit Euler method |
 //! | `rosenbrock` | a step of the Rosenbrock method for stiff models, over `linear`, elimination |
-//! | `workspace` | where steps and runs have their memory |
-//! | [`march`](march()) | many steps of one length with nothing on the way, by methods of Runge and Kutta |
-//! | `adams` | the same from derivatives of steps before |
+//! | `workspace` | the memory of steps and runs |
+//! | [`march`](march()) | many steps of one length and nothing else, by Runge–Kutta methods |
+//! | `adams` | the same by a multistep method |
 //! | [`control`] | tolerances, first step, next step |
 
 mod adams;
@@ -41,7 +41,7 @@ use tableau::kutta::{Heun, Merson, Rk4};
 use tableau::tsitouras::Tsit5;
 use workspace::Workspace;
 
-/// The methods there are.
+/// The integration methods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Formula {
     /// Semi-implicit (symplectic) Euler: velocities first, coordinates with the new velocities; order 1.
@@ -103,12 +103,12 @@ impl Formula {
         }
     }
 
-    /// The method of this name.
+    /// The method with this name; `None` if there is none.
     pub fn named(name: &str) -> Option<Formula> {
         Self::ALL.into_iter().find(|formula| formula.name() == name)
     }
 
-    /// Order: the error of a run falls like this power of the step where the model is smooth.
+    /// The order of the method: where the model is smooth, the error of a run falls like this power of the step.
     pub const fn order(self) -> u32 {
         match self {
             Formula::SemiImplicitEuler => 1,
@@ -119,12 +119,12 @@ impl Formula {
         }
     }
 
-    /// The largest |hλ|, Re λ ≤ 0, at which it is stable in some direction of the plane: a step above this, over the fastest
-    /// motion of a scene, blows up whatever that motion is. `None` where there is no such bound.
+    /// The largest |hλ|, Re λ ≤ 0, at which the method is stable in some direction of the complex plane. A step above this limit over the
+    /// fastest motion of a scene grows without bound, whatever that motion is. `None` where there is no such limit.
     ///
-    /// Of explicit Runge–Kutta methods the farthest point of |R(z)| = 1 in the left half plane, R their stability polynomial
-    /// (Hairer & Wanner, *Solving ODEs II*, IV.2), which a test computes from the tableau; of semi-implicit Euler hω of the
-    /// undamped oscillator, and hc of ẋ = −c x as well.
+    /// For explicit Runge–Kutta methods it is the farthest point of |R(z)| = 1 in the left half plane, where R is their stability polynomial
+    /// (Hairer & Wanner, *Solving ODEs II*, IV.2); a test computes it from the tableau. For semi-implicit Euler it is hω of the undamped
+    /// oscillator, and also hc of ẋ = −c x.
     pub const fn stability_limit(self) -> Option<f64> {
         match self {
             Formula::SemiImplicitEuler => Some(2.0),
@@ -138,13 +138,13 @@ impl Formula {
         }
     }
 
-    /// Whether it estimates its error and so can choose its steps.
+    /// Whether the method estimates its error and so can choose its steps.
     pub const fn estimates_error(self) -> bool {
         !matches!(self, Formula::SemiImplicitEuler | Formula::Rk4)
     }
 }
 
-/// Stages of any explicit method, those for its interpolant included, at most.
+/// The largest number of stages of an explicit method, including those of its interpolant.
 const MOST_STAGES: usize = 16;
 
 /// [`Formula::stability_limit`], rounded up.
@@ -161,44 +161,43 @@ impl fmt::Display for Formula {
     }
 }
 
-/// A step of some method: what it begins with, taken, judged, looked into.
+/// One step of some method: begun, taken, judged, interpolated.
 ///
-/// It is kept from one step to the next and filled in place. Its memory is a part of the workspace of the run.
+/// The value is kept from one step to the next and filled in place. Its memory is a part of the workspace of the run.
 pub(crate) trait Stepper<T: Real> {
-    /// The estimate of the error falls like this power of the step; 0 where there is none.
+    /// The error estimate falls like this power of the step; 0 where there is no estimate.
     fn order_of_estimate(&self) -> u32;
-    /// The next step begins at (`t`, `y`), where the derivative is `rate`.
+    /// Begins the next step at (`t`, `y`), where the derivative is `rate`.
     fn begin(&mut self, t: f64, y: &[T], rate: &[T]);
-    /// Goes the length `h`, forwards.
+    /// Takes the step of length `h`, forwards.
     ///
     /// # Errors
-    /// [`Reason::NoJacobian`] of a method that needs one.
+    /// [`Reason::NoJacobian`], if the method needs a Jacobian and the model has none.
     fn take(&mut self, f: &mut Evaluator<'_, T>, h: f64) -> Result<(), Reason>;
-    /// Where it begins, how long it is, where it leads.
+    /// Where the step begins, its length, and where it ends.
     fn span(&self) -> &Span<'_, T>;
-    /// Estimated error of each entry of the end; anything where there is no estimate.
+    /// Writes the estimated error of each entry at the end. Without an estimate the content is arbitrary.
     fn estimate(&mut self, errors: &mut [T]);
-    /// Evaluates what [`Stepper::interpolate`] needs beyond the step itself, once a step.
+    /// Evaluates what [`Stepper::interpolate`] needs beyond the step itself, at most once a step.
     fn complete(&mut self, f: &mut Evaluator<'_, T>);
-    /// The state at t + θh, θ in 0..=1, to the order of the method or one less, not normalised. After
-    /// [`Stepper::complete`].
+    /// The state at t + θh, θ in 0..=1, not normalised. Its order is that of the method or one less. Call [`Stepper::complete`] before.
     fn interpolate(&self, theta: f64, inside: &mut [T]);
-    /// Hermite's cubic through the states and derivatives at both ends, at t + θh. `false` of a method whose interpolant is made of the stages
-    /// of the step alone; others evaluate it elsewhere, too, and a force that acts there and nowhere else spoils it. After
-    /// [`Stepper::complete`].
+    /// Hermite's cubic through the states and derivatives at both ends, at t + θh. Returns `false` for a method whose interpolant uses the
+    /// stages of the step alone. Other interpolants evaluate the model at further states, and a force that acts there and nowhere else spoils
+    /// them. Call [`Stepper::complete`] before.
     fn cubic(&self, _theta: f64, _inside: &mut [T]) -> bool {
         false
     }
-    /// The derivative at the end, where it is known.
+    /// The derivative at the end, if it is known.
     fn end_rate(&self) -> Option<&[T]>;
-    /// Puts a state near the one that the step leads to into `state` and returns the derivative there: compared with those at the end they
-    /// tell how fast the fastest motion is. The last stage at the time of the end, or the beginning. `None` where nobody needs it.
+    /// Writes a state near the end of the step into `state` and returns the derivative there. Compared with the end, the two tell how fast the
+    /// fastest motion is. The state is that of the last stage at the time of the end, or the beginning. `None` where nobody needs it.
     fn neighbour(&self, state: &mut [T]) -> Option<&[T]>;
 }
 
-/// Where a step begins, how long it is, where it leads.
+/// Where a step begins, its length, and where it ends.
 pub(crate) struct Span<'w, T> {
-    /// Where it begins \[s\].
+    /// Time at its beginning \[s\].
     pub t: f64,
     /// Its length \[s\].
     pub h: f64,
@@ -209,7 +208,7 @@ pub(crate) struct Span<'w, T> {
 }
 
 impl<'w, T: Real> Span<'w, T> {
-    /// A step that has not begun, for a state of this length; it takes twice as many scalars.
+    /// A step that has not begun, for a state of this length. It needs twice as many scalars of workspace.
     fn new(state: usize, workspace: &mut Workspace<'w, T>) -> Self {
         Span {
             t: 0.0,
@@ -219,14 +218,14 @@ impl<'w, T: Real> Span<'w, T> {
         }
     }
 
-    /// The next step begins at (`t`, `y`).
+    /// Begins the next step at (`t`, `y`).
     fn begin(&mut self, t: f64, y: &[T]) {
         self.t = t;
         self.y.copy_from_slice(y);
     }
 }
 
-/// Scalars of workspace that a step of a method takes for this model.
+/// Number of scalars of workspace that a step of a method needs for this model.
 pub(crate) const fn step_length(formula: Formula, info: &Info) -> usize {
     let state = info.state_length();
     match formula {
@@ -254,7 +253,7 @@ pub(crate) enum AnyStepper<'w, T> {
 }
 
 impl<'w, T: Real> AnyStepper<'w, T> {
-    /// A step that has not begun, of a method for this model.
+    /// A step of a method for this model that has not begun.
     pub fn new(formula: Formula, info: &'static Info, workspace: &mut Workspace<'w, T>) -> Self {
         let state = info.state_length();
         let coordinates = info.coordinates.len();
@@ -272,7 +271,7 @@ impl<'w, T: Real> AnyStepper<'w, T> {
         }
     }
 
-    /// The step, whichever method it is of.
+    /// The step as a trait object, whatever its method.
     pub fn stepper(&mut self) -> &mut dyn Stepper<T> {
         match self {
             AnyStepper::SemiImplicitEuler(step) => step,
@@ -287,39 +286,39 @@ impl<'w, T: Real> AnyStepper<'w, T> {
     }
 }
 
-/// Evaluates f for a step that must not look beyond its end, and counts.
+/// Evaluates f for a step that must not look beyond its end, and counts the evaluations.
 pub(crate) struct Evaluator<'a, T: Real> {
     pub model: &'a dyn Dynamics<T>,
     /// Number of evaluations so far.
     pub count: u64,
     /// Number of Jacobians so far.
     pub jacobians: u64,
-    /// Latest time that f is evaluated at.
+    /// The latest time at which f is evaluated.
     ///
-    /// A step that ends on a kink of a curve sees the curve as it is before the kink: the time of its last stages is the
-    /// floating-point number just before.
+    /// A step that ends on a kink of a curve must see the curve as it is before the kink. So the time of its last stages is the largest
+    /// floating-point number below the kink.
     pub latest: f64,
-    /// Whether to look for the first evaluation at which something is not finite.
+    /// Whether to look for the first evaluation with a value that is not finite.
     pub searching: bool,
-    /// That evaluation, once it is found.
+    /// That evaluation, once found.
     pub found: Option<NotFinite>,
-    /// Its state.
+    /// The state of that evaluation.
     pub found_at: &'a mut [T],
 }
 
-/// An evaluation at which something is not finite.
+/// An evaluation with a value that is not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct NotFinite {
-    /// Its time.
+    /// Time of the evaluation \[s\].
     pub t: f64,
     /// Index of the first entry that is not finite.
     pub index: usize,
-    /// Of the derivative there, or of the state itself.
+    /// Whether the entry belongs to the derivative; otherwise it belongs to the state.
     pub in_derivative: bool,
 }
 
 impl<'a, T: Real> Evaluator<'a, T> {
-    /// For a model, with place for a state.
+    /// An evaluator for a model, with room for a state.
     pub fn new(model: &'a dyn Dynamics<T>, found_at: &'a mut [T]) -> Self {
         Evaluator {
             model,
@@ -342,13 +341,13 @@ impl<'a, T: Real> Evaluator<'a, T> {
         }
     }
 
-    /// The time to evaluate at where a stage asks for `t`.
+    /// The time at which f is evaluated when a stage asks for `t`.
     #[inline]
     pub fn time(&self, t: f64) -> f64 {
         t.min(self.latest)
     }
 
-    /// Keeps an evaluation if it is the first at which something is not finite.
+    /// Stores an evaluation if it is the first with a value that is not finite.
     #[cold]
     pub fn look(&mut self, t: f64, y: &[T], rate: &[T]) {
         if self.found.is_some() {
@@ -365,7 +364,7 @@ impl<'a, T: Real> Evaluator<'a, T> {
     }
 }
 
-/// ẏ at (`t`, `y`), put in its place.
+/// Writes ẏ at (`t`, `y`) into `rate`.
 pub(crate) struct Rate<'a, T, M, S> {
     pub model: &'a M,
     pub t: T,
@@ -381,8 +380,8 @@ impl<T: Real, M: Model<T>> Task for Rate<'_, T, M, M::State> {
     }
 }
 
-/// y + h Σ w_j k_j into `to`; `k` holds one k_j after the other, each as long as `y` and `to`. Weights of 0 cost nothing where they are known
-/// to the compiler.
+/// Writes y + h Σ w_j k_j into `to`. `k` holds one k_j after the other, each as long as `y` and `to`. Weights of 0 cost nothing where the
+/// compiler knows them.
 #[inline(always)]
 pub(crate) fn combine<T: Real>(y: &[T], h: f64, weights: &[f64], k: &[T], to: &mut [T]) {
     let length = to.len();
@@ -395,7 +394,7 @@ pub(crate) fn combine<T: Real>(y: &[T], h: f64, weights: &[f64], k: &[T], to: &m
             lengths[j] = T::from_product(h, *weight);
         }
     }
-    // by index, so that the compiler sees that all of them are equally long
+    // by index, so that the compiler sees that all have the same length
     for i in 0..length {
         let mut sum = y[i];
         for (j, weight) in weights.iter().enumerate() {
@@ -407,7 +406,7 @@ pub(crate) fn combine<T: Real>(y: &[T], h: f64, weights: &[f64], k: &[T], to: &m
     }
 }
 
-/// [`combine`] for arrays, with a step that lanes may differ in: its products with the weights are rounded to the scalar first.
+/// [`combine`] for arrays, with a step that may differ between lanes: its products with the weights are rounded to the scalar first.
 #[inline(always)]
 pub(crate) fn combine_into<T: Real, S: Vector<T>>(
     y: &S,

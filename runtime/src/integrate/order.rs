@@ -1,7 +1,8 @@
 //! The order conditions of rooted trees (Butcher 1963): Σ b_i Φ_i(τ) = 1/γ(τ) for every tree τ of at most p nodes.
 //!
-//! Φ of a tree is the product, over the children of its root, of Σ_j a_ij Φ_j(child). Of a Rosenbrock method a_ij is
-//! β_ij = α_ij + γ_ij where the root has a single child, α_ij where it has several (Hairer & Wanner, *Solving ODEs II*, IV.7).
+//! For a tree, Φ is the product, over the children of its root, of Σ_j a_ij Φ_j(child). For a Rosenbrock method a_ij is
+//! β_ij = α_ij + γ_ij where the root has a single child, and α_ij where it has several (Hairer & Wanner, *Solving ODEs II*,
+//! IV.7).
 
 use super::Formula;
 use super::rosenbrock::original;
@@ -10,7 +11,7 @@ use super::tableau::dormand_prince::{Dop853, Dopri5};
 use super::tableau::kutta::{Heun, Merson, Rk4};
 use super::tableau::tsitouras::Tsit5;
 
-/// A rooted tree by the subtrees at its root, in descending order.
+/// A rooted tree: the subtrees at its root, in descending order.
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
 struct Tree(Vec<Tree>);
 
@@ -41,7 +42,7 @@ impl Tree {
 
 type Matrix = Vec<Vec<f64>>;
 
-/// All trees of exactly so many nodes.
+/// All trees of exactly `nodes` nodes.
 fn trees(nodes: usize) -> Vec<Tree> {
     forests(nodes - 1, nodes - 1, None)
         .into_iter()
@@ -49,7 +50,7 @@ fn trees(nodes: usize) -> Vec<Tree> {
         .collect()
 }
 
-/// All forests of so many nodes whose trees are at most `largest` nodes large and not beyond `bound`, in descending order.
+/// All forests of `nodes` nodes, in descending order. Their trees have at most `largest` nodes and are not beyond `bound`.
 fn forests(nodes: usize, largest: usize, bound: Option<&Tree>) -> Vec<Vec<Tree>> {
     if nodes == 0 {
         return vec![vec![]];
@@ -83,7 +84,7 @@ fn residuals(nodes: usize, b: &[f64], single: &Matrix, several: &Matrix, theta: 
     trees(nodes).iter().map(of).collect()
 }
 
-/// Coefficients have 16 digits, and some dozen of them up to some dozen in size are multiplied and summed up.
+/// The coefficients have 16 digits; some dozen of them, up to some dozen in size, are multiplied and summed.
 const ROUNDING: f64 = 1000.0 * f64::EPSILON;
 
 fn assert_order(order: usize, b: &[f64], single: &Matrix, several: &Matrix, theta: f64) {
@@ -117,7 +118,8 @@ fn padded<B: Tableau>(weights: &[f64]) -> Vec<f64> {
     all
 }
 
-/// Nodes, order of the result, order of the embedded one, order of the interpolant, and no higher ones.
+/// Checks the nodes and the orders of the result, the embedded result and the interpolant, and that these orders are not
+/// higher.
 fn check<B: Tableau>(order: usize) {
     let a = matrix::<B>();
     for (i, c) in B::C.iter().enumerate() {
@@ -134,7 +136,7 @@ fn check<B: Tableau>(order: usize) {
             .zip(padded::<B>(estimate))
             .map(|(b, e)| b - e)
             .collect();
-        // a pair that compares methods of one order sees no error
+        // a pair of two methods of the same order sees no error
         let embedded = (1..=order).find(|nodes| misses(*nodes, &other, &a, &a) > 1e-7);
         assert!(embedded.is_some());
     }
@@ -214,7 +216,7 @@ fn the_rosenbrock_method_has_its_orders() {
     let b = original::b(1.0);
     assert_order(5, &b, &beta, &alpha, 1.0);
     assert!(misses(6, &b, &beta, &alpha) > 1e-7);
-    // stiffly accurate: the result is the last stage, the embedded one that before
+    // stiffly accurate: the result is the last stage, the embedded result the stage before
     for j in 0..b.len() {
         assert!((beta[b.len() - 1][j] - b[j]).abs() < ROUNDING);
     }
@@ -244,7 +246,7 @@ fn farthest<B: Tableau>() -> f64 {
     let directions =
         (0..=3600).map(|i| std::f64::consts::FRAC_PI_2 * (1.0 + f64::from(i) / 3600.0));
     let reach = |angle: f64| {
-        // beyond 20 every polynomial of these is far above 1
+        // beyond 20 each of these polynomials is far above 1
         let mut radii = (0..40_000).rev().map(|i| 5e-4 * f64::from(i));
         radii.find(|r| amplified(*r, angle) <= 1.0).unwrap_or(0.0)
     };

@@ -1,14 +1,14 @@
-//! A step of a Rosenbrock method, for stiff models: linearly implicit, one matrix a step, no iterations.
+//! A step of a Rosenbrock method for stiff models. It is linearly implicit: one matrix a step, no iterations.
 //!
 //! With J = ∂f/∂y and W = I/(hγ) − J,
 //!
 //! W u_i = f(t + c_i h, y + Σ_{j<i} a_ij u_j) + Σ_{j<i} C_ij u_j / h + h d_i ∂f/∂t,   y⁺ = y + Σ m_j u_j
 //!
 //! (Hairer & Wanner, *Solving ODEs II*, IV.7). The coefficients are those of Rodas5P (Steinebach, BIT Numer. Math. 63, 2023, as in the
-//! tables of OrdinaryDiffEq.jl): order 5, L-stable, the last stages those of a stiffly accurate method, so that the last u is the
-//! difference to an embedded result of order 4, and an interpolant of order 4 without further evaluations.
+//! tables of OrdinaryDiffEq.jl). The method has order 5 and is L-stable. Its last stages are those of a stiffly accurate method, so the
+//! last u is the difference to an embedded result of order 4. The interpolant of order 4 needs no further evaluations.
 //!
-//! J and ∂f/∂t are the model's ([`Dynamics::jacobian`](crate::Dynamics::jacobian)). J and W have as many rows and columns as the state has
+//! The model gives J and ∂f/∂t ([`Dynamics::jacobian`](crate::Dynamics::jacobian)). J and W have as many rows and columns as the state has
 //! entries; both are kept in the workspace.
 
 use super::linear::Factored;
@@ -30,7 +30,7 @@ const NODES: [f64; STAGES] = [
     1.0,
     1.0,
 ];
-/// a_ij; the last two stages, and the result, begin where the one before led.
+/// a_ij. The last two stages, and the result, continue where the stage before ended.
 const A: [&[f64]; STAGES] = [
     &[],
     &[3.0],
@@ -126,7 +126,7 @@ const D: [f64; STAGES] = [
     0.0,
     0.0,
 ];
-/// What the interpolant has beyond the straight line through both ends: θ(1−θ)(h₁ + θ(h₂ + θ h₃)), over the u_j.
+/// The part of the interpolant beyond the straight line through both ends: θ(1−θ)(h₁ + θ(h₂ + θ h₃)), weights of the u_j.
 const H: [[f64; STAGES]; 3] = [
     [
         25.948786856663858,
@@ -165,12 +165,12 @@ pub(crate) struct Rosenbrock<'w, T> {
     span: Span<'w, T>,
     /// Number of coordinates.
     coordinates: usize,
-    /// Entries of the state that change during a step: all but memory.
+    /// Number of entries of the state that change during a step: all but the discrete states.
     varying: usize,
-    /// f at the beginning, and at a stage.
+    /// f at the beginning, then at a stage.
     rate: &'w mut [T],
     stage_rate: &'w mut [T],
-    /// ∂f/∂y by rows and ∂f/∂t at the beginning, once evaluated there.
+    /// ∂f/∂y by rows and ∂f/∂t at the beginning, once they are evaluated there.
     jacobian: &'w mut [T],
     by_time: &'w mut [T],
     has_jacobian: bool,
@@ -182,7 +182,7 @@ pub(crate) struct Rosenbrock<'w, T> {
 }
 
 impl<T> Rosenbrock<'_, T> {
-    /// Scalars of workspace that a step takes for a state of this length.
+    /// Number of scalars of workspace that a step needs for a state of this length.
     pub const fn length(state: usize) -> usize {
         state * state + (STAGES + 6) * state + Factored::<T>::length(state)
     }
@@ -207,7 +207,7 @@ impl<'w, T: Real> Rosenbrock<'w, T> {
         }
     }
 
-    /// ∂f/∂y and ∂f/∂t at the beginning.
+    /// Evaluates ∂f/∂y and ∂f/∂t at the beginning.
     fn differentiate(&mut self, f: &mut Evaluator<'_, T>) -> Result<(), Reason> {
         let t = T::from_f64(f.time(self.span.t));
         if !f
@@ -223,7 +223,7 @@ impl<'w, T: Real> Rosenbrock<'w, T> {
     }
 }
 
-/// y + h Σ w_j k_j into `to`, as [`combine`](super::combine), for weights that are not known when this is compiled.
+/// Writes y + h Σ w_j k_j into `to`, as [`combine`](super::combine) does, for weights that the compiler does not know.
 fn combine<T: Real>(y: &[T], h: f64, weights: &[f64], k: &[T], to: &mut [T]) {
     to.copy_from_slice(y);
     for (j, weight) in weights.iter().enumerate() {
@@ -231,7 +231,7 @@ fn combine<T: Real>(y: &[T], h: f64, weights: &[f64], k: &[T], to: &mut [T]) {
     }
 }
 
-/// Adds h w k.
+/// Adds h w k to `to`.
 fn add<T: Real>(to: &mut [T], h: f64, weight: f64, k: &[T]) {
     if weight != 0.0 {
         let length = T::from_product(h, weight);
@@ -300,12 +300,12 @@ impl<T: Real> Stepper<T> for Rosenbrock<'_, T> {
     }
 
     fn neighbour(&self, _: &mut [T]) -> Option<&[T]> {
-        // it has no limit of stability to watch
+        // there is no stability limit to watch
         None
     }
 }
 
-/// Weights of the interpolant, over the u_j.
+/// Weights of the u_j in the interpolant.
 fn weights(theta: f64) -> [f64; STAGES] {
     let rest = 1.0 - theta;
     core::array::from_fn(|j| {
@@ -314,8 +314,8 @@ fn weights(theta: f64) -> [f64; STAGES] {
     })
 }
 
-/// α, Γ, and the weights b(θ) of the method as Hairer & Wanner write it, whose order conditions are known:
-/// Γ⁻¹ = I/γ − C, α = a Γ, b = m Γ.
+/// α, Γ, and the weights b(θ) of the method in the form of Hairer & Wanner, whose order conditions are known: Γ⁻¹ = I/γ − C, α = a Γ,
+/// b = m Γ.
 #[cfg(test)]
 pub(crate) mod original {
     use super::{A, C, GAMMA, STAGES, weights};
@@ -357,7 +357,7 @@ pub(crate) mod original {
         times_gamma(&weights(theta))
     }
 
-    /// Nodes c, and d.
+    /// The nodes c, and d.
     pub fn nodes() -> ([f64; STAGES], [f64; STAGES]) {
         (super::NODES, super::D)
     }

@@ -1,7 +1,7 @@
 //! Memory of a run.
 //!
-//! A run takes all of its memory from one slice, which is cut into parts when the run is set up. The core so needs neither an allocator nor
-//! arrays whose length is known when it is compiled.
+//! A run takes all of its memory from one slice, which is cut into parts when the run is set up. So the core needs neither an allocator nor
+//! arrays of a length that is known at compile time.
 
 use core::ops::{Deref, DerefMut};
 
@@ -11,15 +11,15 @@ pub(crate) struct Workspace<'w, T> {
 }
 
 impl<'w, T> Workspace<'w, T> {
-    /// All of this slice.
+    /// A workspace of the whole slice.
     pub fn new(memory: &'w mut [T]) -> Self {
         Workspace { rest: memory }
     }
 
-    /// The next part of this length. What it holds is left from before.
+    /// The next part of this length. Its content is whatever was there before.
     ///
     /// # Panics
-    /// Where less is left.
+    /// Where less than this is left.
     pub fn part(&mut self, length: usize) -> &'w mut [T] {
         let rest = core::mem::take(&mut self.rest);
         let (part, rest) = rest.split_at_mut(length);
@@ -27,7 +27,7 @@ impl<'w, T> Workspace<'w, T> {
         part
     }
 
-    /// How much is left.
+    /// The length that is left.
     #[cfg(test)]
     pub fn left(&self) -> usize {
         self.rest.len()
@@ -37,7 +37,7 @@ impl<'w, T> Workspace<'w, T> {
 /// Memory that is either lent or, with the feature `std`, owned.
 #[derive(Debug)]
 pub enum Buffer<'a, T> {
-    /// A part of somebody else's memory.
+    /// A part of memory that somebody else owns.
     Lent(&'a mut [T]),
     /// Memory of its own.
     #[cfg(feature = "std")]

@@ -1,4 +1,4 @@
-//! What stops a run, in words.
+//! Errors that stop a run, in words.
 
 use super::{Finding, JobError};
 use crate::patience::Late;
@@ -8,11 +8,11 @@ use std::fmt;
 /// What stopped a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunError {
-    /// Whose fault.
+    /// Who or what caused it.
     pub kind: ErrorKind,
-    /// Time reached \[s\], of a run that had begun.
+    /// Time reached \[s\], if the run had begun.
     pub t: Option<f64>,
-    /// The coordinate or velocity at fault.
+    /// The coordinate or velocity that failed.
     pub coordinate: Option<String>,
     /// The likely cause and its remedy, also part of the message; empty where the message says all.
     pub cause: String,
@@ -20,21 +20,22 @@ pub struct RunError {
     pub message: String,
 }
 
-/// Whose fault.
+/// Who or what caused an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorKind {
-    /// The job does not fit the model, or makes no sense: nothing was computed.
+    /// The job is invalid or does not fit the model; nothing was computed.
     Job,
     /// The run began and could not go on.
     Run,
     /// The run was stopped because it took longer than the job allows.
     Time,
-    /// The run was stopped by somebody who heard how far it was.
+    /// An observer stopped the run.
     Stopped,
 }
 
 impl ErrorKind {
-    /// Exit code of a program that ends with this: 2 for a job, 3 for a run, also for one that takes too long, 130 for one that was stopped.
+    /// Exit code of a program that ends with this error: 2 for a job; 3 for a run, also for one that takes too long; 130 for one that was
+    /// stopped.
     pub fn exit_code(self) -> u8 {
         match self {
             ErrorKind::Job => 2,
@@ -50,13 +51,13 @@ impl RunError {
         self.kind.exit_code()
     }
 
-    /// Of a run that takes longer than allowed.
+    /// The error of a run that takes longer than allowed.
     pub(super) fn out_of_time(report: &Report, late: Option<Late>) -> Self {
         let why = match late {
             Some(Late::Rate(all)) if all.is_finite() => format!(
-                "because at the rate of its last seconds computing it would take {all:.0} s"
+                "because at the speed of its last seconds it would take {all:.0} s to compute"
             ),
-            Some(Late::Rate(_)) => "because its time does not go on".to_owned(),
+            Some(Late::Rate(_)) => "because its time does not advance".to_owned(),
             Some(Late::Limit(limit)) => format!("because computing it took longer than {limit} s"),
             None => "because computing it took too long".to_owned(),
         };
@@ -72,7 +73,7 @@ impl RunError {
         }
     }
 
-    /// Of a run that an observer stopped.
+    /// The error of a run that an observer stopped.
     pub(super) fn stopped(report: &Report) -> Self {
         RunError {
             kind: ErrorKind::Stopped,
@@ -86,7 +87,7 @@ impl RunError {
         }
     }
 
-    /// With the step as its cause, where that was found to be above the limit of stability.
+    /// Names the step as the cause, if it was found to be above the stability limit.
     pub(super) fn explained(mut self, doubts: &[Finding]) -> Self {
         let step = doubts.iter().find(|finding| finding.kind == "step");
         if let (Some(step), ErrorKind::Run) = (step, self.kind) {

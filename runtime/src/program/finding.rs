@@ -1,22 +1,22 @@
-//! Why a run that went on cannot be trusted, in words.
+//! Reasons not to trust a run that went on, in words.
 
 use crate::Real;
 use crate::simulate::{Beyond, Doubt, Watch};
 
-/// Why a run that went on cannot be trusted: [`Doubt`] in words.
+/// A reason not to trust a run that went on: [`Doubt`] in words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Since when \[s\].
+    /// Time since which it holds \[s\].
     pub since: f64,
-    /// "step", "curve", "energy" or "momentum".
+    /// "step", "curve", "energy", "momentum" or "singular".
     pub kind: String,
-    /// How much: the step over the largest stable one, the argument of a curve, the share that is missing.
+    /// Its size: the step over the largest stable one, the argument of a curve, or the missing share.
     pub amount: f64,
-    /// The coordinate or velocity that is named; "" where none is.
+    /// The coordinate or velocity concerned; "" where there is none.
     pub coordinate: String,
     /// The whole sentence.
     pub message: String,
-    /// What to do.
+    /// The remedy.
     pub remedy: String,
 }
 
@@ -33,7 +33,7 @@ impl From<Doubt> for Finding {
     }
 }
 
-/// Curves of the state that were left, of which no doubt comes: a sentence each.
+/// Curves of the state that were left without raising a doubt: a sentence for each.
 pub(super) fn notes<T: Real>(watch: &Watch<'_, T>) -> Vec<String> {
     let info = watch.info();
     let harmless = watch.left().filter(|left| !left.made_up(info));

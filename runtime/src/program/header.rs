@@ -2,7 +2,7 @@
 
 use crate::Info;
 
-/// What is known of a model: [`Info`] as owned values, less the curves.
+/// Everything known of a model without evaluating it: [`Info`] as owned values, without the curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Header {
     /// Name of the model.
@@ -15,13 +15,13 @@ pub struct Header {
     pub coordinates: Vec<String>,
     /// Names of v.
     pub velocities: Vec<String>,
-    /// Names of the states of force laws.
+    /// Names of the continuous states of force laws.
     pub auxiliaries: Vec<String>,
-    /// Names of what force laws remember.
+    /// Names of the discrete states of force laws.
     pub memory: Vec<String>,
-    /// Names of the guards.
+    /// Names of the event functions.
     pub guards: Vec<String>,
-    /// Names of the kinks of force laws.
+    /// Names of the non-smooth switching functions of force laws.
     pub kinks: Vec<String>,
     /// Names of the effects that do work.
     pub powers: Vec<String>,

@@ -1,4 +1,4 @@
-//! What to run: settings and parameters that differ from the model's own.
+//! What to run: settings and parameters that differ from those of the model.
 
 #[cfg(doc)]
 use super::ErrorKind;
@@ -9,37 +9,37 @@ use crate::{Adjustable, Info, Real};
 use std::fmt;
 use std::time::Duration;
 
-/// What to run. Whatever is `None` is as the model says.
+/// A run to do. Where a field is `None`, the model decides.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Job {
-    /// The state that the run begins with, and its time; `None`: the model's initial state, at 0.
+    /// The state at which the run begins, and its time. `None`: the model's initial state, at time 0.
     pub start: Option<Start>,
-    /// Time at which the run ends \[s\]: its length, where it begins at 0.
+    /// Time at which the run ends \[s\]. If the run begins at 0, this is its length.
     pub duration: Option<f64>,
     /// Time between samples \[s\].
     pub every: Option<f64>,
-    /// What is read off the whole run.
+    /// The responses to evaluate over the whole run.
     pub reading: Reading,
-    /// Which integrator, and how long its steps.
+    /// The integrator, and how it chooses its steps.
     pub method: Option<Method>,
     /// Whether steps end on the kinks of force laws.
     pub locate: Option<bool>,
     /// Limit on the number of steps.
     pub max_steps: Option<u64>,
-    /// Share of energy and of momentum that may be missing before a run is doubted, [`ENERGY_LIMIT`](crate::ENERGY_LIMIT) where
-    /// nothing is said; +∞: any.
+    /// Share of energy and of momentum that may be missing before a run is doubted. `None`:
+    /// [`ENERGY_LIMIT`](crate::ENERGY_LIMIT); +∞: no limit.
     pub energy_limit: Option<f64>,
-    /// Parameters by name, SI.
+    /// Parameters by name, in SI units.
     pub parameters: Vec<(String, f64)>,
     /// The arithmetic.
     pub scalar: Scalar,
-    /// Compute everything, deliver no samples and no balance of energy: to see how long a run takes.
+    /// Whether to compute everything but deliver no samples and no balance of energy, to measure how long a run takes.
     pub silent: bool,
-    /// How long the computation may take. What it has come to by then is delivered; the run ends with [`ErrorKind::Time`].
+    /// How long the computation may take. The results up to then are delivered, and the run ends with [`ErrorKind::Time`].
     pub time_limit: Option<Duration>,
 }
 
-/// A state that a run begins with.
+/// A state at which a run begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// Its time \[s\].
@@ -58,7 +58,7 @@ pub enum Scalar {
     F32,
     /// Double precision with faster, less accurate sines and cosines ([`crate::Fast`]).
     Fast,
-    /// Some 32 digits ([`crate::DoubleDouble`]).
+    /// About 32 digits ([`crate::DoubleDouble`]).
     DoubleDouble,
 }
 
@@ -82,17 +82,17 @@ impl Scalar {
     }
 }
 
-/// A job that does not fit.
+/// A job that is invalid or does not fit the model.
 #[derive(Clone, Debug, PartialEq)]
 pub enum JobError {
     /// No parameter has this name.
     UnknownParameter {
         /// The name.
         name: String,
-        /// The names there are.
+        /// The names that exist.
         known: Vec<&'static str>,
     },
-    /// The same parameter twice.
+    /// A parameter is given twice.
     RepeatedParameter {
         /// The name.
         name: String,
@@ -110,35 +110,35 @@ pub enum JobError {
         /// SI unit, "" where there is none.
         unit: &'static str,
     },
-    /// Parameters that make something of the model that cannot be.
+    /// The parameters violate a condition of the model.
     Condition {
-        /// What does not hold: "`mass` of man/head must be positive".
+        /// The condition: "`mass` of man/head must be positive".
         condition: &'static str,
         /// The parameters that were set, with their values (SI).
         parameters: Vec<(String, f64)>,
     },
-    /// An entry of the state to begin with that is not where states are: a quaternion that is not of length 1.
+    /// An entry of the given initial state is not on the manifold of states: a quaternion is not of length 1.
     State {
         /// Its name.
         name: &'static str,
-        /// Its value.
+        /// The given value.
         value: f64,
-        /// What it would have to be.
+        /// The value after normalization.
         normalized: f64,
     },
-    /// A slice of the wrong length.
+    /// A slice has the wrong length.
     Size {
-        /// Of what.
+        /// What the slice holds.
         what: &'static str,
         /// Its length.
         given: usize,
-        /// What it should be.
+        /// The correct length.
         expected: usize,
     },
 }
 
 impl Job {
-    /// The settings of a run of the model with this job. What is wrong with them, the run will say.
+    /// The settings of a run of the model with this job. The run itself checks them.
     pub fn settings(&self, info: &Info) -> Settings {
         let of_model = Settings::of(info);
         Settings {
@@ -153,7 +153,7 @@ impl Job {
     }
 }
 
-/// The parameters of a model that are named, by their index, with their values (SI).
+/// The index and value (SI) of each named parameter of a model.
 fn parameters(info: &Info, named: &[Named]) -> Result<Vec<(usize, f64)>, JobError> {
     let mut parameters = Vec::new();
     for (i, (name, value)) in named.iter().enumerate() {
@@ -183,7 +183,7 @@ fn parameters(info: &Info, named: &[Named]) -> Result<Vec<(usize, f64)>, JobErro
     Ok(parameters)
 }
 
-/// Gives a model, which has the defaults, the parameters that are named.
+/// Sets the named parameters of a model that has its default values.
 pub(super) fn adjust<T: Real>(
     model: &mut dyn Adjustable<T>,
     named: &[Named],
@@ -267,7 +267,7 @@ impl fmt::Display for JobError {
             } => {
                 write!(
                     f,
-                    "the state to begin with cannot be: its {name} is {value}, and {normalized} once quaternions have length 1"
+                    "the initial state is invalid: its {name} is {value}, but {normalized} when quaternions have length 1"
                 )
             }
             JobError::Size {

@@ -1,6 +1,6 @@
-//! A run described by a few words and delivered as rows of numbers: what a program needs around models, whatever made them.
+//! A run described by a few words and delivered as rows of numbers: what a program needs around models, however they were made.
 //!
-//! [`run_job`] runs a model of any [`Family`] with the arithmetic that a [`Job`] asks for. An [`Entry`] is a generated model in a table of many.
+//! [`run_job`] runs a model of any [`Family`] with the arithmetic that a [`Job`] asks for. An [`Entry`] is one generated model of a table of models.
 
 mod error;
 mod finding;
@@ -23,20 +23,20 @@ use crate::{Adjustable, DoubleDouble, Family, Fast, Info, Model, Real, Report};
 use reading::Signals;
 use std::ops::ControlFlow;
 
-/// Receives time, state and outputs of each sample; may break off the run.
+/// Receives time, state and outputs of each sample. It may stop the run.
 pub type Sink<'a> = dyn FnMut(f64, &[f64], &[f64]) -> ControlFlow<()> + 'a;
 
-/// Hears from time to time of the time that a run has reached \[s\], between samples too; may break off the run, which then ends with
+/// Is called from time to time with the time that a run has reached \[s\], also between samples. It may stop the run, which then ends with
 /// [`ErrorKind::Stopped`].
 pub type Observer<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
-/// A parameter by name, SI.
+/// A parameter: name and value (SI).
 pub type Named = (String, f64);
 
-/// Makes a model at the default values of all parameters.
+/// Makes a model with the default values of all parameters.
 pub type Make<T> = fn() -> Box<dyn Adjustable<T>>;
 
-/// A model of a program, so that a table can hold many.
+/// A model of a program, as an entry of a table of many.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// Names, units, sizes.
@@ -53,8 +53,8 @@ impl Entry {
         }
     }
 
-    /// The entry of a generated model without its Jacobian: for all methods but the Rosenbrock method. It spares the compilation of the
-    /// equations over dual numbers.
+    /// The entry of a generated model without its Jacobian, for all methods but the Rosenbrock method. It saves the compilation of the equations over
+    /// dual numbers.
     pub const fn without_jacobian<M: Model<f64> + 'static>() -> Entry {
         Entry {
             info: M::INFO,
@@ -62,15 +62,15 @@ impl Entry {
         }
     }
 
-    /// Runs the model as the job says, in double precision, and hands every sample to `sink`.
+    /// Runs the model as the job says, in double precision, and passes every sample to `sink`.
     ///
     /// # Errors
-    /// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before have been delivered.
+    /// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before the failure were delivered.
     pub fn run(&self, job: &Job, sink: &mut Sink<'_>) -> Result<Report, RunError> {
         execute_in_double((self.make)(), job, false, sink, &mut going_on).result
     }
 
-    /// [`Entry::run`], watched: where the energy went, and whether the run can be trusted.
+    /// [`Entry::run`] with a watch: where the energy went, and whether the run can be trusted.
     pub fn run_balanced(&self, job: &Job, sink: &mut Sink<'_>) -> Outcome {
         execute_in_double((self.make)(), job, true, sink, &mut going_on)
     }
@@ -78,14 +78,14 @@ impl Entry {
     /// The model with these parameters.
     ///
     /// # Errors
-    /// Parameters that the model does not have, or that it cannot have.
+    /// Parameters that the model does not have, or values that it does not allow.
     pub fn model(&self, parameters: &[Named]) -> Result<Box<dyn Adjustable<f64>>, RunError> {
         let mut model = (self.make)();
         job::adjust(&mut *model, parameters)?;
         Ok(model)
     }
 
-    /// The state a run with these parameters starts from: coordinates, velocities, and what force laws add.
+    /// The state at which a run with these parameters starts: coordinates, velocities, and the states of force laws.
     ///
     /// # Errors
     /// Those of [`Entry::model`].
@@ -95,10 +95,10 @@ impl Entry {
         Ok(state)
     }
 
-    /// ẏ, as many numbers as the state has.
+    /// ẏ at time `t` \[s\], with as many numbers as the state has.
     ///
     /// # Errors
-    /// Those of [`Entry::model`]; slices of other lengths.
+    /// Those of [`Entry::model`]; slices of the wrong length.
     pub fn derivative(
         &self,
         parameters: &[Named],
@@ -151,7 +151,7 @@ impl Entry {
         Ok(())
     }
 
-    /// The guards, in the order of [`Info::guards`].
+    /// The event functions, in the order of [`Info::guards`].
     ///
     /// # Errors
     /// Those of [`Entry::derivative`].
@@ -168,7 +168,7 @@ impl Entry {
         Ok(())
     }
 
-    /// The kinks, in the order of [`Info::kinks`].
+    /// The non-smooth switching functions, in the order of [`Info::kinks`].
     ///
     /// # Errors
     /// Those of [`Entry::derivative`].
@@ -185,7 +185,8 @@ impl Entry {
         Ok(())
     }
 
-    /// The first time after one at which a curve of time has a kink that parameters place ([`Dynamics::kink_after`](crate::Dynamics::kink_after)) \[s\].
+    /// The first time after `t` at which a curve of time has a kink that depends on parameters
+    /// ([`Dynamics::kink_after`](crate::Dynamics::kink_after)) \[s\].
     ///
     /// # Errors
     /// Those of [`Entry::model`].
@@ -193,7 +194,7 @@ impl Entry {
         Ok(self.model(parameters)?.kink_after(t))
     }
 
-    /// The momentum, six numbers, followed by its rate, the external_wrench.
+    /// The momentum, six numbers, followed by its rate, the net external wrench, six numbers.
     ///
     /// # Errors
     /// Those of [`Entry::derivative`].
@@ -211,7 +212,7 @@ impl Entry {
         Ok(())
     }
 
-    /// The state with the memory of force laws renewed.
+    /// The state after a discrete update ([`Dynamics::renew`](crate::Dynamics::renew)).
     ///
     /// # Errors
     /// Those of [`Entry::derivative`].
@@ -229,7 +230,7 @@ impl Entry {
         Ok(())
     }
 
-    /// The model, where the state and another slice, (what, given, expected), have the right lengths.
+    /// The model, after a check of the lengths of the state and of other slices: (what, given, expected).
     fn at(
         &self,
         parameters: &[Named],
@@ -252,13 +253,13 @@ impl Entry {
     }
 }
 
-/// Runs a model of a family as the job says, with the arithmetic that it asks for, and hands every sample to `sink`: watched, so that it is known
-/// where the energy went and whether the run can be trusted, unless the job is silent.
+/// Runs a model of a family as the job says, with the arithmetic that it asks for, and passes every sample to `sink`. Unless the job is silent, the
+/// run is watched: the outcome says where the energy went and whether the run can be trusted.
 pub fn run_job(family: &impl Family, job: &Job, sink: &mut Sink<'_>) -> Outcome {
     run_job_observed(family, job, sink, &mut going_on)
 }
 
-/// [`run_job`], with somebody who hears how far it is and may stop it.
+/// [`run_job`] with an observer, who hears how far the run is and may stop it.
 pub fn run_job_observed(
     family: &impl Family,
     job: &Job,
@@ -276,7 +277,7 @@ pub fn run_job_observed(
     }
 }
 
-/// [`run_job_observed`] of one model in double precision, at the default values of its parameters, whatever arithmetic the job asks for.
+/// [`run_job_observed`] for one model in double precision, with the default values of its parameters, whatever arithmetic the job asks for.
 pub fn run_model_observed(
     model: Box<dyn Adjustable<f64> + '_>,
     job: &Job,
@@ -286,7 +287,7 @@ pub fn run_model_observed(
     execute_in_double(model, job, !job.silent, sink, observer)
 }
 
-/// An [`Observer`] that stops nothing.
+/// An [`Observer`] that never stops a run.
 fn going_on(_: f64) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
@@ -294,7 +295,7 @@ fn going_on(_: f64) -> ControlFlow<()> {
 /// Runs a generated model as the job says. The arithmetic is that of `T`, whatever the job asks for.
 ///
 /// # Errors
-/// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before have been delivered.
+/// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before the failure were delivered.
 pub fn run<T: Real, M: Model<T> + 'static>(
     job: &Job,
     sink: &mut Sink<'_>,
@@ -309,7 +310,7 @@ pub fn run<T: Real, M: Model<T> + 'static>(
     .result
 }
 
-/// [`run`], watched: where the energy went, and whether the run can be trusted.
+/// [`run`] with a watch: where the energy went, and whether the run can be trusted.
 pub fn run_balanced<T: Real, M: Model<T> + 'static>(job: &Job, sink: &mut Sink<'_>) -> Outcome {
     execute(
         made_differentiable::<T, M>(),
@@ -320,7 +321,7 @@ pub fn run_balanced<T: Real, M: Model<T> + 'static>(job: &Job, sink: &mut Sink<'
     )
 }
 
-/// [`execute`] in double precision, compiled in this crate.
+/// [`execute`] in double precision, so that it is compiled in this crate.
 #[inline(never)]
 fn execute_in_double(
     model: Box<dyn Adjustable<f64> + '_>,
@@ -332,10 +333,10 @@ fn execute_in_double(
     execute(model, job, balanced, sink, observer)
 }
 
-/// Steps between two looks at the clock, and two words to the observer.
+/// Number of steps between two looks at the clock; the observer is called as often.
 const STEPS_BETWEEN_LOOKS: u32 = 16;
 
-/// Runs a model, which has the default values of its parameters, as the job says.
+/// Runs a model that has the default values of its parameters, as the job says.
 fn execute<T: Real>(
     mut model: Box<dyn Adjustable<T> + '_>,
     job: &Job,
@@ -430,10 +431,10 @@ fn execute<T: Real>(
     }
 }
 
-/// Entries of a state that was given differ from those on the manifold of states by rounding, or else they are wrong.
+/// Largest relative difference between a given state and its normalized form. More than that is no rounding but a wrong state.
 const OFF_MANIFOLD: f64 = 1e-6;
 
-/// Puts a state that is given into place.
+/// Copies a given state into place and checks that it is on the manifold.
 fn place<T: Real>(
     model: &dyn Adjustable<T>,
     given: &[f64],
@@ -452,7 +453,7 @@ fn place<T: Real>(
     model.normalize(state);
     for (index, (entry, value)) in state.iter().zip(given).enumerate() {
         let normalized = entry.to_f64();
-        // what is not finite is told of as of any initial state
+        // values that are not finite are reported later, as for any initial state
         if (normalized - value).abs() > OFF_MANIFOLD * value.abs().max(1.0) {
             return Err(JobError::State {
                 name: model.info().state_name(index).unwrap_or_default(),
@@ -493,19 +494,19 @@ impl Numbers {
 /// How a run ended, and where the energy went.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// What the run took, or why it failed.
+    /// The report of the run, or why it failed.
     pub result: Result<Report, RunError>,
-    /// What [was asked](Job::reading), in that order; nothing where the run did not reach its end, or is not to be trusted.
+    /// Answers to [the questions](Job::reading), in their order; empty where the run did not reach its end or cannot be trusted.
     pub answers: Vec<Answer>,
-    /// Samples of the channels that [are wanted themselves](reading::Reading::kept), in that order; nothing where the run did not reach its end.
+    /// Samples of [the kept channels](reading::Reading::kept), in their order; empty where the run did not reach its end.
     pub kept: Vec<Vec<f64>>,
-    /// The works of effects over time, where they [are wanted](Reading::works_every).
+    /// The work of each effect over time, if [asked for](Reading::works_every).
     pub history: Option<History>,
     /// The balance of energy up to the time reached; `None` where nothing ran.
     pub energy: Option<Energy>,
-    /// Why it cannot be trusted, what causes the rest first.
+    /// Reasons not to trust the run, causes first.
     pub doubts: Vec<Finding>,
-    /// What is worth knowing and no reason for doubt: curves that were left as far as they may be.
+    /// Notes that are no reason for doubt: curves that were left as far as they may be.
     pub notes: Vec<String>,
 }
 
@@ -518,9 +519,9 @@ pub struct Energy {
     pub end: f64,
     /// Work of each effect, in the order of [`Info::powers`].
     pub works: Vec<f64>,
-    /// Σ ∫ |P| dt, what was exchanged one way or the other.
+    /// Σ ∫ |P| dt: the energy exchanged in either direction.
     pub exchanged: f64,
-    /// Momentum of what moves freely that no force explains, as a share of what there is; `None` where nothing does.
+    /// The share of the momentum of free systems that no force explains; `None` where no system is free.
     pub momentum_gap: Option<f64>,
 }
 
@@ -530,7 +531,7 @@ impl Energy {
         self.end - self.start - self.works.iter().sum::<f64>()
     }
 
-    /// The gap as a share of the largest energy there was to lose: what was exchanged, or the kinetic energy.
+    /// The gap as a share of the largest energy that could be lost: the exchanged energy or the kinetic energy.
     pub fn relative_gap(&self) -> f64 {
         let scale = self.exchanged.max(self.start).max(self.end);
         if scale > 0.0 {

@@ -4,30 +4,30 @@ use crate::batch::rows::Asked;
 use crate::response::{Answer, Channel, Response, reduce};
 use crate::{Real, Task};
 
-/// What is read off a whole run: off samples that are equally far apart, besides those of the rows.
+/// What is evaluated over a whole run. It uses equidistant samples, in addition to those of the rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// Intervals between samples, at least 1. The samples leave no trace in the motion.
+    /// Number of intervals between samples, at least 1. The samples do not change the motion.
     pub intervals: u64,
-    /// What is asked. Times are those of the run, whatever time it begins at.
+    /// The responses asked for. Their times are times of the run, whatever time it begins at.
     pub asked: Vec<Asked>,
-    /// Channels whose samples are wanted themselves.
+    /// Channels whose samples are kept.
     pub kept: Vec<Kept>,
-    /// Least time between works of effects that are kept \[s\]; none are where it is `None`.
+    /// Least time between stored works of effects \[s\]; `None`: none are stored.
     pub works_every: Option<f64>,
 }
 
-/// A channel whose samples are wanted.
+/// A channel whose samples are kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kept {
-    /// Which.
+    /// The channel.
     pub channel: Channel,
-    /// The output in whose place it is shown, where it is.
+    /// The output that it replaces in what is shown, if any.
     pub in_place_of: Option<usize>,
 }
 
 impl Reading {
-    /// Parts of the run at whose ends there is a sample, 0 where nothing is wanted.
+    /// Number of parts of the run at whose ends there is a sample; 0 where nothing is asked for.
     pub(super) fn parts(&self) -> u64 {
         match self.asked.is_empty() && self.kept.is_empty() {
             true => 0,
@@ -36,15 +36,15 @@ impl Reading {
     }
 }
 
-/// Samples of the outputs that something is asked of.
+/// Samples of the outputs that are needed.
 pub(super) struct Signals<'a, T> {
     reading: &'a Reading,
-    /// Of each output that is asked for, its index and its samples.
+    /// Index and samples of each output that is needed.
     outputs: Vec<(usize, Vec<T>)>,
 }
 
 impl<'a, T: Real> Signals<'a, T> {
-    /// None yet.
+    /// No samples yet.
     pub fn of(reading: &'a Reading) -> Self {
         let of = |asked: &'a Asked| asked.channel.outputs();
         let mut outputs: Vec<usize> = reading.asked.iter().flat_map(of).copied().collect();
@@ -58,20 +58,20 @@ impl<'a, T: Real> Signals<'a, T> {
         }
     }
 
-    /// The outputs at the next sample.
+    /// Adds the outputs of the next sample.
     pub fn add(&mut self, outputs: &[T]) {
         for (index, samples) in &mut self.outputs {
             samples.push(outputs[*index]);
         }
     }
 
-    /// The samples of an output, none where it is not among those.
+    /// The samples of an output; none where it is not needed.
     fn samples(&self, output: usize) -> &[T] {
         let found = self.outputs.iter().find(|(index, _)| *index == output);
         found.map_or(&[], |(_, samples)| samples)
     }
 
-    /// The samples of the channels that are wanted themselves; none of a channel that cannot be filtered.
+    /// The samples of the kept channels; none of a channel that cannot be filtered.
     pub fn kept(&self, [start, end]: [f64; 2]) -> Vec<Vec<f64>> {
         let every = (end - start) / self.reading.intervals.max(1) as f64;
         let of = |kept: &Kept| {
@@ -84,7 +84,7 @@ impl<'a, T: Real> Signals<'a, T> {
         self.reading.kept.iter().map(of).collect()
     }
 
-    /// The answers of a run from one time to another \[s\].
+    /// The answers for a run from `start` to `end` \[s\].
     pub fn answers(&self, [start, end]: [f64; 2]) -> Vec<Answer> {
         let duration = end - start;
         let every = duration / self.reading.intervals.max(1) as f64;
@@ -103,7 +103,7 @@ impl<'a, T: Real> Signals<'a, T> {
                 }
             };
             let nothing = T::from_f64(f64::NAN);
-            // responses know times from the first sample alone
+            // responses count time from the first sample
             let response = match asked.response {
                 Response::Value { at } => Response::Value { at: at - start },
                 response => response,
@@ -200,7 +200,7 @@ mod tests {
     fn methods() -> [Method; 2] {
         [
             Method::adaptive(Formula::Dopri5, Tolerances::uniform(1e-10)),
-            // no whole number of them between two samples
+            // a step that does not divide the time between two samples
             Method::fixed(Formula::Rk4, 0.013),
         ]
     }

@@ -1,9 +1,9 @@
-//! Doubles side by side, each of which is `f64` in all it does: elementary functions are those of `f64`, where those of
-//! [`lanes`](super::lanes) are their own.
+//! Several doubles side by side, each of which behaves exactly as `f64`. The elementary functions are those of `f64`; those of
+//! [`lanes`](super::lanes) are different.
 //!
-//! Over [`Dual`](super::Dual) they are a value, the same in every lane, and its derivatives in as many directions: columns of a Jacobian side by
-//! side, each with the bits that it has alone over `Dual<f64>`. They need no instructions that not every processor has, and use wide ones where they
-//! are there; products and sums are fused as those of `f64` are. Machine code works on them in whole registers ([`Layout`](super::Layout)).
+//! Over [`Dual`](super::Dual) they hold a value, the same in every lane, and its derivatives in several directions: columns of a Jacobian side by
+//! side. Each column has the bits that `Dual<f64>` gives. They need no special instructions, and use wide ones where these exist. Products and sums
+//! are fused as those of `f64` are. Machine code works on them in whole registers ([`Layout`](super::Layout)).
 
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{Avx2, Avx512, Instructions};
@@ -55,7 +55,7 @@ impl<const N: usize> Mask for Bits<N> {
     }
 }
 
-/// A function of each lane; computed once where all lanes are the same number, as values are whose derivatives differ.
+/// A function of each lane. If all lanes hold the same number, as values with different derivatives do, it is computed once.
 #[inline(always)]
 fn each<const N: usize, const A: usize, R: Copy>(
     lanes: [[f64; N]; A],
@@ -82,7 +82,7 @@ macro_rules! operator {
     };
 }
 
-/// A scalar of so many doubles, at such an alignment: that of the register that holds it.
+/// A scalar of several doubles, aligned like the register that holds it.
 macro_rules! array {
     ($(#[$text:meta])* $name:ident, $lanes:literal, $align:literal, $instructions:ident) => {
         $(#[$text])*
@@ -140,7 +140,7 @@ macro_rules! array {
                 $name([value; $lanes])
             }
 
-            /// The largest.
+            /// The largest lane.
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 self.0.into_iter().fold(f64::NEG_INFINITY, f64::max)
@@ -224,7 +224,7 @@ mod tests {
     use super::{Array4, Array8};
     use crate::real::{Dual, Mask, Real};
 
-    /// Numbers of all kinds.
+    /// Numbers of many kinds.
     const NUMBERS: [f64; 10] = [
         0.0,
         -0.0,

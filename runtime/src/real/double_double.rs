@@ -1,5 +1,5 @@
-//! Numbers of about 32 digits: an unevaluated sum hi + lo of two doubles, lo at most half a unit in the last place of hi
-//! (Dekker 1971). For reference solutions, where it is to be exact and need not be quick.
+//! Numbers of about 32 digits: an unevaluated sum hi + lo of two doubles, where lo is at most half a unit in the last place
+//! of hi (Dekker 1971). They are for reference solutions, which must be exact and need not be quick.
 //!
 //! With u = 2⁻⁵³ the relative errors are bounded by (Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic
 //! building blocks of double-word arithmetic", 2017, algorithms 6, 10 and 17):
@@ -10,12 +10,12 @@
 //! | a · b | 7 u² |
 //! | a / b | 15 u² |
 //!
-//! They hold where products are far from the ends of the range of doubles, between about 10⁻²⁹⁰ and 10²⁹⁰. What is below
-//! loses the digits of lo; what overflows becomes infinite or NaN, and shows in hi: lo is finite always.
+//! The bounds hold for products far from the ends of the range of doubles, between about 10⁻²⁹⁰ and 10²⁹⁰. Smaller products
+//! lose the digits of lo. Overflow gives infinity or NaN in hi; lo is always finite.
 //!
-//! Nothing here needs the standard library or `libm`, and no routine of a library is called. The operations of tens of
-//! instructions are never inlined: generated models have thousands of them in a row, and as calls they compile nearly as
-//! quickly as those of `f64`.
+//! Nothing here needs the standard library or `libm`, and nothing calls a library. Operations of tens of instructions are
+//! never inlined: generated models have thousands of them in a row, and as calls they compile nearly as quickly as those of
+//! `f64`.
 
 mod elementary;
 #[cfg(test)]
@@ -30,7 +30,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 pub struct DoubleDouble {
     /// The number rounded to a double.
     hi: f64,
-    /// What that leaves of it.
+    /// The rest of the number.
     lo: f64,
 }
 
@@ -57,7 +57,7 @@ impl DoubleDouble {
         [self.hi, self.lo]
     }
 
-    /// `hi` + `lo`, of which `lo` is the smaller one.
+    /// `hi` + `lo`, where `lo` is the smaller one.
     #[inline(always)]
     const fn settled(hi: f64, lo: f64) -> Self {
         let (hi, lo) = quick_two_sum(hi, lo);
@@ -99,7 +99,7 @@ const fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, b - (sum - a))
 }
 
-/// `a` · `b` = product + error, exactly, where the instruction rounds product and sum at once.
+/// `a` · `b` = product + error, exactly, with an instruction that rounds product and sum at once.
 #[cfg(all(
     any(feature = "std", test),
     any(target_feature = "fma", target_arch = "aarch64")
@@ -120,7 +120,7 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
     two_product_split(a, b)
 }
 
-/// `a` · `b` = product + error, exactly, of halves whose products are exact (Dekker).
+/// `a` · `b` = product + error, exactly, by halves whose products are exact (Dekker).
 #[inline(always)]
 const fn two_product_split(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
@@ -205,7 +205,7 @@ impl Div for DoubleDouble {
                 lo: 0.0,
             };
         }
-        // what the quotient leaves of the numerator is a double
+        // the remainder of the division is a double
         let (product, error) = two_product(quotient, other.hi);
         let rest = ((self.hi - product) - error) + (self.lo - quotient * other.lo);
         DoubleDouble::settled(quotient, rest / other.hi)

@@ -1,19 +1,19 @@
 //! A value and its derivative with respect to one variable: f + f′ε with ε² = 0.
 //!
-//! Equations evaluated over it yield derivatives exact to rounding, a column of a Jacobian at a time; the values are
-//! those of the scalar below, bit for bit. The part below may be a dual number itself, which gives second derivatives.
+//! Equations evaluated over dual numbers yield derivatives exact to rounding, one column of a Jacobian at a time. The values have the
+//! bits of the scalar below. The scalar below may be a dual number itself, which gives second derivatives.
 //!
-//! Where a function has no derivative, the choices are these:
+//! Where a function has no derivative, the slope is chosen as follows. "Stands still" means that the slope of the argument is 0.
 //!
 //! | where | slope |
 //! |---|---|
-//! | [`abs`](Real::abs) at 0 | that to the right, as of a curve at its points |
+//! | [`abs`](Real::abs) at 0 | that to the right, as for a curve at its points |
 //! | [`max`](Real::max), [`min`](Real::min) of equals, [`select`](Real::select) | that of the argument taken |
 //! | [`sqrt`](Real::sqrt) at 0, [`powf`](Real::powf) of 0 with an exponent below 1 | infinite, but 0 where the argument stands still |
 //! | [`atan2`](Real::atan2) at the origin | NaN, but 0 where the point stands still |
 //!
-//! What stands still there is told apart in the argument (0/1 in place of 0/0), not in the result, so that the rule
-//! holds for second derivatives too. Laws that pass such places at speed guard their argument themselves.
+//! The case that the argument stands still is told apart in the argument (0/1 in place of 0/0), not in the result, so the rule holds
+//! for second derivatives, too. Laws that pass such places at speed guard their argument themselves.
 
 use super::{Form, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
@@ -37,7 +37,7 @@ const fn words_of<T: Real>() -> usize {
 }
 
 impl<T: Real> Dual<T> {
-    /// What does not depend on the variable.
+    /// A number that does not depend on the variable.
     #[inline(always)]
     pub fn constant(value: T) -> Self {
         Dual {
@@ -119,7 +119,7 @@ impl<T: Real> AddAssign for Dual<T> {
     }
 }
 
-/// `argument`, not negative, but 1 where it is 0 and `motion` is 0 too.
+/// `argument`, which is not negative; but 1 where both it and `motion` are 0.
 #[inline(always)]
 fn guarded<T: Real>(argument: T, motion: T) -> T {
     let zero = T::from_f64(0.0);
@@ -435,7 +435,7 @@ mod tests {
 
     #[test]
     fn slopes_have_all_digits_of_the_scalar_below() {
-        // against a central difference in double-double: h² = 10⁻²⁰ and the rounding 10⁻³⁰/h
+        // compared with a central difference in double-double: the error is h² = 10⁻²⁰ and the rounding 10⁻³⁰/h
         let h = DoubleDouble::from_f64(1e-10);
         for i in 1..20 {
             let x = DoubleDouble::from_f64(0.23 * f64::from(i));
@@ -485,7 +485,7 @@ mod tests {
 
     #[test]
     fn second_derivatives_pass_places_where_the_first_is_0() {
-        // √(1 + x²) at 0: its argument stands still, but will not do so for long
+        // √(1 + x²) at 0: its argument stands still, but its second derivative is not 0
         let x = Dual::variable(Dual::variable(0.0_f64));
         let one = Dual::constant(Dual::constant(1.0));
         let root = x.mul_add(x, one).sqrt();
@@ -502,7 +502,7 @@ mod tests {
         let dual = |value: f64, slope: f64| Dual { value, slope };
         let (a, b) = (dual(1.0, 3.0), dual(2.0, -4.0));
         assert_eq!([a.max(b), a.min(b), b.max(a), b.min(a)], [b, a, b, a]);
-        // of equals the one on the left
+        // for equal arguments, the one on the left
         let other = dual(1.0, 7.0);
         assert_eq!([a.max(other), a.min(other), other.max(a)], [a, a, other]);
         assert_eq!(

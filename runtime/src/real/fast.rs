@@ -1,24 +1,24 @@
-//! `f64` with a cheaper, coarser sine and cosine: to show what the library's exact ones are worth.
+//! `f64` with a faster, less accurate sine and cosine. It shows what the exact ones cost.
 //!
-//! x = k π/2 + r with |r| ≤ π/4, π/2 in two parts of which the first has 33 bits, so that its product with k is exact (Cody
+//! x = k π/2 + r with |r| ≤ π/4. π/2 has two parts, of which the first has 33 bits, so that its product with k is exact (Cody
 //! and Waite 1980). Then
 //!
 //! sin r ≈ r + r³ (s₀ + s₁r² + s₂r⁴ + s₃r⁶),   cos r ≈ 1 + r² (c₀ + c₁r² + c₂r⁴ + c₃r⁶),
 //!
-//! which k mod 4 exchanges and negates. The coefficients make the largest absolute error over \[0, π/4 + 2⁻³⁰\] smallest: they
-//! are found by Remez's exchange of extrema in 50 digits and rounded to doubles. The errors they leave are 2.4·10⁻¹² and
-//! 5.4·10⁻¹¹; the rounding of k π/2 and r adds |x| 2⁻⁵². Nothing branches and nothing is called, so loops over several become
-//! vector instructions.
+//! and k mod 4 exchanges and negates them. The coefficients minimise the largest absolute error over \[0, π/4 + 2⁻³⁰\]. They
+//! were found by Remez's exchange of extrema in 50 digits and rounded to doubles. The remaining errors are 2.4·10⁻¹² and
+//! 5.4·10⁻¹¹; the rounding of k π/2 and r adds |x| 2⁻⁵². Nothing branches and nothing is called, so loops over several numbers
+//! become vector instructions.
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-/// A double whose sine and cosine are within 10⁻¹⁰ for |x| ≤ 10⁴; in all else it is `f64`.
+/// A double whose sine and cosine are within 10⁻¹⁰ for |x| ≤ 10⁴. In everything else it is `f64`.
 ///
-/// Beyond 10⁴ the error grows by |x| 2⁻⁵²; beyond 10⁹ rad the results are NaN.
+/// Beyond 10⁴ rad the error grows by |x| 2⁻⁵²; beyond 10⁹ rad the results are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fast(pub f64);
 
-/// 1.5 · 2⁵²: added and taken away it rounds to the nearest whole number, whose last bits are the last ones of the sum.
+/// 1.5 · 2⁵²: adding and subtracting it rounds to the nearest whole number; the last bits of the sum are those of that number.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// π/2 to 33 bits, and the rest.
 const QUARTER_TURN: [f64; 2] = [1.570_796_326_734_125_6, 6.077_100_506_506_192e-11];
@@ -36,7 +36,7 @@ const COSINE: [f64; 4] = [
     -0.001_388_676_379_859_015_5,
     2.439_045_107_929_203e-5,
 ];
-/// \[rad\]; from here on k would not be whole in every bit.
+/// Beyond this angle \[rad\], k would not be exact.
 const LARGEST: f64 = 1e9;
 
 /// An operator of `f64`.
@@ -181,7 +181,8 @@ mod tests {
     use super::Fast;
     use crate::Real;
 
-    /// Largest difference of sine and cosine from the library's, over ±`reach` in steps that are no part of a turn.
+    /// The largest difference of sine and cosine from those of the library, over ±`reach`, in steps that are no part of a
+    /// turn.
     fn worst(reach: f64) -> f64 {
         let steps = 200_000;
         (-steps..=steps)
@@ -198,7 +199,7 @@ mod tests {
         for reach in [0.8, 3.2, 10.0, 100.0, 1e4] {
             let worst = worst(reach);
             assert!(worst <= 1e-10, "{reach}: {worst:e}");
-            // and it is another function than the library's: the error of the polynomial is seen
+            // it is another function than that of the library: the error of the polynomial is visible
             assert!(worst >= 1e-11, "{reach}: {worst:e}");
         }
         assert!(worst(9e8) <= 1e-10 + 9e8 * f64::EPSILON);

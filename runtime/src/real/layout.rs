@@ -1,29 +1,28 @@
-//! How a scalar lies in memory.
+//! The layout of a scalar in memory.
 
 use super::{Array4, Array8, Dual, Real};
 use core::any::TypeId;
 
-/// A scalar that is nothing but numbers side by side, as they lie in memory, or such a scalar and behind it the same for its slope: what machine
-/// code can work on.
+/// The layout of a scalar that machine code can work on: numbers side by side in memory, followed, for a dual number, by the same for its slopes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// How many numbers, without those of slopes.
+    /// Number of lanes, without those of slopes.
     pub lanes: usize,
-    /// `f32` instead of `f64`.
+    /// Whether numbers are `f32` instead of `f64`.
     pub single: bool,
-    /// Whether [`Real::mul_add`] rounds once.
+    /// Whether [`Real::mul_add`] rounds only once.
     pub fused: bool,
     /// Whether it is a dual number.
     pub slopes: bool,
-    /// Whether the angle of a point is that of the platform's library, and not that of lanes.
+    /// Whether `atan2` is that of the platform's library, and not that of lanes.
     pub platform_angle: bool,
 }
 
 impl Layout {
-    /// That of `f64`, `f32`, [`Array4`], [`Array8`], of the registers of [`lanes`](super::lanes), and of [`Dual`] over these; `None` of any other
-    /// scalar.
+    /// The layout of `f64`, `f32`, [`Array4`], [`Array8`], of the registers of [`lanes`](super::lanes), and of [`Dual`] over these; `None` for
+    /// any other scalar.
     ///
-    /// Every operation of these scalars but the elementary functions is one of IEEE 754 in each lane.
+    /// Every operation of these scalars, except the elementary functions, is an operation of IEEE 754 in each lane.
     pub fn of<T: Real>() -> Option<Layout> {
         let numbers = |lanes, single| Layout {
             lanes,
@@ -40,7 +39,7 @@ impl Layout {
             .or_else(super::lanes::layout::<T>)
     }
 
-    /// This one, where the scalar is `N`, and that of duals, where it is a dual number over `N`.
+    /// This layout if the scalar `T` is `N`; the one with slopes if `T` is a dual number over `N`.
     pub(super) fn if_over<T: Real, N: Real>(self) -> Option<Layout> {
         let scalar = TypeId::of::<T>();
         let slopes = scalar == TypeId::of::<Dual<N>>();
@@ -54,7 +53,7 @@ mod tests {
     use crate::real::lanes::{OfAnyWidth, Several, with_width, with_width_of_singles};
     use crate::{Dual, Real, Width};
 
-    /// Compares the layout of a scalar with what it says of itself.
+    /// Compares the layout of a scalar with its properties.
     struct Compare;
 
     impl<F: Real> OfAnyWidth<F> for Compare {

@@ -1,9 +1,9 @@
-//! Scalars as plain numbers, lane by lane: what functions that are compiled apart take and return.
+//! Scalars as plain numbers, lane by lane: the arguments and results of functions that are compiled apart.
 //!
-//! A single travels as the double of its value, so that all words are doubles. A dual number is the words of its value, then those of its
-//! slope. Every lane of a register travels by itself.
+//! All words are doubles; a single is passed as the double of its value. A dual number is the words of its value, then those of its
+//! slope. The lanes of a register are passed one by one.
 
-/// What a number is, one lane of it, without derivatives.
+/// The kind of one number: one lane, without derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum Base {
@@ -15,13 +15,13 @@ pub enum Base {
     Fast = 2,
     /// [`DoubleDouble`](super::DoubleDouble)
     DoubleDouble = 3,
-    /// A lane of doubles that fuses products and sums: [`Width::One`](super::Width::One) and wider.
+    /// A lane of doubles with fused products and sums: [`Width::One`](super::Width::One) and wider.
     Lane = 4,
-    /// A lane of doubles that does not: [`Width::Plain`](super::Width::Plain).
+    /// A lane of doubles without: [`Width::Plain`](super::Width::Plain).
     PlainLane = 5,
-    /// A lane of singles that fuses products and sums.
+    /// A lane of singles with fused products and sums.
     SingleLane = 6,
-    /// A lane of singles that does not.
+    /// A lane of singles without.
     PlainSingleLane = 7,
 }
 
@@ -46,19 +46,19 @@ impl Base {
     }
 }
 
-/// What a scalar is made of: [`Real::FORM`](super::Real::FORM).
+/// The parts of a scalar: [`Real::FORM`](super::Real::FORM).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Form {
-    /// What each part of each lane is.
+    /// The kind of number of each part of each lane.
     pub base: Base,
-    /// 0 for a value alone, 1 for a value with its slope, 2 for a dual number of dual numbers, ….
+    /// Order of derivatives: 0 for a value alone, 1 for a value with its slope, 2 for a dual number of dual numbers, and so on.
     pub order: u32,
-    /// Numbers side by side.
+    /// Number of lanes.
     pub lanes: usize,
 }
 
 impl Form {
-    /// Of one lane, without derivatives.
+    /// One lane without derivatives.
     pub const fn of(base: Base) -> Self {
         Form {
             base,
@@ -67,12 +67,12 @@ impl Form {
         }
     }
 
-    /// As many side by side.
+    /// The same with this many lanes.
     pub const fn times(self, lanes: usize) -> Self {
         Form { lanes, ..self }
     }
 
-    /// With a slope beside each value.
+    /// The same with a slope beside each value.
     pub const fn dual(self) -> Self {
         Form {
             order: self.order + 1,
@@ -93,7 +93,7 @@ mod tests {
     use crate::real::lanes::{OfAnyWidth, Several, with_width, with_width_of_singles};
     use crate::{DoubleDouble, Dual, Fast, Width};
 
-    /// Puts several into one place, each lane apart, and finds them again.
+    /// Writes several scalars into one array, with each lane apart, and reads them back.
     fn there_and_back<T: Real>(of: impl Fn(usize) -> T) {
         let form = T::FORM.expect("a form");
         let words = form.words();

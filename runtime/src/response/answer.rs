@@ -1,24 +1,24 @@
-//! A response of one of two runs, and how far they are apart.
+//! A response of a run, and its distance from that of another run.
 
 use super::Response;
 
-/// What differs by less than this share of the largest sample of its signal is not taken to differ relative to itself: a response that is next
-/// to nothing need not be right in its own digits.
+/// Differences are relative to at least this share of the largest sample of the signal: a response that is nearly 0 need not be correct in its
+/// own digits.
 const FLOOR: f64 = 1e-2;
 
 /// A response of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// NaN where there is none.
+    /// The value; NaN where there is none.
     pub value: f64,
-    /// The least that a difference is taken relative to.
+    /// The smallest value that a difference is taken relative to.
     pub floor: f64,
     /// The largest magnitude of a sample of its signal.
     pub largest: f64,
 }
 
 impl Answer {
-    /// With the largest magnitude of a sample, and the length of the signal \[s\].
+    /// A response, given the largest magnitude of a sample and the length of the signal \[s\].
     pub fn new(response: Response, value: f64, largest: f64, duration: f64) -> Self {
         let size = match response {
             Response::TimeOfPeak | Response::TimeOfMinimum => duration,
@@ -33,7 +33,7 @@ impl Answer {
         }
     }
 
-    /// The difference from that of a less accurate run, relative to the larger of both; NaN where either has none.
+    /// The difference from the response of a less accurate run, relative to the larger of both; NaN where either is NaN.
     pub fn apart(&self, other: &Answer) -> f64 {
         let scale = self.value.abs().max(other.value.abs()).max(self.floor);
         match (self.value - other.value).abs() {
@@ -53,11 +53,11 @@ mod tests {
         let answer = |response, value| Answer::new(response, value, 200.0, 0.5);
         let peak = |value| answer(Response::Peak, value);
         assert_eq!(peak(100.0).apart(&peak(90.0)), 0.1);
-        // 1 % of 200 is more than either
+        // 1 % of 200 is more than both
         assert_eq!(peak(0.5).apart(&peak(-0.5)), 0.5);
         assert_eq!(peak(0.0).apart(&peak(0.0)), 0.0);
         assert!(peak(f64::NAN).apart(&peak(1.0)).is_nan());
-        // times relative to the duration: 1 ms of 1 % of 0.5 s
+        // times are relative to the duration: 1 ms in 1 % of 0.5 s
         let time = |value| answer(Response::TimeOfPeak, value);
         assert!((time(0.0).apart(&time(1e-3)) - 0.2).abs() < 1e-15);
         let hic = |value| answer(Response::Hic { window: 15e-3 }, value);

@@ -1,26 +1,27 @@
-//! A signal that is made of others: each filtered, and then put together.
+//! A signal that is formed from outputs: each is filtered, then they are combined.
 //!
-//! Sensors measure components, and standards filter what a sensor measures: components are filtered before their resultant is formed.
+//! Sensors measure components, and standards filter what a sensor measures. So components are filtered before their resultant is
+//! formed.
 
 use super::filter::{Filter, filtered};
 use crate::Real;
 
-/// What a response is read off: outputs, filtered or as they are, put together.
+/// The signal of a response: one or several outputs, filtered or unfiltered, combined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Channel {
     outputs: [usize; MOST],
     count: usize,
-    /// By which each is filtered.
+    /// The filter of each output, if any.
     pub filter: Option<Filter>,
-    /// How they are put together.
+    /// How the outputs are combined.
     pub combination: Combination,
 }
 
-/// Outputs of a channel at most.
+/// The largest number of outputs of a channel.
 pub const MOST: usize = 3;
 
 impl Channel {
-    /// An output as it is: its index in [`Info::outputs`](crate::Info::outputs).
+    /// A single output without filter: its index in [`Info::outputs`](crate::Info::outputs).
     pub const fn output(index: usize) -> Channel {
         Channel {
             outputs: [index, 0, 0],
@@ -30,7 +31,7 @@ impl Channel {
         }
     }
 
-    /// Several outputs, as many as the combination is of; `None` of another number.
+    /// Several outputs; `None` if their number does not fit the combination.
     pub fn of(outputs: &[usize], filter: Option<Filter>, combination: Combination) -> Option<Self> {
         if !combination.takes(outputs.len()) {
             return None;
@@ -50,7 +51,7 @@ impl Channel {
         &self.outputs[..self.count]
     }
 
-    /// The output that it is, where it is one as it is.
+    /// The output, if the channel is a single output without filter.
     pub fn plain(&self) -> Option<usize> {
         match (self.filter, self.combination) {
             (None, Combination::Itself) => Some(self.outputs[0]),
@@ -58,7 +59,8 @@ impl Channel {
         }
     }
 
-    /// Its samples, of those of its outputs, which are `every` \[s\] apart; `None` where they cannot be filtered, or there are none.
+    /// The samples of the channel from those of its outputs, which are `every` \[s\] apart; `None` where they cannot be filtered, or
+    /// where there are none.
     pub fn form<T: Real>(&self, samples: impl Fn(usize) -> Vec<T>, every: f64) -> Option<Vec<T>> {
         let signal = |output: &usize| match self.filter {
             Some(Filter { class, standard }) => filtered(&samples(*output), every, class, standard),
@@ -69,21 +71,22 @@ impl Channel {
     }
 }
 
-/// How one signal is made of several.
+/// How several signals are combined into one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Combination {
-    /// The one that there is.
+    /// The single signal itself.
     Itself,
-    /// max(s x, 0) of the one that there is: its part along the sign s.
+    /// max(s x, 0) of the single signal x: its part along the sign s.
     Positive(f64),
-    /// √(x² + y² + z²) of two or three.
+    /// √(x² + y² + z²) of two or three signals.
     Resultant,
     /// Nij of the shear force Fx, the axial force Fz and the moment My at the load cell of the upper neck \[49 CFR 571.208 S6.6\]:
     /// the larger of Fz/Fzc over tension and compression, and the larger of M/Mc over flexion and extension, with M = My − e Fx.
     Nij(Neck),
-    /// max(−M, 0) of Fx and My, with M = My − e Fx: what bends the head back.
+    /// max(−M, 0) of Fx and My, with M = My − e Fx: the moment that bends the head back.
     Extension,
-    /// S (D/D₀) dD/dt of a deflection D, the rate that of five points; 0 at the two samples of either end \[Euro NCAP TB 021\].
+    /// S (D/D₀) dD/dt of a deflection D. The rate is that of five points; the result is 0 at the two samples of either end \[Euro
+    /// NCAP TB 021\].
     Viscous(Chest),
     /// The tibia index √(Mx² + My²)/Mc + |Fz|/Fc of Mx, My and Fz.
     Tibia {
@@ -92,7 +95,7 @@ pub enum Combination {
         /// Fc \[N\]
         force: f64,
     },
-    /// √Σ (max |ωᵢ|/ωᵢc)² of three angular velocities, with the largest up to each time: it ends at BrIC \[Takhounts 2013\].
+    /// √Σ (max |ωᵢ|/ωᵢc)² of three angular velocities, with the maximum up to each time. Its last value is BrIC \[Takhounts 2013\].
     Rotation([f64; 3]),
 }
 
@@ -109,7 +112,7 @@ pub struct Neck {
     pub extension: f64,
 }
 
-/// What the viscous criterion needs.
+/// The constants of the viscous criterion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chest {
     /// Scaling factor of the dummy, S \[1\].
@@ -118,11 +121,12 @@ pub struct Chest {
     pub depth: f64,
 }
 
-/// From the load cell at the upper neck to the joint of head and neck, of all Hybrid III dummies, e \[m\] \[49 CFR Part 572\].
+/// The distance e \[m\] from the load cell at the upper neck to the joint of head and neck, for all Hybrid III dummies \[49 CFR Part
+/// 572\].
 pub const ARM: f64 = 0.01778;
 
 impl Combination {
-    /// Whether it is of so many signals.
+    /// Whether it combines this number of signals.
     pub fn takes(self, count: usize) -> bool {
         match self {
             Combination::Itself | Combination::Positive(_) | Combination::Viscous(_) => count == 1,
@@ -134,7 +138,7 @@ impl Combination {
         }
     }
 
-    /// Whether it has the unit of its first signal, and not a unit of its own.
+    /// Whether the result has the unit of the first signal, and not a unit of its own.
     pub fn keeps_unit(self) -> bool {
         matches!(
             self,
@@ -142,7 +146,8 @@ impl Combination {
         )
     }
 
-    /// The signal of signals that are equally long, with samples `every` \[s\]; `None` of another number of them, or of none.
+    /// The combination of signals of equal length, whose samples are `every` \[s\] apart; `None` if their number is wrong or they are
+    /// empty.
     pub fn form<T: Real>(self, signals: &[Vec<T>], every: f64) -> Option<Vec<T>> {
         let first = signals.first().filter(|_| self.takes(signals.len()))?;
         if signals.iter().any(|other| other.len() != first.len()) {
@@ -163,7 +168,7 @@ impl Combination {
             }),
             Combination::Nij(neck) => each(&|i| {
                 let (fz, m) = (signals[1][i], moment(first[i], signals[2][i]));
-                // of either pair one is not negative
+                // one of each pair is not negative
                 over(fz, neck.tension).max(over(-fz, neck.compression))
                     + over(m, neck.flexion).max(over(-m, neck.extension))
                     + (fz + m).taint()
@@ -207,12 +212,12 @@ impl Combination {
     }
 }
 
-/// The root, which has no slope at 0.
+/// The square root, with a slope of 0 at 0.
 fn root<T: Real>(square: T) -> T {
     let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
     let some = zero.lt(square);
     let root = T::select(some, square, one).sqrt();
-    // what is no number stays
+    // NaN stays NaN
     T::select(some, root, zero) + square.taint()
 }
 
@@ -240,13 +245,13 @@ mod tests {
             let formed = Combination::Viscous(chest).form(&[samples.collect()], 1e-4);
             let found = peak(&formed.unwrap());
             let exact = 1.3 * 0.05 * 0.05 * omega / (2.0 * 0.229);
-            // five points err by (ω Δt)⁴/30; the top lies 0.5 samples off at most: (2 ω Δt/2)²/2
+            // the five-point rate errs by (ω Δt)⁴/30; the top lies at most 0.5 samples off: (2 ω Δt/2)²/2
             assert!((found / exact - 1.0).abs() < 2e-5, "{found} {exact}");
             assert!((exact - 0.3715493).abs() < 1e-7);
         }
     }
 
-    /// Each of the four modes with numbers of its own.
+    /// Each of the four modes of the neck, with numbers of its own.
     #[test]
     fn each_mode_of_the_neck_counts_by_itself() {
         let critical = Neck {
@@ -269,7 +274,7 @@ mod tests {
         }
     }
 
-    /// Maxima of BrIC are at different times; the example is of (30, 20, 10) rad/s.
+    /// The maxima of BrIC are at different times. The example has (30, 20, 10) rad/s.
     #[test]
     fn rotations_add_their_largest_whenever_they_are() {
         let critical = Combination::Rotation([66.25, 56.45, 42.87]);
@@ -312,12 +317,12 @@ mod tests {
         for ((found, x), y) in found.iter().zip(of(&x)).zip(of(&y)) {
             assert!((found - x.hypot(y)).abs() < 1e-15);
         }
-        // too coarse for the class
+        // samples too far apart for the class
         assert!(channel.form(samples, 2e-3).is_none());
         assert!(Channel::of(&[1], None, Combination::Resultant).is_none());
     }
 
-    /// At rest a resultant has no slope; elsewhere that of the root.
+    /// At rest the slope of a resultant is 0; elsewhere it is that of the root.
     #[test]
     fn resultants_have_slopes_at_rest_too() {
         let dual = |value: f64, slope: f64| Dual { value, slope };

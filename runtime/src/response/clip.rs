@@ -1,18 +1,18 @@
-//! The level that a signal exceeds for a duration: in all, or without a break. The signal is linear between samples, which errs by
-//! the square of their interval.
+//! The level that a signal exceeds for a given duration: in total, or without a break. The signal is linear between samples; the
+//! error of this is of the order of the square of their interval.
 //!
-//! In all: the time over a level falls with the level, linearly between neighbouring values of samples, and jumps where the signal
-//! stays on one. Newton's step from any level is exact if it stays between the neighbours; if not, all up to a neighbour is ruled
-//! out, so that there is an end, and by halving a soon one.
+//! In total: the time above a level decreases as the level rises. It is linear between neighbouring values of samples, and jumps
+//! where the signal stays on one value. Newton's step from any level is exact if it stays between the neighbouring values. If it
+//! does not, all levels up to a neighbour are excluded. So the search ends, and bisection makes it end soon.
 //!
-//! Without a break, it is the largest of the smallest values within a window. The smallest value is the least of both edges and
-//! of the samples between, so that the window that has the largest begins or ends on a sample, or else rises at its
-//! beginning, falls at its end, and has both edges on one level.
+//! Without a break: it is the largest of the smallest values within a window. The smallest value is the least of the two edges and
+//! of the samples between them. So the best window begins or ends on a sample; or the signal rises at its beginning, falls at its
+//! end, and both edges are on one level.
 
 use super::whole_and_rest;
 use crate::{Mask, Real};
 
-/// The level that is exceeded for so many intervals in all; `None` where the signal is shorter.
+/// The level that is exceeded for so many intervals in total; `None` if the signal is shorter.
 #[inline(always)]
 pub(super) fn cumulative<T: Real>(samples: &[T], intervals: f64, scratch: &mut [T]) -> Option<T> {
     let (whole, rest) = whole_and_rest(intervals, samples.len().checked_sub(1)?)?;
@@ -26,7 +26,7 @@ pub(super) fn cumulative<T: Real>(samples: &[T], intervals: f64, scratch: &mut [
     if whole == 0 && rest == 0.0 {
         return Some(high);
     }
-    // lanes with a sample that is no number have nothing between
+    // in lanes with a sample that is NaN, the interval becomes empty
     high += taint;
 
     let (pairs, _) = scratch.as_chunks_mut::<2>();
@@ -36,7 +36,7 @@ pub(super) fn cumulative<T: Real>(samples: &[T], intervals: f64, scratch: &mut [
     }
     let (mut left, mut over) = (samples.len() - 1, num(0.0));
     let mut level = middle(low, high);
-    // every pass rules out a value of a sample
+    // every pass excludes a value of a sample
     for _ in 1..samples.len() {
         let open = low.lt(high);
         if !open.any() {
@@ -58,7 +58,7 @@ pub(super) fn cumulative<T: Real>(samples: &[T], intervals: f64, scratch: &mut [
         low = T::select(open, to_low, low);
         high = T::select(open, to_high, high);
 
-        // Newton's step, or half way if the last one did not come so far; within what is left
+        // Newton's step, or bisection if the last step halved too little; within the remaining interval
         let inside = low.lt(solved).and(solved.lt(high));
         let far = (high - low).lt(before * num(0.5));
         level = T::select(inside.and(far), solved, middle(low, high));
@@ -67,22 +67,23 @@ pub(super) fn cumulative<T: Real>(samples: &[T], intervals: f64, scratch: &mut [
     Some(low)
 }
 
-/// How long a signal is at or over a level, in intervals.
+/// How long a signal is at or above a level, in intervals between samples.
 struct TimeOver<T> {
-    /// Intervals that are so from end to end.
+    /// Number of intervals that are above from end to end.
     whole: T,
-    /// Of all others.
+    /// The time above in all other intervals.
     parts: T,
-    /// What a unit of the level takes off, from `below` to `above`.
+    /// The decrease of the time when the level rises by 1, for levels from `below` to `above`.
     fall: T,
-    /// The largest value of a sample under the level.
+    /// The largest value of a sample below the level.
     below: T,
-    /// The smallest one that is not.
+    /// The smallest value of a sample that is not below the level.
     above: T,
 }
 
-/// Of intervals with the smaller value first, and a level between two; `above` it goes no further than they. Intervals that have
-/// nothing between them in any lane are dropped, and counted in `over` if they are over both; so many are left.
+/// The time above `level`, which lies between `low` and `high`. Each pair is an interval, with the smaller value first. Intervals
+/// that have nothing between `low` and `high` in any lane are dropped; if they are above both, they are counted in `over`. Returns
+/// the number of intervals left.
 #[inline(always)]
 fn time_over<T: Real>(
     level: T,
@@ -125,7 +126,7 @@ fn time_over<T: Real>(
     (left, time)
 }
 
-/// The level that is exceeded for so many intervals in a row; `None` where the signal is shorter.
+/// The level that is exceeded for so many intervals without a break; `None` if the signal is shorter.
 #[inline(always)]
 pub(super) fn contiguous<T: Real>(samples: &[T], intervals: f64, scratch: &mut [T]) -> Option<T> {
     let last = samples.len().checked_sub(1)?;
@@ -133,7 +134,7 @@ pub(super) fn contiguous<T: Real>(samples: &[T], intervals: f64, scratch: &mut [
     if whole == last {
         return samples.iter().copied().reduce(T::min);
     }
-    // of so many samples from each
+    // the smallest of so many samples, from each sample on
     scratch.copy_from_slice(samples);
     let least = match whole {
         0 => {
@@ -159,7 +160,7 @@ pub(super) fn contiguous<T: Real>(samples: &[T], intervals: f64, scratch: &mut [
         let rise = [start[0], edge];
         let fall = [between(end[0], end[1], rest), end[1]];
         highest = highest.max(crossing(rise, fall, *least));
-        // and on, until it begins on the next sample
+        // the window moves on until it begins on the next sample
         if let (true, Some(next)) = (rest > 0.0, samples.get(i + whole + 2)) {
             let fall = [end[1], between(end[1], *next, rest)];
             highest = highest.max(crossing([edge, start[1]], fall, least.min(end[1])));
@@ -168,7 +169,7 @@ pub(super) fn contiguous<T: Real>(samples: &[T], intervals: f64, scratch: &mut [
     Some(highest)
 }
 
-/// The level where a rise and a fall meet, at most `most`; −∞ where they do not.
+/// The level where a rise and a fall meet, limited to `most`; −∞ where they do not meet.
 #[inline(always)]
 fn crossing<T: Real>(rise: [T; 2], fall: [T; 2], most: T) -> T {
     let meet = rise[0].lt(rise[1]).and(fall[1].lt(fall[0]));
@@ -179,20 +180,20 @@ fn crossing<T: Real>(rise: [T; 2], fall: [T; 2], most: T) -> T {
     T::select(meet, level.min(most), T::from_f64(f64::NEG_INFINITY))
 }
 
-/// Half way from `a` to `b`.
+/// The middle of `a` and `b`.
 #[inline(always)]
 fn middle<T: Real>(a: T, b: T) -> T {
     let half = T::from_f64(0.5);
     a.mul_add(half, b * half)
 }
 
-/// From `a` towards `b`, a part of the way.
+/// The value at a part of the way from `a` to `b`.
 #[inline(always)]
 fn between<T: Real>(a: T, b: T, part: f64) -> T {
     (b - a).mul_add(T::from_f64(part), a)
 }
 
-/// The smallest of each `width` neighbours, one or more: of 2, 4, 8, … first, and then of two such groups that overlap.
+/// The smallest of each `width` neighbours, one or more: first of 2, 4, 8, …, then of two such groups that overlap.
 #[inline(always)]
 fn sliding_minimum<T: Real>(values: &mut [T], width: usize) -> &[T] {
     let mut groups = 1;

@@ -1,8 +1,8 @@
-//! The largest value of a signal, or of a function of it, and where it is.
+//! The largest value of a signal, or of a function of it, and its place.
 
 use crate::Real;
 
-/// The largest of the samples seen through a function; `None` of none.
+/// The largest value of a function of the samples; `None` if there are no samples.
 #[inline(always)]
 pub(super) fn peak_of<T: Real>(samples: &[T], seen: impl Fn(T) -> T) -> Option<T> {
     let (first, others) = samples.split_first()?;
@@ -13,10 +13,11 @@ pub(super) fn peak_of<T: Real>(samples: &[T], seen: impl Fn(T) -> T) -> Option<T
     )
 }
 
-/// Where the samples seen through a function are largest, in intervals from the first.
+/// The place where a function of the samples is largest, in intervals from the first sample.
 ///
-/// With b the first of the largest samples, a before and c after it, the parabola through them has its top (c − a)/2 over
-/// (b − a) + (b − c) intervals behind b. At either end of the signal, and on a plateau, it stays at b.
+/// Let b be the first of the largest samples, a the one before and c the one after it. The top of the parabola through
+/// them is (c − a)/2 over (b − a) + (b − c) intervals after b. At either end of the signal, and on a plateau, the place
+/// is b.
 #[inline(always)]
 pub(super) fn place_of_peak<T: Real>(samples: &[T], seen: impl Fn(T) -> T) -> Option<T> {
     let zero = T::from_f64(0.0);
@@ -25,7 +26,7 @@ pub(super) fn place_of_peak<T: Real>(samples: &[T], seen: impl Fn(T) -> T) -> Op
     for i in 1..samples.len() {
         let value = seen(samples[i]);
         let larger = most.lt(value);
-        // beyond an end, nothing bends
+        // beyond an end, there is no parabola
         let inside = i + 1 < samples.len();
         let (left, right) = match inside {
             true => (seen(samples[i - 1]), seen(samples[i + 1])),

@@ -1,5 +1,5 @@
-//! The filters of channel frequency classes (ISO 6487, SAE J211-1): Butterworth filters of the second order, run forward and then backward, so that nothing
-//! is delayed. Two passes make four poles.
+//! The filters of channel frequency classes (ISO 6487, SAE J211-1): Butterworth filters of the second order, run forward and then backward, so that
+//! there is no delay. Two passes make four poles.
 //!
 //! With T the interval of the samples and ω = tan(2π f CFC T/2),
 //!
@@ -8,11 +8,12 @@
 //! n = 1 + √2 ω + ω²    a₀ = a₂ = ω²/n    a₁ = 2 a₀    b₁ = −2 (ω² − 1)/n    b₂ = (−1 + √2 ω − ω²)/n
 //! ```
 //!
-//! The factor f is 1.25/0.6 in ISO 6487, and 2.0775 in SAE J211-1, where two passes weaken a vibration of CFC/0.6 by exactly 3.01 dB.
+//! The factor f is 1.25/0.6 in ISO 6487 and 2.0775 in SAE J211-1. With the latter, two passes weaken a vibration of frequency CFC/0.6 by exactly 3.01
+//! dB.
 //!
-//! **Ends.** Before it is filtered, a signal is continued at both ends by its image about the end: 2 x_end − x_i, of 10 ms or 100 samples, whichever are
-//! more, at most as many as there are. Without, a filter that starts from rest errs there: of the ramp 50 + 200 t/s at 10 kHz, CFC 60 errs by 0.36 without
-//! and by 0.001 with it. Each pass starts from the mean of the first ten samples that it sees.
+//! **Ends.** Before filtering, a signal is continued at both ends by its image about the end, 2 x_end − x_i. The continuation has 10 ms or 100
+//! samples, whichever is more, but at most as many as the signal. Without it, a filter that starts from rest errs at the ends: the ramp 50 + 200 t/s
+//! at 10 kHz errs by 0.36 with CFC 60, and by 0.001 with the continuation. Each pass starts from the mean of its first ten samples.
 
 use crate::Real;
 use core::f64::consts::{PI, SQRT_2};
@@ -35,7 +36,7 @@ impl Class {
     /// All classes.
     pub const ALL: [Class; 4] = [Class::Cfc60, Class::Cfc180, Class::Cfc600, Class::Cfc1000];
 
-    /// Its number: up to so many vibrations a second pass nearly unchanged.
+    /// The number of the class: vibrations up to this frequency \[Hz\] pass nearly unchanged.
     pub const fn number(self) -> u16 {
         match self {
             Class::Cfc60 => 60,
@@ -45,19 +46,19 @@ impl Class {
         }
     }
 
-    /// The same as a frequency \[Hz\].
+    /// The number of the class as a frequency \[Hz\].
     pub fn frequency(self) -> f64 {
         f64::from(self.number())
     }
 
-    /// The longest time between samples that can be filtered \[s\]: a tenth of the class, as both standards ask.
+    /// The longest time between samples that can be filtered \[s\]: a tenth of the period of the class, as both standards require.
     pub fn longest_interval(self) -> f64 {
         1.0 / (10.0 * self.frequency())
     }
 
-    /// Whether samples so far apart \[s\] can be filtered.
+    /// Whether samples with this interval \[s\] can be filtered.
     pub fn allows(self, interval: f64) -> bool {
-        // what rounding makes of 0.1 ms is 0.1 ms
+        // allows for the rounding of numbers such as 0.1 ms
         interval <= (1.0 + 1e-6) * self.longest_interval()
     }
 }
@@ -68,7 +69,7 @@ impl fmt::Display for Class {
     }
 }
 
-/// Which of the two standards gives the coefficients.
+/// The standard that gives the coefficients.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Standard {
     /// ISO 6487
@@ -79,7 +80,7 @@ pub enum Standard {
 }
 
 impl Standard {
-    /// What a class is multiplied by \[1\].
+    /// The factor f of a class \[1\].
     fn factor(self) -> f64 {
         match self {
             Standard::Iso6487 => 1.25 / 0.6,
@@ -88,17 +89,17 @@ impl Standard {
     }
 }
 
-/// A filter: a class by a standard. Its name is that of the class, behind `SAE` where it is of SAE J211-1.
+/// A filter: a class by a standard. Its name is that of the class, with the prefix `SAE` for SAE J211-1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Filter {
     /// Its class.
     pub class: Class,
-    /// Whose coefficients it has.
+    /// The standard of its coefficients.
     pub standard: Standard,
 }
 
 impl Filter {
-    /// That of ISO 6487.
+    /// The filter of a class by ISO 6487.
     pub const fn iso(class: Class) -> Filter {
         Filter {
             class,
@@ -106,7 +107,7 @@ impl Filter {
         }
     }
 
-    /// All of them.
+    /// All filters.
     pub fn all() -> impl Iterator<Item = Filter> {
         let standards = [Standard::Iso6487, Standard::SaeJ211];
         standards
@@ -114,7 +115,7 @@ impl Filter {
             .flat_map(|standard| Class::ALL.map(|class| Filter { class, standard }))
     }
 
-    /// The filter of a name, `CFC180` or `SAE CFC180`.
+    /// The filter with a name, `CFC180` or `SAE CFC180`; `None` if there is none.
     pub fn named(name: &str) -> Option<Filter> {
         Filter::all().find(|filter| filter.to_string() == name)
     }
@@ -129,7 +130,7 @@ impl fmt::Display for Filter {
     }
 }
 
-/// a₀, a₁, a₂, b₁, b₂ of a class at an interval \[s\].
+/// The coefficients a₀, a₁, a₂, b₁, b₂ of a class, for samples with this interval \[s\].
 pub fn coefficients(class: Class, standard: Standard, interval: f64) -> [f64; 5] {
     let omega = (PI * standard.factor() * class.frequency() * interval).tan();
     let below = 1.0 + SQRT_2 * omega + omega * omega;
@@ -143,11 +144,11 @@ pub fn coefficients(class: Class, standard: Standard, interval: f64) -> [f64; 5]
     ]
 }
 
-/// So many samples make the mean that a pass starts from; a signal has as many at least.
+/// The number of samples in the mean that a pass starts from. A signal has at least as many.
 pub const MEAN: usize = 10;
 
-/// The samples filtered, which are `interval` \[s\] apart; `None` where that is more than the class [allows](Class::allows), or there are fewer
-/// than [`MEAN`]. A sample that is not finite makes all of them so.
+/// The filtered samples, for samples that are `interval` \[s\] apart. `None` where the class does not [allow](Class::allows) that interval, or where
+/// there are fewer than [`MEAN`] samples. A sample that is not finite makes all of them not finite.
 pub fn filtered<T: Real>(
     samples: &[T],
     interval: f64,
@@ -168,7 +169,7 @@ pub fn filtered<T: Real>(
     Some(values[more..more + count].to_vec())
 }
 
-/// The samples, with so many more at both ends: their image about the end.
+/// The samples, continued by so many more at both ends: their image about the end.
 fn continued<T: Real>(values: &[T], more: usize) -> Vec<T> {
     let last = values.len() - 1;
     let image = |end: T, value: T| end + end - value;
@@ -197,7 +198,7 @@ mod tests {
     use super::{Class, Standard, filtered};
     use crate::Dual;
 
-    /// A filter is linear: the derivative of what is filtered is the derivative, filtered.
+    /// A filter is linear: the derivative of the filtered signal is the filtered derivative.
     #[test]
     fn derivatives_are_filtered_as_values_are() {
         let samples = |i: usize| (0.37 * i as f64).sin() + 0.01 * i as f64;

@@ -1,8 +1,8 @@
 //! The head injury criterion: HIC = max L (V/(g L))^2.5, over windows of a length L of at most 15 or 36 ms in which the
 //! acceleration adds up to the velocity V \[SAE J1727\].
 //!
-//! The square of L (V/(g L))^2.5 is L² a⁵ with the mean acceleration a = V/(g L): that is what the search compares, and the one
-//! root is taken last. Of the windows of one length only the largest V counts: a difference and a comparison per window.
+//! The search compares the square of L (V/(g L))^2.5, which is L² a⁵ with the mean acceleration a = V/(g L). The root is taken
+//! once, at the end. Among the windows of one length only the largest V counts: one difference and one comparison per window.
 
 use super::whole_and_rest;
 use crate::{Mask, Real};
@@ -10,11 +10,11 @@ use crate::{Mask, Real};
 /// Standard acceleration of gravity \[m/s²\].
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// How many windows are compared at once; their maxima are independent, so that they fill vector registers.
+/// The number of windows that are compared at once. Their maxima are independent, so they fill vector registers.
 const ABREAST: usize = 8;
 
-/// HIC of `samples` \[m/s²\], `every` \[s\]; 0 where no window gains velocity. `None` of fewer than two samples, or a window
-/// that is no length.
+/// HIC of `samples` \[m/s²\], which are `every` \[s\] apart; 0 where no window gains velocity. `None` with fewer than two
+/// samples, or if `window` \[s\] is not positive and finite.
 #[inline(always)]
 pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut [T]) -> Option<T> {
     let last = samples.len().checked_sub(1).filter(|last| *last > 0)?;
@@ -22,7 +22,7 @@ pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut
         return None;
     }
     let velocity = accumulate(samples, scratch);
-    // longer windows than the signal there are none
+    // no window is longer than the signal
     let (longest, rest) = whole_and_rest(window / every, last).unwrap_or((last, 0.0));
 
     // L in intervals
@@ -39,7 +39,8 @@ pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut
         let gain = largest_gain_of_rest(samples, velocity, longest, rest);
         largest = largest.max(squared(gain, longest as f64 + rest));
     }
-    // A window gains no more than a shorter one and the highest sample all over the rest: most need no look.
+    // A window gains at most as much as a shorter one plus the highest sample over the rest. So most windows need not be
+    // checked.
     let highest = samples
         .iter()
         .fold(T::from_f64(0.0), |most, a| most.max(*a));
@@ -57,7 +58,7 @@ pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut
     Some(largest.sqrt() * T::from_f64(every))
 }
 
-/// More than rounding, of singles too, could take off a bound.
+/// More than rounding, also that of singles, can subtract from a bound.
 const ROUNDED: f64 = 1.01;
 
 /// The integral from the first sample to each, in intervals.
@@ -98,7 +99,7 @@ fn largest_gain<T: Real>(velocity: &[T], length: usize) -> T {
 #[inline(always)]
 fn largest_gain_of_rest<T: Real>(samples: &[T], velocity: &[T], whole: usize, rest: f64) -> T {
     let mut gain = T::from_f64(0.0);
-    // of the interval from a to b, the part next to a: rest · a + rest²/2 · (b − a)
+    // the integral over the part next to a of the interval from a to b: rest · a + rest²/2 · (b − a)
     let part = |a: T, b: T| T::from_f64(rest) * (b - a).mul_add(T::from_f64(0.5 * rest), a);
     for first in 0..samples.len() - whole - 1 {
         let end = first + whole;

@@ -11,7 +11,7 @@ pub(super) fn integral<T: Real>(samples: &[T]) -> T {
     })
 }
 
-/// The integral divided by the length; of a single sample, that sample.
+/// The integral divided by the length. For a single sample it is that sample.
 #[inline(always)]
 pub(super) fn mean<T: Real>(samples: &[T]) -> T {
     match samples {

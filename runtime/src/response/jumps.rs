@@ -1,22 +1,22 @@
-//! Responses of a signal that jumps between samples: where a switch fires, or where a force begins that is not small at once.
+//! Responses of a signal that jumps between samples: where a switch fires, or where a force begins with a jump.
 //!
-//! Samples know a jump to within their interval, and nothing of what a parameter does to its time. With its time and both sides at
-//! hand, the signal is linear between knots: the samples, and two knots at each jump. Of that line the answers here are exact,
-//! and so are their derivatives, to which the line moves its knots along both axes: d/dp ∫ x dt has (x⁻ − x⁺) dt_jump/dp in it.
+//! Samples give a jump only to within their interval, and do not show how a parameter moves its time. Here the time of each jump and both its sides
+//! are known, so the signal is linear between knots: the samples, and two knots at each jump. The answers are exact for that line, and so are their
+//! derivatives. The line moves its knots along both axes: d/dp ∫ x dt contains (x⁻ − x⁺) dt_jump/dp.
 //!
-//! One signal at a time: there are branches, and it allocates.
+//! One signal at a time: this code branches and allocates.
 
 use super::{Response, STANDARD_GRAVITY, extremes, reduce};
 use crate::Real;
 
-/// A signal on both sides of an event.
+/// A jump of a signal: its time and both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump<T> {
-    /// When \[s\], from the first sample.
+    /// Time of the jump \[s\], from the first sample.
     pub t: T,
-    /// What it is up to then.
+    /// The value just before the jump.
     pub before: T,
-    /// What it is from then on.
+    /// The value from the jump on.
     pub after: T,
 }
 
@@ -28,12 +28,12 @@ struct Knot<T> {
     x: T,
 }
 
-/// A response of a signal whose `samples` are `every` \[s\] apart and which jumps in between. Jumps outside of the signal are left out; without
-/// any, the response is that of [`reduce`], as are the answers where there is none. A jump by nothing is a bend, which responses that are of a
-/// smooth signal near it ([`TimeOfPeak`](Response::TimeOfPeak) and the like) pass over.
+/// A response of a signal that jumps between `samples`, which are `every` \[s\] apart. Jumps outside of the signal are left out. Without any jump the
+/// response is that of [`reduce`]; so is it where [`reduce`] has no answer. A jump of height 0 is a bend. Responses that need a signal that is smooth
+/// nearby ([`TimeOfPeak`](Response::TimeOfPeak) and the like) ignore it.
 ///
-/// Windows of the head injury criterion may begin and end at a jump, too. The value at a time is that of the polynomial through
-/// knots on the same side of each jump.
+/// Windows of the head injury criterion may also begin and end at a jump. The value at a time is that of the polynomial through knots on the same
+/// side of each jump.
 pub fn reduce_with_jumps<T: Real>(
     response: Response,
     samples: &[T],
@@ -43,7 +43,7 @@ pub fn reduce_with_jumps<T: Real>(
     let mut scratch = vec![T::from_f64(0.0); response.scratch(samples.len())];
     let of_samples = reduce(response, samples, every, &mut scratch);
     let length = every * (samples.len() as f64 - 1.0);
-    // one at the end has nothing behind it
+    // a jump at the end has nothing behind it
     let within = |jump: &&Jump<T>| (0.0..length - HAIR * every).contains(&jump.t.to_f64());
     let mut jumps: Vec<Jump<T>> = jumps.iter().filter(within).copied().collect();
     if matches!(
@@ -57,7 +57,7 @@ pub fn reduce_with_jumps<T: Real>(
         jumps.retain(|jump| height(jump) > HAIR * size || height(jump).is_nan());
     }
     jumps.sort_by(|a, b| a.t.to_f64().total_cmp(&b.t.to_f64()));
-    // what the samples have no answer to, a line through them has none to either
+    // where the samples have no answer, the line through them has none either
     if jumps.is_empty() || !of_samples.to_f64().is_finite() {
         return of_samples;
     }
@@ -65,7 +65,7 @@ pub fn reduce_with_jumps<T: Real>(
     let values: Vec<T> = knots.iter().map(|knot| knot.x).collect();
     let largest = |seen: fn(T) -> T| extremes::peak_of(&values, seen);
     let answer = match response {
-        // steps of velocity are none of a pulse
+        // a step in the velocity is no pulse
         Response::Final | Response::Olc => return of_samples,
         Response::Value { at } => {
             return value_at(samples, &jumps, every, at).unwrap_or(of_samples);
@@ -87,9 +87,9 @@ pub fn reduce_with_jumps<T: Real>(
     values.iter().fold(answer, |sum, x| sum + x.taint())
 }
 
-/// Gives samples, which are `every` \[s\] apart, the slopes that jumps between them have by their times; values stay. The integral of the line through both sides of
-/// a jump differs from that of the line through the samples around it: the slope of what they differ by goes to these samples, more of it to the nearer one. So a
-/// filter, which takes integrals, has the derivative that a jump gives it by moving.
+/// Adds to samples, which are `every` \[s\] apart, the slopes that come from the times of the jumps between them. The values stay. The integral of
+/// the line through both sides of a jump differs from that of the line through the samples around it. The slope of the difference is given to these
+/// samples, more of it to the nearer one. So a filter, which takes integrals, gets the derivative that belongs to a moving jump.
 pub fn move_with_jumps<T: Real>(
     samples: &mut [T],
     jumps: impl Iterator<Item = Jump<T>>,
@@ -121,7 +121,7 @@ pub fn move_with_jumps<T: Real>(
     }
 }
 
-/// Samples and both sides of jumps in order of time. A sample at the time of a jump is of either side, and left out.
+/// Samples and both sides of jumps, in order of time. A sample at the time of a jump may be on either side, so it is left out.
 fn knots<T: Real>(samples: &[T], jumps: &[Jump<T>], every: f64) -> Vec<Knot<T>> {
     let mut knots = Vec::with_capacity(samples.len() + 2 * jumps.len());
     let mut due = jumps.iter().peekable();
@@ -158,8 +158,8 @@ fn integrals<T: Real>(knots: &[Knot<T>]) -> Vec<T> {
     integrals
 }
 
-/// When the knots seen through a function are largest: the first such, moved to the top of the parabola through it and its neighbours.
-/// It stays where it is at either end and at a jump.
+/// The time when a function of the knots is largest: the first such knot, moved to the top of the parabola through it and its neighbours. At either
+/// end of the signal and at a jump it is not moved.
 fn time_of_peak<T: Real>(knots: &[Knot<T>], seen: fn(T) -> T) -> Option<T> {
     let mut top = 0;
     for (i, knot) in knots.iter().enumerate() {
@@ -189,16 +189,16 @@ fn time_of_peak<T: Real>(knots: &[Knot<T>], seen: fn(T) -> T) -> Option<T> {
     }
 }
 
-/// The value at a time, where a jump is among the samples that it would be taken from; `None` where there is none.
+/// The value at a time where a jump is among the samples that would be used; `None` where no jump is.
 fn value_at<T: Real>(samples: &[T], jumps: &[Jump<T>], every: f64, at: f64) -> Option<T> {
-    // the samples that it would be taken from are no further away
+    // the samples that would be used are not further away
     let near = |t: f64| (t - at).abs() < 3.0 * every;
     if !jumps.iter().any(|jump| near(jump.t.to_f64())) {
         return None;
     }
     let before = jumps.iter().rfind(|jump| jump.t.to_f64() <= at);
     let behind = jumps.iter().find(|jump| at < jump.t.to_f64());
-    // samples too near to a jump make the polynomial steep
+    // the polynomial is steep between a jump and a sample that is too near to it
     let margin = 0.5 * every;
     let from = before.map_or(f64::NEG_INFINITY, |jump| jump.t.to_f64() + margin);
     let to = behind.map_or(f64::INFINITY, |jump| jump.t.to_f64() - margin);
@@ -235,20 +235,20 @@ fn value_at<T: Real>(samples: &[T], jumps: &[Jump<T>], every: f64, at: f64) -> O
         .reduce(|sum, term| sum + term)
 }
 
-/// What is rounding of a length, relative to it.
+/// The relative difference of lengths that counts as rounding.
 const HAIR: f64 = 1e-9;
 
 /// A window of the head injury criterion.
 #[derive(Clone, Copy)]
 struct Window<T> {
-    /// The velocity that is gained in it.
+    /// The velocity gained in it.
     gain: T,
     /// \[s\]
     length: T,
 }
 
-/// The head injury criterion, over windows that begin and end on knots and are shorter than can be, and those as long as can be that do
-/// so at one end: where a jump moves, their length does not.
+/// The head injury criterion. It compares all windows that begin and end on knots and are shorter than the longest, and all windows of the longest
+/// length that begin or end on a knot. The length of the latter stays when a jump moves.
 fn hic<T: Real>(knots: &[Knot<T>], longest: f64) -> T {
     let velocity = integrals(knots);
     let mut best = Best {
@@ -266,7 +266,8 @@ fn hic<T: Real>(knots: &[Knot<T>], longest: f64) -> T {
             .any(|jump| (jump - t.to_f64()).abs() <= HAIR * longest)
     };
     for (knot, velocity_here) in knots.iter().zip(&velocity) {
-        // Of windows from a sample to a jump and those that move with the jump both gain the same now; only these do so when it moves.
+        // A window from a sample that ends at a jump gains as much as the window that is attached to the jump. Only the latter moves with the jump
+        // and has the correct derivative, so the former is left out.
         let stays = !jumps_at(knot.t);
         let to = |t: T| integral_to(knots, &velocity, t).filter(|_| !(stays && jumps_at(t)));
         let ahead = to(knot.t + length).map(|end| end - *velocity_here);
@@ -287,7 +288,7 @@ fn hic<T: Real>(knots: &[Knot<T>], longest: f64) -> T {
         }
         for (i, [from, before]) in ends.iter().enumerate().take(j).skip(first) {
             let length = t - from;
-            // shorter ones gain too little even on the highest level
+            // shorter windows gain too little even on the highest level
             if highest.powi(5) * length * length <= best.score {
                 break;
             }
@@ -306,7 +307,7 @@ fn hic<T: Real>(knots: &[Knot<T>], longest: f64) -> T {
     }
 }
 
-/// The window found so far whose mean to the fifth times the square of its length is largest, and that number.
+/// The window found so far with the largest score, and its score: the mean to the fifth power times the square of the length.
 struct Best<T> {
     score: f64,
     window: Option<Window<T>>,
@@ -322,11 +323,11 @@ impl<T> Best<T> {
     }
 }
 
-/// The integral up to a time; `None` outside of the signal.
+/// The integral from the first knot up to a time; `None` outside of the signal.
 fn integral_to<T: Real>(knots: &[Knot<T>], integrals: &[T], t: T) -> Option<T> {
     let hair = HAIR * (knots.last()?.t.to_f64() - knots[0].t.to_f64());
     let next = knots.partition_point(|knot| knot.t.to_f64() <= t.to_f64());
-    // a time that should meet the first or the last knot does
+    // a time that should meet the first or the last knot may miss it by rounding
     let next = match next {
         0 => knots.partition_point(|knot| knot.t.to_f64() <= t.to_f64() + hair),
         _ if next == knots.len() => {
@@ -340,7 +341,7 @@ fn integral_to<T: Real>(knots: &[Knot<T>], integrals: &[T], t: T) -> Option<T> {
     Some(integrals[next - 1] + since * (a.x + T::from_f64(0.5) * rise))
 }
 
-/// A stretch of time over a level: how long it is, and by how much that falls as the level rises.
+/// A stretch of time above a level: its length, and how fast that decreases as the level rises.
 #[derive(Clone, Copy)]
 struct Stretch<T> {
     /// \[s\]
@@ -348,12 +349,12 @@ struct Stretch<T> {
     fall: T,
 }
 
-/// The level that is exceeded for a duration, in all or in a row.
+/// The level that is exceeded for a duration, in total or without a break.
 fn level<T: Real>(knots: &[Knot<T>], duration: f64, in_a_row: bool) -> T {
     let mut heights: Vec<T> = knots.iter().map(|knot| knot.x).collect();
     heights.sort_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
     heights.dedup_by(|a, b| a.to_f64() == b.to_f64());
-    // Between neighbouring heights of knots, the same knots are over a level, and all times are linear in it.
+    // Between neighbouring heights of knots, the same knots are above a level, and all times are linear in the level.
     let reached = |k: usize| {
         let (low, high) = (heights[k], heights[k + 1]);
         let middle = 0.5 * (low.to_f64() + high.to_f64());
@@ -390,7 +391,7 @@ fn larger<T: Real>(a: T, b: T) -> T {
     if a.to_f64() < b.to_f64() { b } else { a }
 }
 
-/// All stretches as one.
+/// All stretches as one: the sums of their lengths and decreases.
 fn joined<T: Real>(stretches: &[Stretch<T>]) -> Stretch<T> {
     let zero = T::from_f64(0.0);
     let none = Stretch {
@@ -403,12 +404,12 @@ fn joined<T: Real>(stretches: &[Stretch<T>]) -> Stretch<T> {
     })
 }
 
-/// When the line is over a level that no knot is on.
+/// The stretches in which the line is above a level; no knot is on that level.
 fn stretches<T: Real>(knots: &[Knot<T>], level: f64) -> Vec<Stretch<T>> {
     let over = |knot: &Knot<T>| knot.x.to_f64() > level;
     let zero = T::from_f64(0.0);
     let mut stretches = Vec::new();
-    // when it rose over the level, and by how much later that is as the level rises
+    // the time when the line rose above the level, and how much later that is when the level rises
     let mut risen = knots
         .first()
         .filter(|first| over(first))
@@ -467,7 +468,7 @@ mod tests {
         ]
     }
 
-    /// A ramp from 0 to `height` at `end`, where it ends.
+    /// A ramp from 0 to `height` at `end`, where the signal drops to 0.
     fn ramp<T: Real>(height: T, end: T) -> (Vec<T>, Vec<Jump<T>>) {
         let rate = height / end;
         let samples = (0..=40).map(|i| {
@@ -505,7 +506,7 @@ mod tests {
                 [0.5 * e / 0.04, 0.5 * h / 0.04],
             ),
             (Response::Final, 0.0, [0.0, 0.0]),
-            // on either side of the end, nearer to it than a sample
+            // on either side of the end, nearer to it than one interval
             (
                 Response::Value { at: 9.2e-3 },
                 h * 9.2e-3 / e,
@@ -522,7 +523,7 @@ mod tests {
                 h * (1.0 - duration / e),
                 [1.0 - duration / e, h * duration / e / e],
             ),
-            // where the window is the best one, its beginning does not count
+            // the best window does not depend on its beginning
             (
                 Response::Hic { window: 15e-3 },
                 hic(h, e),
@@ -566,7 +567,7 @@ mod tests {
         }
     }
 
-    /// A wave that jumps twice, at times and between values that a parameter moves.
+    /// A wave with two jumps, whose times and values a parameter moves.
     fn wave<T: Real>(p: T, every: f64) -> (Vec<T>, Vec<Jump<T>>) {
         let num = T::from_f64;
         let pieces = [num(0.0), num(90.0), num(-20.0)];
@@ -600,8 +601,9 @@ mod tests {
             let found = reduce_with_jumps(kind, &samples, &jumps, EVERY);
             assert_eq!(found.value, of(p), "{kind:?}");
             let difference = (of(p + step) - of(p - step)) / (2.0 * step);
-            // The phase goes to 6, so that a third derivative is some hundred times the first: times the step to the square. Of values, some
-            // hundred roundings of sums over forty samples and of differences of neighbours, over the step.
+            // The phase goes up to 6, so that a third derivative is some hundred times the first: the error of the difference is that times the
+            // square of the step. In addition, some hundred roundings of sums over forty samples and of differences of neighbours, divided by the
+            // step.
             let bound = 1e-9 * found.slope.abs() + 1e3 * f64::EPSILON * found.value.abs() / step;
             assert!(
                 (found.slope - difference).abs() <= bound,
@@ -622,15 +624,15 @@ mod tests {
             let mut scratch = vec![0.0; kind.scratch(finely.len())];
             let exact = reduce(kind, &finely, fine, &mut scratch);
             let found = reduce_with_jumps(kind, &samples, &jumps, EVERY);
-            // Both lines err, so twice: the wave bends by at most 200 · 152² between samples, h²/8 of that off the line; the fine samples know a jump of 90 to
-            // 2 µs in windows of some ms. The criterion takes both to the power of 2.5, and times of peaks move by the fourth
-            // part of an interval where none is marked by a jump.
+            // Both lines err, so twice: the wave bends by at most 200 · 152² between samples, h²/8 of that off the line. The fine samples show a jump
+            // of 90 to within 2 µs, in windows of some ms. The criterion takes both to the power of 2.5. Times of peaks move by a quarter of an
+            // interval where no jump marks them.
             let bend = 200.0 * 152.0 * 152.0 * EVERY * EVERY / 8.0;
             let level = bend + 110.0 * 2.0 * fine / 3.3e-3;
             let bound = match kind {
                 Response::TimeOfPeak | Response::TimeOfMinimum => 0.25 * EVERY,
                 Response::Integral => 0.04 * bend + 110.0 * 2.0 * fine,
-                // relative to a mean over the best window of at least 150
+                // relative to the mean over the best window, which is at least 150
                 Response::Hic { .. } => 2.5 * exact * 2.0 * level / 150.0,
                 _ => 2.0 * level,
             };
@@ -650,7 +652,7 @@ mod tests {
         for kind in kinds() {
             let mut scratch = vec![0.0; kind.scratch(samples.len())];
             let plain = reduce(kind, &samples, EVERY, &mut scratch);
-            // sums of forty samples and lengths, of HIC to the power of 2.5
+            // sums of forty samples and lengths; for HIC to the power of 2.5
             let bound = 40.0 * 4.0 * f64::EPSILON * plain.abs();
             for at in [top, 20, 21, 30] {
                 let jump = Jump {
@@ -678,7 +680,7 @@ mod tests {
 
     #[test]
     fn a_push_that_is_as_long_as_the_window_fills_it() {
-        // from 10 to 25 ms, on samples and off them
+        // from 10 to 25 ms, at samples and between them
         for off in [0.0, 0.3e-3] {
             let [start, end] = [10e-3 + off, 25e-3 + off];
             let samples: Vec<f64> = (0..=40)
@@ -728,8 +730,8 @@ mod tests {
         assert!(reduce_with_jumps(long, &samples, &jumps, EVERY).is_nan());
     }
 
-    /// A step from b to a in the middle between two samples, moved by an interval either way, changes the two samples there by b − a: the difference of both, over
-    /// two intervals, is the slope of what a filter makes of it, and that is linear.
+    /// A step from b to a in the middle between two samples, moved by one interval either way, changes the two samples there by b − a. The difference
+    /// of both results over two intervals is the slope of the filtered signal, because a filter is linear.
     #[test]
     fn filters_have_the_slope_that_a_moving_step_gives_them() {
         use crate::response::filter::{Class, Standard, filtered};

@@ -1,25 +1,27 @@
-//! The occupant load criterion of the pulse of a vehicle: an occupant flies on freely until the vehicle is 65 mm behind, and is then stopped by a constant
-//! deceleration on another 235 mm. That deceleration is the criterion \[Euro NCAP TB 021\].
+//! The occupant load criterion of the pulse of a vehicle. An occupant flies freely until the vehicle is 65 mm behind, and is then stopped by a
+//! constant deceleration over another 235 mm. That deceleration is the criterion \[Euro NCAP TB 021\].
 //!
-//! With u the change of velocity of the vehicle up to a time and s its integral, the flight ends at t₁ with s(t₁) = 0.065 m. A restraint that decelerates by
-//! a has the occupant at the speed of the vehicle at t₂ with u(t₂) = a (t₂ − t₁), and has let it forward by s(t₂) − a (t₂ − t₁)²/2 = 0.3 m: so t₂ is the first
-//! zero of s − u (t − t₁)/2 − 0.3 m. Velocity is linear between samples; then s is quadratic there, and that function linear.
+//! Let u be the change of velocity of the vehicle up to a time and s its integral. The flight ends at t₁ with s(t₁) = 0.065 m. A restraint with the
+//! deceleration a gives the occupant the speed of the vehicle at t₂, with u(t₂) = a (t₂ − t₁). Until then the occupant has moved forward by s(t₂) − a
+//! (t₂ − t₁)²/2 = 0.3 m. So t₂ is the first zero of s − u (t − t₁)/2 − 0.3 m. Velocity is linear between samples. Then s is quadratic there, and that
+//! function linear.
 
 use crate::{Mask, Real};
 
-/// How far the occupant flies, and how far in all \[m\].
+/// The distance of free flight \[m\].
 const FLIGHT: f64 = 0.065;
+/// The whole distance that the occupant moves forward \[m\].
 const WHOLE: f64 = 0.065 + 0.235;
 
-/// OLC \[m/s²\] of the acceleration of a vehicle along its way \[m/s²\]; NaN where the pulse ends before the occupant is stopped. `None` of fewer than two
-/// samples.
+/// OLC \[m/s²\] of the acceleration of a vehicle along its path \[m/s²\]; NaN where the pulse ends before the occupant is stopped. `None` with fewer
+/// than two samples.
 #[inline(always)]
 pub(super) fn olc<T: Real>(samples: &[T], every: f64) -> Option<T> {
     let of = T::from_f64;
     let (zero, half) = (of(0.0), of(0.5));
     let step = of(every);
     let (first, others) = samples.split_first().filter(|(_, rest)| !rest.is_empty())?;
-    // the pulse acts along the change of velocity that it makes
+    // the pulse acts in the direction of the change of velocity that it causes
     let whole = samples.iter().fold(zero, |sum, a| sum + *a);
     let sign = T::select(whole.lt(zero), of(-1.0), of(1.0));
     let (mut u, mut s, mut before) = (zero, zero, *first);
@@ -34,7 +36,7 @@ pub(super) fn olc<T: Real>(samples: &[T], every: f64) -> Option<T> {
         before = *a;
         let begin = of(i as f64 * every);
         let k = gain / step;
-        // the flight ends within this interval, where s₀ + u₀ τ + k τ²/2 is its length
+        // the flight ends within this interval, where its length is s₀ + u₀ τ + k τ²/2
         let ends = zero.lt(flying).and(s.lt(of(FLIGHT)).not());
         let rest = of(FLIGHT) - s0;
         let square = (u0 * u0 + of(2.0) * k * rest).max(zero);
@@ -43,7 +45,7 @@ pub(super) fn olc<T: Real>(samples: &[T], every: f64) -> Option<T> {
         let part = of(2.0) * rest / T::select(ends, u0 + root, of(1.0));
         flight = T::select(ends, begin + part, flight);
         flying = T::select(ends, zero, flying);
-        // the restraint has stopped the occupant within this interval: what is open is linear in τ
+        // the restraint has stopped the occupant within this interval; the remaining function is linear in τ
         let since = begin - flight;
         let open = s0 - u0 * since * half - of(WHOLE);
         let slope = (u0 - k * since) * half;
@@ -77,7 +79,7 @@ mod tests {
             let samples = vec![pulse; 2001];
             let exact = f64::abs(pulse) * 0.6 / 0.47;
             let found = olc(&samples);
-            // velocity is linear, so that only sums of 2000 terms round
+            // velocity is linear, so only sums of 2000 terms are rounded
             assert!((found / exact - 1.0).abs() < 1e-11, "{found} {exact}");
         }
     }

@@ -11,10 +11,10 @@ const HIC_36: Response = Response::Hic { window: 36e-3 };
 const CLIP: Response = Response::Clip { duration: 3e-3 };
 const CONTIGUOUS: Response = Response::ContiguousClip { duration: 3e-3 };
 
-/// A pulse between 0 and 1, at most 1.
+/// The shape of a pulse between 0 and 1, at most 1.
 type Shape = fn(f64) -> f64;
 
-/// One of each kind.
+/// One response of each kind.
 const ALL: [Response; 14] = [
     Response::Peak,
     Response::Minimum,
@@ -33,7 +33,7 @@ const ALL: [Response; 14] = [
 ];
 
 fn response<T: Real>(response: Response, samples: &[T], every: f64) -> T {
-    // whatever is in the scratch must not matter
+    // the content of the scratch must not matter
     let mut scratch = vec![T::from_f64(f64::NAN); response.scratch(samples.len())];
     reduce(response, samples, every, &mut scratch)
 }
@@ -63,8 +63,8 @@ fn triangle(x: f64) -> f64 {
     1.0 - (2.0 * x - 1.0).abs()
 }
 
-/// What sampling costs the criterion: the trapezium rule errs by (π h/T)²/12 of a mean, and the ends of the window by an
-/// interval, to the square.
+/// The error due to sampling: the trapezium rule errs by (π h/T)²/12 of a mean, and the ends of the window by an interval, to the
+/// square.
 fn bound(every: f64, length: f64) -> f64 {
     5.0 * (PI * every / length).powi(2)
 }
@@ -78,8 +78,8 @@ fn assert_near(found: f64, expected: f64, bound: f64) {
     );
 }
 
-/// HIC = c A^2.5 T for pulses of amplitude A \[g\] and length T, where the window is long enough. c by maximising the closed
-/// form of the mean over centred windows, in 16 digits; that of the triangle is (4/7) (5/7)^2.5.
+/// HIC = c A^2.5 T for pulses of amplitude A \[g\] and length T, where the window is long enough. c comes from maximising the
+/// closed form of the mean over centred windows, in 16 digits; for the triangle it is (4/7) (5/7)^2.5.
 #[test]
 fn hic_of_pulses_is_in_proportion() {
     let (amplitude, length, every) = (80.0, 12e-3, 2e-5);
@@ -115,7 +115,7 @@ fn hic_of_windows_that_are_too_short_is_that_of_the_longest() {
 
 #[test]
 fn hic_of_a_constant_fills_the_window_whatever_the_interval() {
-    // 15 ms meet samples 1 ms apart, but neither 2 ms nor 0.7 ms
+    // 15 ms are a whole number of samples of 1 ms, but not of 2 ms or 0.7 ms
     for every in [1e-3, 2e-3, 0.7e-3] {
         let samples = sampled(0.1, every, |_| 60.0 * G);
         for (hic, window) in [(HIC_15, 15e-3), (HIC_36, 36e-3)] {
@@ -123,7 +123,7 @@ fn hic_of_a_constant_fills_the_window_whatever_the_interval() {
             assert_near(response(hic, &samples, every), expected, 1e-12);
         }
     }
-    // a signal that is shorter than the window is taken whole
+    // for a signal shorter than the window, the whole signal counts
     let short = [60.0 * G; 6];
     assert_near(
         response(HIC_15, &short, 1e-3),
@@ -132,7 +132,7 @@ fn hic_of_a_constant_fills_the_window_whatever_the_interval() {
     );
 }
 
-/// The same by trying every pair of samples, with the formula as it stands.
+/// The same, by trying every pair of samples with the original formula.
 #[test]
 fn hic_of_any_signal_is_the_largest_over_all_windows() {
     let every = 0.5e-3;
@@ -176,7 +176,7 @@ fn without_acceleration_there_is_no_injury() {
 
 #[test]
 fn clips_of_one_pulse_are_alike() {
-    // exceeded for d around the middle: A cos(π d/2T); a chord is below its arc by A (π h/T)²/8 at most, and never above
+    // exceeded for d around the middle: A cos(π d/2T); a chord is at most A (π h/T)²/8 below its arc, and never above
     for (amplitude, length, every) in [
         (100.0, 20e-3, 1e-4),
         (100.0, 20e-3, 0.7e-4),
@@ -230,7 +230,7 @@ fn a_triangle_is_clipped_exactly() {
     }
 }
 
-/// Numbers between 0 and 1, the same ones for a seed.
+/// Numbers between 0 and 1, the same for the same seed.
 fn random(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     move || {
@@ -261,7 +261,7 @@ fn jagged(seed: u64) -> Vec<f64> {
         .collect()
 }
 
-/// Durations in intervals: whole and not, less than one, all there is.
+/// Durations in intervals: whole and not whole, less than one, the whole signal.
 fn durations(last: f64) -> impl Iterator<Item = f64> {
     let some = [
         0.0, 0.25, 0.5, 0.9375, 1.0, 1.3, 2.0, 2.71875, 3.5, 7.0, 8.6,
@@ -276,7 +276,7 @@ fn size(samples: &[f64]) -> f64 {
     samples.iter().fold(0.0, |most, a| a.abs().max(most))
 }
 
-/// Of the values of samples the largest that is met or exceeded for as long as asked, and from there up in a straight line.
+/// The largest value of a sample that is met or exceeded for as long as asked, and from there upwards in a straight line.
 #[test]
 fn cumulative_clips_are_those_of_sorted_values() {
     let part = |a: f64, b: f64, level: f64, met: bool| match (a.min(b), a.max(b)) {
@@ -315,7 +315,8 @@ fn cumulative_clips_are_those_of_sorted_values() {
     }
 }
 
-/// Of all windows that begin or end on samples, or have both ends on one level, in any two intervals, the largest smallest value.
+/// Over all windows that begin or end on samples, or have both ends on one level, in any two intervals: the largest of the
+/// smallest values.
 #[test]
 fn contiguous_clips_are_those_of_all_windows() {
     for seed in 0..500 {
@@ -363,7 +364,7 @@ fn contiguous_clips_are_those_of_all_windows() {
 
 #[test]
 fn pulses_add_up_to_the_cumulative_clip() {
-    // each exceeds the level for half of the time: A cos(π d/4T), less a chord
+    // each of the two exceeds the level for half of the time: A cos(π d/4T), less a chord
     for every in [0.7e-4, 0.35e-4, 0.175e-4] {
         let samples = sampled(50e-3, every, |t| {
             half_sine(t / 10e-3) * f64::from(t < 10e-3)
@@ -430,7 +431,7 @@ fn a_fall_is_clipped_exactly_between_samples() {
 
 #[test]
 fn two_pulses_add_up_only_where_breaks_do_not_matter() {
-    // twice 2 ms of 50, and 3 ms of 20
+    // 2 ms of 50 twice, and 3 ms of 20
     let samples = sampled(30e-3, 1e-4, |t| {
         let within = |from: f64, to: f64| from <= t && t < to;
         match () {
@@ -464,7 +465,7 @@ fn peaks_at_the_ends_and_on_plateaus_stay_there() {
     assert_eq!(time(&[3.0, 2.0, 1.0]), 0.0);
     assert_eq!(time(&[1.0, 2.0, 3.0]), 1.0);
     assert_eq!(time(&[4.0]), 0.0);
-    // the first of equals; between the first two of a plateau
+    // the first of equal peaks; on a plateau, between its first two samples
     assert_eq!(time(&[0.0, 3.0, 0.0, 3.0, 0.0]), 0.5);
     assert_eq!(time(&[0.0, 3.0, 3.0, 3.0, 0.0]), 0.75);
     assert_eq!(time(&[2.0, 2.0, 2.0]), 0.0);
@@ -568,7 +569,7 @@ fn lanes_equal_scalar() {
     }
 }
 
-/// A pulse with an oscillation, of which a parameter changes height and width.
+/// A pulse with an oscillation; a parameter changes its height and width.
 fn of_parameter<T: Real>(p: T) -> Vec<T> {
     let num = T::from_f64;
     (0..200)

@@ -1,9 +1,9 @@
-//! A signal at any time: Lagrange's polynomial through the nearest four samples.
+//! A signal at any time, by Lagrange's polynomial through the nearest four samples.
 
 use super::whole_and_rest;
 use crate::Real;
 
-/// The value so many intervals behind the first sample; `None` outside of the signal.
+/// The value at `place` intervals behind the first sample; `None` outside of the signal.
 #[inline(always)]
 pub(super) fn value<T: Real>(samples: &[T], place: f64) -> Option<T> {
     let last = samples.len().checked_sub(1)?;
@@ -11,7 +11,7 @@ pub(super) fn value<T: Real>(samples: &[T], place: f64) -> Option<T> {
     if rest == 0.0 {
         return samples.get(whole).copied();
     }
-    // two samples on either side where there are
+    // two samples on either side, if there are that many
     let points = samples.len().min(4);
     let first = whole.saturating_sub(1).min(samples.len() - points);
     let nearest = &samples[first..first + points];

@@ -11,7 +11,7 @@ use crate::{Dynamics, Real};
 
 /// Iterations at most; bisection alone needs 44 for a width of 10⁻¹³.
 const ITERATIONS: u32 = 100;
-/// Width of a bracket, as a part of the step: the time of an event then errs by less than the step does.
+/// Width of a bracket, as a part of the step. The time of an event then errs by less than the step does.
 pub(crate) const WIDTH: f64 = 1e-13;
 
 /// Which functions of a model are looked at.

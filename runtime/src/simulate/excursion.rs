@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stays_on_its_side_is_not_found_and_costs_little_unless_it_comes_near() {
+    fn a_guard_that_keeps_its_sign_is_not_found_and_costs_little() {
         // a quarter is 0.25 long, so that the parabola bends by 0.0625 in it
         for depth in [1e-12, 1e-6, 1e-2, 0.1, 1.0] {
             let (found, asked) = search(|theta| -depth - (theta - 0.37) * (theta - 0.37));

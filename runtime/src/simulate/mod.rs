@@ -23,6 +23,7 @@ mod orders;
 mod run;
 mod schedule;
 mod settings;
+pub(crate) mod standing;
 #[cfg(test)]
 mod tests;
 mod time_loop;

@@ -100,7 +100,7 @@ fn orbit_error<T: Real>(settings: &Settings) -> f64 {
 
 /// Where an orbit closes its symmetry would flatter some methods, so it ends before.
 #[test]
-fn on_a_smooth_problem_every_method_has_its_order_over_three_decades() {
+fn every_method_has_its_order_on_a_smooth_problem() {
     let time = 5.0 - 0.2 * 5.0f64.sin();
     for formula in Formula::ALL {
         // first step, how much finer the next, and which errors count: where the order shows already, and rounding (of
@@ -234,13 +234,13 @@ fn check<M: Model<f64>>(exact: &[f64], without: f64) {
 }
 
 #[test]
-fn on_a_bouncing_ball_kinks_cost_the_order_unless_they_are_located() {
+fn kinks_cost_the_order_of_a_bouncing_ball_unless_located() {
     // the force is continuous: an error of O(h²) at each touch
     check::<Ball>(&ball(), 2.0);
 }
 
 #[test]
-fn on_a_belt_going_taut_jumps_cost_the_order_unless_they_are_located() {
+fn jumps_cost_the_order_of_a_belt_going_taut_unless_located() {
     // the force jumps: an error of O(h)
     check::<Tether>(&tether(), 1.0);
 }

@@ -324,8 +324,9 @@ fn leaving_a_curve_names_the_force_and_the_time() {
             "{text}"
         );
         assert!(
-            text.contains("the curve \"spring: curve\" is left by")
-                && text.contains("beyond its last point, 0.450"),
+            text.contains(
+                "the argument of the curve \"spring: curve\" exceeds the last point (0.450)"
+            ),
             "{text}"
         );
     }
@@ -532,7 +533,7 @@ fn default_settings_are_the_defaults_of_their_parts() {
 }
 
 #[test]
-fn a_step_ends_where_a_guard_changes_its_sign_and_memory_changes_between_steps_only() {
+fn steps_end_at_events_and_memory_changes_between_steps() {
     let tolerance = 1e-10;
     let settings = Settings {
         method: at_tolerance(tolerance),
@@ -601,18 +602,19 @@ fn rejected_steps_do_not_touch_memory() {
 /// A guard that jumps where a run stands would cut every step down to nothing, for ever: after a while one goes on.
 #[test]
 fn a_guard_that_jumps_where_a_run_stands_does_not_stop_it() {
-    for method in [at_tolerance(1e-8), Method::fixed(Formula::Rk4, 0.01)] {
+    // of a long step an event is known less well than a time is
+    let fixed = |step| Method::fixed(Formula::Rk4, step);
+    for method in [at_tolerance(1e-8), fixed(0.01), fixed(0.5)] {
         let settings = Settings {
             method,
-            duration: 1.0,
-            max_steps: 10_000,
+            max_steps: 100_000,
             ..Settings::of(<Ledge as Model<f64>>::INFO)
         };
         let (rows, report) = rows::<Ledge>(&settings);
         let report = report.unwrap();
         assert!(report.events >= 100, "{report:?}");
         let (t, last) = rows.last().unwrap();
-        assert!(*t == 1.0 && (last[0] - 1.0).abs() < 1e-12, "{last:?}");
+        assert!(*t == 10.0 && (last[0] - 10.0).abs() < 1e-9, "{last:?}");
     }
 }
 

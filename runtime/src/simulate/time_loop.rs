@@ -22,8 +22,9 @@ mod onset;
 mod sample;
 mod search;
 
-use super::event::{PLACES, inside};
+use super::event::{PLACES, WIDTH, inside};
 use super::schedule::{Grid, Schedule, to_meet};
+use super::standing::Standing;
 use super::watch::Watch;
 use super::{Cause, Observer, Pace, Receiver, Report, Settings};
 use crate::failure::Reason;
@@ -33,7 +34,7 @@ use crate::integrate::{Evaluator, Stepper, first_non_finite};
 use crate::{Arrival, Dynamics, Info, Real};
 use count::Vote;
 use onset::{END, KEPT, Onsets};
-use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, STANDS, STUCK, matters};
+use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, matters};
 #[cfg(feature = "std")]
 pub(crate) use search::{EASY, SEARCHES};
 
@@ -164,8 +165,7 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     approach: Option<Approach>,
     /// Kinks in a row that were approached, and steps in a row that were taken again because of something hidden in them.
     restless: u32,
-    /// Steps in a row that a guard cut down to nothing: where it jumps at the time reached, it changes its sign there again and again.
-    stuck: u32,
+    standing: Standing,
     searches: u32,
 
     /// A state within a step; another one; values of guards or kinks at [`PLACES`] places; outputs; arguments of curves.
@@ -261,7 +261,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             breakpoint: 0.0,
             approach: None,
             restless: 0,
-            stuck: 0,
+            standing: Standing::default(),
             searches: 0,
             inside: workspace.part(state),
             spare: workspace.part(state),
@@ -403,7 +403,17 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
         core::mem::swap(&mut self.guards_past, &mut self.guards);
         self.guards.copy_from_slice(self.guards_ahead);
-        self.begin(step, &reach, &landing, renewed)
+        let latest = self.f.latest;
+        let goes_on = self.begin(step, &reach, &landing, renewed)?;
+        if let (Some(watch), Pace::Fixed(_)) = (&mut self.watch, self.settings.method.pace) {
+            let next = core::mem::replace(&mut self.f.latest, latest);
+            watch.estimate_error(step, &mut self.f, landing.length, self.y, self.inside);
+            self.f.latest = next;
+        }
+        if goes_on {
+            step.begin(self.report.t, self.y, self.rate);
+        }
+        Ok(())
     }
 
     /// How far the next step goes.
@@ -564,9 +574,10 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         if let Some((guard, end)) = self.guard_within(step) {
             let theta = self.way_to_guard(step, end);
             let ends = begin + theta * reach.length;
-            let stands = ends - begin <= STANDS * finest_of::<T>(begin);
-            self.stuck = if stands { self.stuck + 1 } else { 0 };
-            if theta < 1.0 && self.stuck <= STUCK {
+            let lengths = [ends - begin, reach.length];
+            let finest = finest_of::<T>(begin);
+            let goes_on = self.standing.goes_on(lengths, finest, WIDTH);
+            if theta < 1.0 && !goes_on {
                 inside(self.model, step, theta, self.ahead);
                 self.arrive(ends);
                 t = ends;
@@ -576,9 +587,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             self.report.events += 1;
             landing.forced = Some(Cause::Guard(guard));
         }
-        // a step that goes on is not stuck
         if landing.whole {
-            self.stuck = 0;
+            self.standing.forget();
         }
         core::mem::swap(&mut self.y, &mut self.ahead);
         self.report.t = t;
@@ -615,19 +625,19 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// The next step begins where this one ended, unless that is the end of the run.
+    /// The next step begins where this one ended, unless that is the end of the run. Whether there is one.
     fn begin(
         &mut self,
-        step: &mut dyn Stepper<T>,
+        step: &dyn Stepper<T>,
         reach: &Reach,
         landing: &Landing,
         renewed: Renewed,
-    ) -> Result<(), End> {
+    ) -> Result<bool, End> {
         let arrived = landing.whole && reach.lands && reach.stop >= self.breakpoint;
         self.past = 0.0;
         if arrived {
             if self.breakpoint >= self.settings.duration {
-                return Ok(());
+                return Ok(false);
             }
             // beyond the kink the derivative is another one
             self.breakpoint = self.schedule.kink_after(self.model, self.report.t);
@@ -642,7 +652,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             Some(rate) => self.rate.copy_from_slice(rate),
             None => self.f.at(self.report.t, self.y, self.rate),
         }
-        if smooth || (whole && renewed == Renewed::Alike && self.goes_on(step, landing.length)) {
+        if smooth || (whole && renewed == Renewed::Alike && self.moves_alike(step, landing.length))
+        {
             self.past = landing.length;
         }
         if arrived {
@@ -656,8 +667,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         {
             watch.compare(step, self.y, self.rate, self.spare);
         }
-        step.begin(self.report.t, self.y, self.rate);
-        Ok(())
+        Ok(true)
     }
 
     /// Evaluates what is wanted of the state ahead, at this time: the end of a step, or of the first part of one.
@@ -727,10 +737,11 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// Whether the motion goes on as it did in a step of this length, though memory was renewed: the derivative, which is known, has changed by
-    /// no more than the error allowed would in such a step. So it is of a hysteresis under load, whose memory goes along with the state.
-    fn goes_on(&mut self, step: &dyn Stepper<T>, length: f64) -> bool {
-        let Some(before) = step.end_rate() else {
+    /// Whether the motion goes on as it did in a step of this length, although memory was renewed: over such a step, the change of the derivative,
+    /// which is known, makes no more than the error allowed. So it is of a hysteresis under load, whose memory goes along with the state. Never of
+    /// fixed steps, for which no error is allowed.
+    fn moves_alike(&mut self, step: &dyn Stepper<T>, length: f64) -> bool {
+        let (Pace::Adaptive(_), Some(before)) = (self.settings.method.pace, step.end_rate()) else {
             return false;
         };
         for (change, (rate, before)) in self.spare.iter_mut().zip(self.rate.iter().zip(before)) {

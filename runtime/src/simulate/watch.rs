@@ -4,8 +4,8 @@
 //! |---|---|---|
 //! | energy | \|T(t) − T(0) − Σ W\| | the limit · the largest energy so far, kinetic or gone through an effect |
 //! | momentum of what is free | \|p(t) − p(0) − ∫ F dt\|, and that about the origin | the limit · what masses of this kinetic energy can have |
-//! | velocities, where steps are fixed and something may begin to act | \|v(t) − v(0) − ∫ v̇ dt\| | half of the limit · the largest speed |
-//! | coordinates, likewise, in a step | \|Δq − ∫ q̇ dt\| | a tenth of the largest speed · the step |
+//! | velocities, where steps are fixed | the estimate of their error ([`error`]) | 2.5 times the limit · the largest speed |
+//! | coordinates, likewise | the same | 2.5 times the limit · the largest way from the start |
 //! | fixed step | h \|λ\| of the fastest motion | the method's limit of stability |
 //! | curves of the state, while their force acts | how far beyond their points | what goes on beyond them |
 //! | flexion beyond 90° | by how much the direction of bending leaps | a quarter turn |
@@ -34,6 +34,7 @@
 //! wherever in its period a − b lies and whatever the units.
 
 pub(crate) mod account;
+pub(crate) mod error;
 #[cfg(test)]
 mod tests;
 
@@ -41,14 +42,13 @@ use super::balance::{NODES, Rule};
 use super::event::inside;
 use super::{Balance, Buffer, Pace, Settings};
 use crate::curve::Extrapolate;
-use crate::integrate::Stepper;
 use crate::integrate::workspace::Workspace;
+use crate::integrate::{Evaluator, Stepper};
 use crate::model::{CurveInfo, CurveKind, Turning};
 use crate::{AccountArrival, Dynamics, Formula, Info, Real, StateKind};
-use account::{
-    Account, Energies, Entry, Explained, GAUSS, Stability, WEIGHT_OF_GAUSS, rate_squared,
-};
+use account::{Account, Energies, Entry, Stability, rate_squared};
 use core::fmt;
+use error::{Errors, Estimated, GAUSS};
 
 /// Share of the energy that may be missing where nothing else is asked for: 2 %.
 ///
@@ -121,8 +121,8 @@ pub enum Suspicion {
         /// The entry of the state whose velocity was largest when this began.
         index: Option<usize>,
     },
-    /// A coordinate or a velocity is not what its rate within fixed steps makes of it.
-    Unexplained {
+    /// Fixed steps err by too much, as estimated along with them.
+    Error {
         /// The entry of the state that was farthest off when this began.
         index: usize,
     },
@@ -142,7 +142,7 @@ impl Doubt {
     /// The entry of the state that is named.
     pub fn coordinate(&self) -> Option<&'static str> {
         let index = match self.suspicion {
-            Suspicion::Step { index, .. } | Suspicion::Unexplained { index } => Some(index),
+            Suspicion::Step { index, .. } | Suspicion::Error { index } => Some(index),
             Suspicion::Curve { .. }
             | Suspicion::Missed { .. }
             | Suspicion::Flexion { .. }
@@ -162,7 +162,7 @@ impl Doubt {
             Suspicion::Missed { steps, .. } => steps as f64,
             Suspicion::Flexion { .. } | Suspicion::Sunk { .. } => core::f64::consts::PI,
             Suspicion::Energy { share, .. } | Suspicion::Momentum { share, .. } => share,
-            Suspicion::Unexplained { .. } => 1.0,
+            Suspicion::Error { .. } => 1.0,
         }
     }
 
@@ -177,7 +177,7 @@ impl Doubt {
             Suspicion::Sunk { .. } => "sunk",
             Suspicion::Energy { .. } => "energy",
             Suspicion::Momentum { .. } => "momentum",
-            Suspicion::Unexplained { .. } => "unexplained",
+            Suspicion::Error { .. } => "error",
         }
     }
 
@@ -199,7 +199,7 @@ impl Doubt {
             Suspicion::Curve { .. } => {
                 "give the curve points as far as it is used; or write `extrapolate: hold` where its last value is meant to go on"
             }
-            Suspicion::Missed { .. } | Suspicion::Unexplained { .. } => {
+            Suspicion::Missed { .. } | Suspicion::Error { .. } => {
                 "give --tolerance instead of --step, which ends steps where something begins; or a smaller --step"
             }
             Suspicion::Flexion { .. } => {
@@ -270,14 +270,20 @@ impl fmt::Display for Doubt {
             }
             Suspicion::Curve { curve, argument } => match self.info.curves.get(curve) {
                 Some(curve) => write!(f, "since t = {since} {}", Beyond { curve, argument }),
-                None => write!(f, "since t = {since} a curve is left"),
+                None => write!(
+                    f,
+                    "since t = {since} the argument of a curve is outside of its points"
+                ),
             },
             Suspicion::Missed { onset, steps } => {
                 let onset = self.info.onsets.get(onset).copied().unwrap_or("?");
-                let which = if steps == 1 { "a step" } else { "steps" };
+                let which = match steps {
+                    1 => "a step",
+                    _ => "the first of several steps",
+                };
                 write!(
                     f,
-                    "at t = {since} {which} went over what begins and ends within: \"{onset}\""
+                    "at t = {since} {which} passed over an event that begins and ends within the step: \"{onset}\""
                 )
             }
             Suspicion::Flexion { bearing } => {
@@ -306,30 +312,32 @@ impl fmt::Display for Doubt {
             Suspicion::Energy { share, effect, .. } => {
                 write!(
                     f,
-                    "since t = {since} the balance of energy has a gap, {} % of the largest energy in it",
+                    "since t = {since} the balance of energy has a gap of {} % of the largest energy in it",
                     Short(100.0 * share)
                 )?;
                 match effect.and_then(|effect| self.info.powers.get(effect)) {
-                    Some(effect) => write!(f, "; the largest power then is of \"{effect}\""),
-                    None => write!(f, "; \"{name}\" is fastest then"),
+                    Some(effect) => write!(
+                        f,
+                        "; the largest power at that time is that of \"{effect}\""
+                    ),
+                    None => write!(f, "; \"{name}\" moves fastest at that time"),
                 }
             }
-            Suspicion::Unexplained { .. } => write!(
+            Suspicion::Error { .. } => write!(
                 f,
-                "since t = {since} \"{name}\" is not what its rate within the steps makes of it: forces begin and end between the places \
-                 that the steps look at"
+                "since t = {since} \"{name}\" errs by too much, as estimated from the rates within the steps: they are too long for this motion"
             ),
             Suspicion::Momentum { share, .. } => write!(
                 f,
-                "since t = {since} the momentum of what moves freely has a gap, {} % of what there can be; \"{name}\" is \
-                 fastest then",
+                "since t = {since} the balance of momentum of freely moving bodies has a gap of {} % of the largest possible momentum; \
+                 \"{name}\" moves fastest at that time",
                 Short(100.0 * share)
             ),
         }
     }
 }
 
-/// How a curve is left, in words.
+/// By how much the argument of a curve exceeds its points, and how the curve is extended, in words.
 pub(crate) struct Beyond<'a> {
     pub curve: &'a CurveInfo,
     pub argument: f64,
@@ -342,26 +350,25 @@ impl fmt::Display for Beyond<'_> {
             let (name, left) = (curve.name, 100.0 * (1.0 - curve.last));
             return write!(
                 f,
-                "the {name} is pressed to less than {} % of its volume, and its law ends there",
+                "the {name} is compressed to less than {} % of its volume, where its law is no longer valid",
                 Short(left)
             );
         }
         let how = match curve.extrapolate {
-            Extrapolate::Linear => "which goes on as a line",
-            Extrapolate::Hold => "whose outermost value is held",
-            Extrapolate::Error => "which may not be left",
+            Extrapolate::Linear => "the curve is extended as a straight line",
+            Extrapolate::Hold => "the curve keeps its outermost value",
+            Extrapolate::Error => "the curve may not be extended",
         };
         let (side, end) = match *argument < curve.first {
-            true => ("below its first point", curve.first),
-            false => ("beyond its last point", curve.last),
+            true => ("is below the first point", curve.first),
+            false => ("exceeds the last point", curve.last),
         };
         let (name, beyond) = (curve.name, (argument - end).abs());
         write!(
             f,
-            "the curve \"{name}\" is left by {} {side}, {}, up to {}, {how}",
-            Short(beyond),
+            "the argument of the curve \"{name}\" {side} ({}) by {}, and {how}",
             Short(end),
-            Short(*argument)
+            Short(beyond)
         )
     }
 }
@@ -400,8 +407,7 @@ pub struct Watch<'a, T: Real> {
     /// did.
     effect: Option<usize>,
     fastest: [Option<usize>; 2],
-    /// The entry of the state that was farthest off when the motion began to be unexplained.
-    unexplained: usize,
+    errors: Errors,
     stability: Stability,
     /// The method, where steps are fixed and so may be above its limit.
     fixed: Option<Formula>,
@@ -420,9 +426,13 @@ pub struct Watch<'a, T: Real> {
     /// Powers of all effects at one node of a step after the other. Those of the first are known when it begins, those of the last when it
     /// ends.
     powers: Buffer<'a, T>,
-    /// What each entry has changed by beyond what its rate gives, and a derivative.
-    owed: Buffer<'a, T>,
+    /// The start, how far each entry is off by the estimate, what the step leaves unexplained of it, and a derivative.
+    start: Buffer<'a, T>,
+    error: Buffer<'a, T>,
+    defect: Buffer<'a, T>,
     rates: Buffer<'a, T>,
+    /// Whether coordinates may change their charts, and whether they just may have.
+    charts: [bool; 2],
     /// The forces on what moves freely there.
     external_wrenches: [[T; 6]; NODES],
     /// Kinetic energy and momentum where a step leads.
@@ -482,7 +492,7 @@ impl<'a, T: Real> Watch<'a, T> {
 
     /// How many scalars the watch of a model keeps.
     pub const fn length(info: &Info) -> usize {
-        (1 + NODES) * info.powers.len() + 6 * info.curves.len() + 2 * info.state_length()
+        (1 + NODES) * info.powers.len() + 6 * info.curves.len() + 4 * info.state_length()
     }
 
     /// Before a run, with memory of the lengths asked for.
@@ -501,7 +511,7 @@ impl<'a, T: Real> Watch<'a, T> {
             account: Account::new(limit),
             effect: None,
             fastest: [None; 2],
-            unexplained: 0,
+            errors: Errors::new(limit),
             stability: Stability::NONE,
             fixed: None,
             missed: None,
@@ -511,12 +521,14 @@ impl<'a, T: Real> Watch<'a, T> {
             arguments: memory(curves),
             within: memory(3 * curves),
             powers: memory(NODES * powers),
-            owed: {
-                let mut owed = memory(info.state_length());
-                owed.fill(T::from_f64(0.0));
-                owed
-            },
+            start: memory(info.state_length()),
+            error: memory(info.state_length()),
+            defect: memory(info.state_length()),
             rates: memory(info.state_length()),
+            charts: [
+                info.memory.iter().any(|name| name.ends_with(": chart")),
+                false,
+            ],
             external_wrenches: [[T::from_f64(0.0); 6]; NODES],
             kinetic_ahead: T::from_f64(0.0),
             momentum_ahead: [T::from_f64(0.0); 6],
@@ -574,13 +586,11 @@ impl<'a, T: Real> Watch<'a, T> {
         });
         let found = self.step().into_iter().chain(missed).chain(curve);
         let found = found.chain(flexions).chain(energy);
-        let unexplained = self.account.unexplained().map(|since| {
-            let index = self.unexplained;
-            (since, Suspicion::Unexplained { index })
-        });
+        let errs = self.errors.found();
+        let errs = errs.map(|(since, index)| (since, Suspicion::Error { index }));
         found
             .chain(momentum)
-            .chain(unexplained)
+            .chain(errs)
             .map(|(t, suspicion)| Doubt {
                 t,
                 suspicion,
@@ -643,6 +653,8 @@ impl<'a, T: Real> Watch<'a, T> {
                 })
             }
         };
+        self.start.copy_from_slice(y);
+        self.error.fill(T::from_f64(0.0));
         self.balance.start = model.kinetic_energy(start, y);
         self.balance.end = self.balance.start;
         self.account.open(self.balance.start.to_f64(), tolerated);
@@ -667,8 +679,9 @@ impl<'a, T: Real> Watch<'a, T> {
         model.exchange(T::from_f64(t), y, powers, &mut self.external_wrenches[0]);
     }
 
-    /// Memory was renewed at the end of a step that began at `before`: the next begins with what was told last ([`Watch::arrival`]).
+    /// Memory was renewed at the end of a step that began at `before`. The next step begins with what [`Watch::arrival`] received last.
     pub(super) fn renew(&mut self, before: f64) {
+        self.charts[1] = self.charts[0];
         self.advance();
         self.look_at_curves(before);
     }
@@ -725,14 +738,14 @@ impl<'a, T: Real> Watch<'a, T> {
         if let Some(history) = &mut self.history {
             history.note(span.t + length, &self.balance.works);
         }
-        if self.fixed.is_some() && !self.info.onsets.is_empty() {
-            self.explain(model, step, length, y, state);
+        if self.fixed.is_some() {
+            self.look_at_defect(model, step, length, y, state);
         }
         [kinetic, self.balance.exchanged - before].map(T::to_f64)
     }
 
-    /// Whether the motion in a step of this length, which ends at `y`, is what its rates within give. `state` is place for a state.
-    fn explain(
+    /// What a step of this length, which ends at `y`, leaves unexplained. `state` is place for a state.
+    fn look_at_defect(
         &mut self,
         model: &dyn Dynamics<T>,
         step: &dyn Stepper<T>,
@@ -741,28 +754,61 @@ impl<'a, T: Real> Watch<'a, T> {
         state: &mut [T],
     ) {
         let span = step.span();
-        let coordinates = self.info.coordinates.len();
-        // of coordinates in this step alone
-        self.owed[..coordinates].fill(T::from_f64(0.0));
-        for (owed, (begin, end)) in self.owed.iter_mut().zip(span.y.iter().zip(y)) {
-            *owed += *end - *begin;
+        let changes = self.defect.iter_mut().zip(span.y.iter().zip(y));
+        for (defect, (begin, end)) in changes {
+            *defect = *end - *begin;
         }
-        let weight = T::from_f64(WEIGHT_OF_GAUSS * length);
-        for x in GAUSS {
+        for (x, weight) in GAUSS {
             inside(model, step, x * length / span.h, state);
+            let weight = T::from_f64(weight * length);
             model.derivative(T::from_f64(span.t + x * length), state, &mut self.rates);
-            for (owed, rate) in self.owed.iter_mut().zip(self.rates.iter()) {
-                *owed += -(weight * *rate);
+            for (defect, rate) in self.defect.iter_mut().zip(self.rates.iter()) {
+                *defect += -(weight * *rate);
             }
         }
-        let entry = |i: usize| Explained {
-            value: y[i].to_f64(),
-            owed: self.owed[i].to_f64(),
-        };
-        let found = self.account.explain([span.t, length], self.info, entry);
-        if let Some(index) = found {
-            self.unexplained = index;
+    }
+
+    /// Carries the estimate of the error over a step of this length, which ended at `y`. The step is done with. `state` is place for a state.
+    pub(super) fn estimate_error(
+        &mut self,
+        step: &mut dyn Stepper<T>,
+        f: &mut Evaluator<'_, T>,
+        length: f64,
+        y: &[T],
+        state: &mut [T],
+    ) {
+        let integrated = self.info.varying_length();
+        let t = step.span().t;
+        if core::mem::take(&mut self.charts[1]) {
+            // the coordinates are others
+            self.error.fill(T::from_f64(0.0));
+            return;
         }
+        state.copy_from_slice(step.span().y);
+        for (state, error) in state.iter_mut().zip(&self.error[..integrated]) {
+            *state = *state - *error;
+        }
+        f.model.normalize(state);
+        let counts = (f.count, f.jacobians);
+        f.at(t, state, &mut self.rates);
+        step.begin(t, state, &self.rates);
+        let taken = step.take(f, length);
+        (f.count, f.jacobians) = counts;
+        if taken.is_err() {
+            return;
+        }
+        for (i, error) in self.error.iter_mut().enumerate().take(integrated) {
+            *error = y[i] - (step.span().end[i] - self.defect[i]);
+        }
+        let coordinates = self.info.coordinates.len();
+        let entry = |i: usize| Estimated {
+            size: match i < coordinates {
+                true => (y[i] - self.start[i]).to_f64(),
+                false => y[i].to_f64(),
+            },
+            error: self.error[i].to_f64(),
+        };
+        self.errors.observe(t, self.info, entry);
     }
 
     /// The state at the end of a step that began at `t`, with the kinetic energy that it began with and what was exchanged in it \[J\]. The next

@@ -4,9 +4,9 @@ use crate::ReadError;
 use crate::recording::bytes_of;
 use std::path::Path;
 
-/// What stands for a value that there is not.
+/// The text for an unknown value.
 pub const NOVALUE: &str = "NOVALUE";
-/// Columns of a key.
+/// Width of a key in columns.
 const WIDTH: usize = 28;
 
 /// A file: its keys with their values, and the lines without a key.
@@ -22,7 +22,7 @@ impl Lines {
     pub fn read(path: &Path) -> Result<Lines, ReadError> {
         let text = match String::from_utf8(bytes_of(path)?) {
             Ok(text) => text,
-            // each byte of ISO 8859-1 is the character of the same number
+            // each byte of ISO 8859-1 is the character with the same number
             Err(error) => error.into_bytes().into_iter().map(char::from).collect(),
         };
         let mut lines = Lines {
@@ -31,7 +31,7 @@ impl Lines {
         };
         for (index, line) in text.lines().enumerate() {
             let line = line.trim_start_matches('\u{feff}').trim_end();
-            // data begin with the first line that has no key
+            // the data begin with the first line that has no key
             let pair = if lines.data.is_empty() {
                 line.split_once(':')
             } else {
@@ -49,7 +49,7 @@ impl Lines {
         Ok(lines)
     }
 
-    /// The value of a key, in whatever case it is written; `None` where there is none, or no value.
+    /// The value of a key, in upper or lower case; `None` if there is no such key, or no value.
     pub fn value(&self, key: &str) -> Option<&str> {
         let found = self
             .pairs
@@ -60,7 +60,7 @@ impl Lines {
     }
 }
 
-/// A line of a key and its value.
+/// The line of a key and its value.
 pub fn line(key: &str, value: &str) -> String {
     format!("{key:<WIDTH$}:{value}\n")
 }

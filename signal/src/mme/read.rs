@@ -4,16 +4,16 @@ use super::lines::{Lines, NOVALUE};
 use crate::{Channel, ReadError, Recording, Signal};
 use std::path::{Path, PathBuf};
 
-/// Reads a test by its file `TEST.mme`, or by the folder that has one such file.
+/// Reads a test by its file `TEST.mme`, or by a folder with one such file.
 ///
 /// # Errors
-/// Where a file is missing or holds something else, with its line.
+/// A file is missing or has an error; the message has its line.
 pub fn read(path: &Path) -> Result<Recording, ReadError> {
     let about = match path.is_dir() {
         true => the_only(path, "mme")?,
         false => path.to_owned(),
     };
-    // so that what is no such file is said of it and not of what is missing beside it
+    // an error of this file is reported before a missing file beside it
     Lines::read(&about)?;
     let folder = about.parent().unwrap_or(Path::new("."));
     let channels = in_any_case(folder, "Channel");
@@ -86,7 +86,7 @@ fn the_only(folder: &Path, extension: &str) -> Result<PathBuf, ReadError> {
     }
 }
 
-/// An entry of a folder by its name in whatever case; as given, where there is none.
+/// An entry of a folder by its name in upper or lower case; the given name if there is none.
 fn in_any_case(folder: &Path, name: &str) -> PathBuf {
     let same = |path: &PathBuf| {
         path.file_name()
@@ -117,7 +117,7 @@ impl Written {
                     ReadError::content(
                         path,
                         *line,
-                        format!("`{text}` is no number, and no line `key :value` either"),
+                        format!("`{text}` is neither a number nor a line `key :value`"),
                     )
                 })?,
             });
@@ -131,7 +131,7 @@ impl Written {
             && count != written.values.len() as f64
         {
             let message = format!(
-                "the file says that it has {count} samples, and has {}",
+                "the file says that it has {count} samples, but has {}",
                 written.values.len()
             );
             return Err(written.wrong(message));
@@ -145,7 +145,7 @@ impl Written {
 
     fn number(&self, key: &str) -> Result<Option<f64>, ReadError> {
         let parsed = self.lines.value(key).map(|text| {
-            let wrong = || self.wrong(format!("`{key}` is `{text}`, which is no number"));
+            let wrong = || self.wrong(format!("`{key}` is `{text}`, which is not a number"));
             text.parse::<f64>().map_err(|_| wrong())
         });
         parsed.transpose()
@@ -155,7 +155,7 @@ impl Written {
         self.lines.value("Channel code").unwrap_or_default()
     }
 
-    /// Whether it holds times of other channels.
+    /// Whether the channel holds the times of other channels.
     fn is_time(&self) -> bool {
         self.code().get(2..6) == Some("TIRS")
     }
@@ -175,7 +175,7 @@ impl Written {
                 let times = all.iter().find(|other| other.code() == name);
                 let times = times.ok_or_else(|| {
                     self.wrong(format!(
-                        "its times are those of the channel `{name}`, which there is not"
+                        "its times are those of the channel `{name}`, which does not exist"
                     ))
                 })?;
                 let signal = Signal::of_samples(&times.values, &self.values);

@@ -1,4 +1,4 @@
-//! ISO-MME as written here, and as others write it.
+//! ISO-MME files that this crate writes, and files as others write them.
 
 use super::{About, read, write};
 use crate::{Channel, Recording, Signal};
@@ -48,7 +48,7 @@ fn what_is_written_is_read_back_bit_for_bit() {
             assert_eq!(found.unit, given.unit);
             assert_eq!((found.signal.first, found.signal.interval), (-0.1, 1e-4));
             let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
-            // not-a-number has no digits
+            // NaN has no digits
             let bits = |values: &[f64]| {
                 bits(
                     &values
@@ -61,7 +61,7 @@ fn what_is_written_is_read_back_bit_for_bit() {
         }
         let names = |one: &Channel| (one.name.clone(), one.title.clone());
         let named = found.channels.iter().map(names);
-        // the one without a code has one of its number and its quantity
+        // the channel without a code gets one from its number and its quantity
         let expected = [
             ("11HEADCG00H3ACXA", "head: acceleration, x"),
             ("10X002000000AC00", "belt force"),
@@ -69,7 +69,7 @@ fn what_is_written_is_read_back_bit_for_bit() {
         assert!(named.eq(expected.map(|(name, title)| (name.to_owned(), title.to_owned()))));
         assert!(found.channel("belt force").is_some());
     }
-    // a shorter recording of the same name leaves nothing of the longer one
+    // a shorter recording of the same name leaves no channel of the longer one
     let shorter = Recording {
         channels: recording.channels[1..].to_vec(),
     };
@@ -77,7 +77,7 @@ fn what_is_written_is_read_back_bit_for_bit() {
     assert_eq!(read(folder.path()).unwrap().channels.len(), 1);
 }
 
-/// Files as a laboratory writes them: CRLF, ISO 8859-1, keys of more than 28 columns, times in a channel of their own.
+/// Files as a laboratory writes them: CRLF, ISO 8859-1, keys of more than 28 columns, times in a separate channel.
 fn laboratory(folder: &Path) {
     let inner = folder.join("CHANNEL");
     fs::create_dir(&inner).unwrap();
@@ -128,11 +128,11 @@ fn what_is_wrong_is_said_with_its_place() {
     let wrong = [
         (
             "Sampling interval :1e-4\nNumber of samples :3\n1\n2\n",
-            "says that it has 3 samples, and has 2",
+            "says that it has 3 samples, but has 2",
         ),
         (
             "Sampling interval :1e-4\n1\nx\n",
-            "T1.003:3: `x` is no number",
+            "T1.003:3: `x` is neither a number",
         ),
         ("Unit :N\n1\n2\n", "`Sampling interval` must be there"),
         (
@@ -141,11 +141,11 @@ fn what_is_wrong_is_said_with_its_place() {
         ),
         (
             "Sampling interval :short\n1\n2\n",
-            "`short`, which is no number",
+            "`short`, which is not a number",
         ),
         (
             "Reference channel :explicit\nReference channel name :none\n1\n",
-            "`none`, which there is not",
+            "`none`, which does not exist",
         ),
     ];
     for (text, told) in wrong {

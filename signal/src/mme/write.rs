@@ -6,23 +6,23 @@ use crate::{Channel, Recording, unit};
 use std::io;
 use std::path::Path;
 
-/// What is said of a run as a whole.
+/// The description of a run as a whole.
 #[derive(Clone, Debug, Default)]
 pub struct About {
     /// The title.
     pub title: String,
-    /// What made it, such as the program with its version.
+    /// The source, such as the program with its version.
     pub source: String,
 }
 
-/// Writes a recording: `NAME.mme` in this folder, and `Channel/NAME.chn`, `Channel/NAME.001`, …. Folders are made. A channel of an earlier test of that name is
-/// removed, for it would count as one of this.
+/// Writes a recording: `NAME.mme` in this folder, and `Channel/NAME.chn`, `Channel/NAME.001`, …. Folders are created. Channels of an
+/// earlier test with this name are removed, because they would count as channels of this test.
 ///
 /// # Errors
-/// What the file system says.
+/// Those of the file system.
 ///
 /// # Panics
-/// Where there are more channels than [`MOST_CHANNELS`].
+/// There are more channels than [`MOST_CHANNELS`].
 pub fn write(folder: &Path, name: &str, recording: &Recording, about: &About) -> io::Result<()> {
     let channels = &recording.channels;
     assert!(
@@ -56,12 +56,12 @@ pub fn write(folder: &Path, name: &str, recording: &Recording, about: &About) ->
     std::fs::write(folder.join(format!("{name}.mme")), test(about))
 }
 
-/// Whether a channel goes by a code.
+/// Whether the name of a channel is a code.
 fn is_code(name: &str) -> bool {
     name.len() == 16 && name.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 
-/// The code of a channel: of one that has none, its number as a place that is not known, `X001`, and the quantity of its unit.
+/// The code of a channel. A channel without a code gets its number as an unknown place, `X001`, and the quantity of its unit.
 fn code(channel: &Channel, number: &str) -> String {
     if is_code(&channel.name) {
         return channel.name.clone();
@@ -81,7 +81,7 @@ fn code(channel: &Channel, number: &str) -> String {
     format!("10X{number}000000{quantity}00")
 }
 
-/// What a channel is called in words.
+/// The name of a channel in words.
 fn words(channel: &Channel) -> &str {
     match channel.title.as_str() {
         "" if !is_code(&channel.name) => &channel.name,
@@ -97,7 +97,7 @@ fn known(text: &str) -> String {
     }
 }
 
-/// The file about the test. A run has no date: the same run gives the same bytes.
+/// The file about the test. A run has no date, so that the same run gives the same bytes.
 fn test(about: &About) -> String {
     [
         ("Data format edition number", "1.6"),
@@ -118,7 +118,7 @@ fn test(about: &About) -> String {
 fn text(channel: &Channel, code: &str, about: &About) -> String {
     let signal = &channel.signal;
     let number = |value: f64| match value.is_finite() {
-        // the fewest digits that are read back as the same number
+        // the fewest digits that read back as the same number
         true => format!("{value:?}"),
         false => NOVALUE.to_owned(),
     };

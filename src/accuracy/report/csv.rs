@@ -1,4 +1,4 @@
-//! A study as comma-separated values: a row per point, with every setting that is needed to repeat it, every digit.
+//! A study as comma-separated values: one row for each point, with every setting that is needed to repeat it, and all digits.
 
 use crate::accuracy::finding::Finding;
 use crate::accuracy::point::{Done, Point, Status};
@@ -10,7 +10,7 @@ use std::io;
 /// Writes all points.
 ///
 /// # Errors
-/// Those of the output.
+/// Those of `out`.
 pub fn write(study: &Study, finding: &Finding, out: impl io::Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(headings(study))?;
@@ -21,7 +21,7 @@ pub fn write(study: &Study, finding: &Finding, out: impl io::Write) -> io::Resul
     writer.flush()
 }
 
-/// What is the same in all rows: names and values.
+/// Names and values that are the same in all rows.
 fn common(study: &Study) -> Vec<(&'static str, String)> {
     let parameters = study.parameters.iter();
     let parameters = parameters.map(|(name, value, unit)| format!("{name}={value} {unit}"));
@@ -42,7 +42,7 @@ fn common(study: &Study) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// Of the setting.
+/// Headings of the setting.
 const SETTING: [&str; 7] = [
     "method",
     "pace",
@@ -53,7 +53,7 @@ const SETTING: [&str; 7] = [
     "curves",
 ];
 
-/// Of what came of it, readings apart.
+/// Headings of the result, without readings.
 const RESULT: [&str; 22] = [
     "status",
     "reason",
@@ -116,7 +116,7 @@ fn record(study: &Study, point: &Point, front: bool) -> Vec<String> {
         Status::Failed(reason) => record.extend(["failed".to_owned(), reason.clone()]),
         Status::Skipped(reason) => record.extend(["skipped".to_owned(), reason.clone()]),
     }
-    // What did not run has no results.
+    // A point that was not run has no results.
     record.resize(headings(study).len(), String::new());
     record
 }

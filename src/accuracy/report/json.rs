@@ -6,7 +6,7 @@ use crate::accuracy::setting::Pace;
 use crate::accuracy::study::Study;
 use serde_json::{Map, Value, json};
 
-/// All of it; what is not a finite number is `null`.
+/// The whole study; a number that is not finite is `null`.
 pub fn json(study: &Study, finding: &Finding) -> Value {
     let environment = &study.environment;
     let parameters: Map<String, Value> = study

@@ -1,4 +1,4 @@
-//! A study as a section of a page: what it found, the picture, the front.
+//! A study as a section of a page: its finding, the picture, the front.
 
 use super::text::{digits, error, known};
 use crate::accuracy::finding::Finding;
@@ -6,7 +6,7 @@ use crate::accuracy::point::{Measure, Status};
 use crate::accuracy::study::Study;
 use std::fmt::Write as _;
 
-/// The section; `picture` is the link to the diagram, `command` what made it all.
+/// The section; `picture` is the link to the diagram, `command` the command that made it.
 pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command: &str) -> String {
     let readings = &study.reference.readings;
     let of = study.of.name(readings);
@@ -28,8 +28,8 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
         let worst = exchanged.readings.iter().copied().fold(0.0, f64::max);
         let _ = writeln!(
             text,
-            "With its curves exchanged, cubics for straight lines, the scene itself is another one: {} away in the state, {} in the \
-             worst reading.",
+            "With cubic curves in the place of linear ones, and the reverse, the scene itself is another one: it differs by {} in the \
+             state, and by {} in the worst reading.",
             error(exchanged.state),
             error(worst)
         );
@@ -37,11 +37,11 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
     if let Some(why) = &study.not_exchanged {
         let _ = writeln!(
             text,
-            "The scene with its curves exchanged, cubics for straight lines, is left out: {}.",
+            "The scene with cubic curves in the place of linear ones, and the reverse, is left out: {}.",
             why.lines().next().unwrap_or_default()
         );
     }
-    // beside the error that was asked for, unless that is it
+    // the error in the state stands beside the error asked for, unless they are the same
     let state = !matches!(study.of, Measure::State);
     let (heading, rule) = match state {
         true => (" error in the state |", "---:|"),
@@ -49,7 +49,7 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
     };
     let _ = writeln!(
         text,
-        "\nSettings that no other beats in both error and time:\n\n\
+        "\nSettings for which no other setting is better in both error and time:\n\n\
          | setting | error in {of} |{heading} evaluations | time of a run \\[ms\\] | simulated/wall |\n\
          |---|---:|{rule}---:|---:|---:|"
     );

@@ -1,4 +1,4 @@
-//! The table of a study: a group per formula, a row per point, points of the Pareto front marked.
+//! The table of a study: a group for each formula, a row for each point; points on the Pareto front are marked.
 
 use crate::accuracy::finding::{Finding, bounded_by_stability};
 use crate::accuracy::point::{Done, Known, Measure, Point, Status};
@@ -7,16 +7,16 @@ use crate::accuracy::study::Study;
 use bryant_runtime::Formula;
 use std::fmt::Write as _;
 
-/// What stands in front of a point on the front.
+/// The mark in front of a point on the front.
 const MARK: &str = "*";
 
 /// Cells of a row; the first are left-aligned.
 type Row = Vec<String>;
 
-/// Columns of words, left-aligned, in front of those of numbers.
+/// Number of columns of words, which are left-aligned and stand in front of those of numbers.
 const WORDS: usize = 5;
 
-/// Head, groups, what the marks mean; no line end behind the last.
+/// Head, groups and the meaning of the marks; the last line has no line end.
 pub fn text(study: &Study, finding: &Finding) -> String {
     let mut text = head(study);
     let rows: Vec<(usize, Row)> = study
@@ -80,7 +80,7 @@ pub fn formulas(study: &Study) -> Vec<Formula> {
     Formula::ALL.into_iter().filter(there).collect()
 }
 
-/// What is studied and against what.
+/// The subject of the study and its reference.
 fn head(study: &Study) -> String {
     let mut text = format!(
         "{}: {} in samples of {}\nreference: {}\n",
@@ -181,12 +181,12 @@ fn numbers(study: &Study, point: &Point, done: &Done) -> Row {
     ]
 }
 
-/// A cause in one line, without what a reader of a table cannot use.
+/// A cause in one line, without the parts that a reader of a table cannot use.
 pub fn one_line(text: &str) -> String {
     text.lines().next().unwrap_or_default().trim().to_owned()
 }
 
-/// An order with a digit behind the point, and zero without a sign.
+/// An order with one digit behind the point; zero has no sign.
 fn order(value: f64) -> String {
     format!("{:.1}", (10.0 * value).round() / 10.0 + 0.0)
 }
@@ -212,7 +212,7 @@ pub fn digits(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Cells side by side; a row that is shorter ends in words, which may be as long as they like.
+/// Cells side by side; a shorter row ends in words, which may be long.
 fn line(row: &Row, widths: &[usize], text: &mut String) {
     let whole = row.len() == widths.len();
     let mut line = String::new();

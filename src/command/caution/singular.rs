@@ -1,9 +1,10 @@
-//! Positions in which two freedoms of a joint move its element alike.
+//! Positions in which two freedoms of a joint move its element in the same way.
 //!
-//! A joint of several freedoms without mass between is singular where its columns H (see `bryant_generator::joint`) depend on each other: with each scaled to length 1, where
-//! the Gram determinant det Ĥᵀ Ĥ is 0. Near such a position rates, and with them steps, become extreme. Columns depend on the coordinates between the
-//! first freedom and the last alone. The smallest determinant within the stops is searched from many places; that is no proof, but two or three
-//! hinges and sliders, which are all that people write, have few minima.
+//! A joint with several freedoms and no mass between them is singular where its columns H (see `bryant_generator::joint`) are linearly
+//! dependent: where the Gram determinant det Ĥᵀ Ĥ is 0, with Ĥ the columns scaled to length 1. Near such a position rates become extreme
+//! and steps become short. The columns depend only on the coordinates between the first freedom and the last. The smallest determinant
+//! within the stops is searched from many start values. This is not a proof, but joints of two or three hinges and sliders, which users
+//! write, have few minima.
 
 use bryant_generator::joint::{Freedom, Joint};
 use bryant_generator::model::{Active, ElementId, ForceKind, Model};
@@ -11,39 +12,41 @@ use std::f64::consts::{PI, TAU};
 
 type Vector = [f64; 3];
 
-/// How near stops may come to a singular angle \[rad\].
+/// Stops that come this close to a singular angle are reported \[rad\].
 const NEAR: f64 = 10.0 * PI / 180.0;
-/// How far a slider without stops is taken to go \[m\], and the length beside which levers count.
+/// The range that is assumed for a slider without stops \[m\], and the length that levers are measured by.
 const LENGTH: f64 = 1.0;
-/// Determinants below are 0: a distance of 1e-6 from where one is.
+/// Determinants below this are 0: they are within 1e-6 of a singular position.
 const ZERO: f64 = 1e-12;
-/// Determinants above are not 0, all the more a twentieth of a turn away.
+/// Determinants above this are not 0; a twentieth of a turn away from a singular position they are far above.
 const SOUND: f64 = 1e-6;
-/// Determinants below are within 2° of a place where one is 0.
+/// Determinants below this are within 2° of a singular position.
 const CLOSE: f64 = 1e-3;
-/// Places from which the smallest determinant is searched, for each coordinate.
+/// Number of start values of the search, for each coordinate.
 const PLACES: usize = 200;
 
-/// A joint of a model, with what its freedoms may do.
+/// A joint of several freedoms.
 struct Several {
     /// The element that it carries.
     name: String,
     freedoms: Vec<One>,
 }
 
-/// A freedom at the default parameters.
+/// A freedom with the default parameters.
 struct One {
     name: String,
     axis: Vector,
     zero: f64,
     turns: bool,
-    /// \[m\] per unit of the coordinate, where it slides.
+    /// Displacement for a unit of the coordinate \[m\], if the freedom slides.
     advance: Option<f64>,
-    /// Where stops end it.
+    /// The range that stops leave.
     stops: [f64; 2],
+    /// Inertia of its rotor as a share of that of the element.
+    rotor: f64,
 }
 
-/// One sentence for each joint that can come to, or near, a singular position, with a remedy.
+/// One sentence for each joint that can come to a singular position or close to one, with a remedy.
 pub fn cautions(model: &Model) -> Vec<String> {
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     let joints = joints(model, &defaults);
@@ -53,13 +56,27 @@ pub fn cautions(model: &Model) -> Vec<String> {
         .collect()
 }
 
-/// What is to be said of a joint in a singular position, or within some degrees of one, at a state: a value for each name of a coordinate, or, of a name
+/// How near a singular position a joint is.
+#[derive(Clone, Copy)]
+pub enum Near {
+    /// In it, but for rounding.
+    In,
+    /// Within some degrees.
+    CloseTo,
+}
+
+/// What is to be said of a joint in a singular position, and what helps, at a state: a value for each name of a coordinate, or, of a name
 /// without a value, the start of a run with these parameters.
 pub fn at(
     model: &Model,
     parameters: &[f64],
     state: impl Fn(&str) -> Option<f64>,
-) -> Option<String> {
+    near: Near,
+) -> Option<[String; 2]> {
+    let (least, word) = match near {
+        Near::In => (ZERO, "in"),
+        Near::CloseTo => (CLOSE, "in, or close to,"),
+    };
     let joints = joints(model, parameters);
     let found = joints.iter().find_map(|(joint, start)| {
         let names = joint.freedoms.iter().zip(start);
@@ -68,24 +85,25 @@ pub fn at(
             state(&name).unwrap_or(*start)
         });
         let q: Vec<f64> = q.collect();
-        (joint.determinant(&q) < CLOSE).then_some((joint, q))
+        (joint.determinant(&q) < least).then_some((joint, q))
     });
     found.map(|(joint, q)| {
         let named = joint.freedoms.iter().zip(&q);
         let shown: Vec<String> = named
             .map(|(one, q)| format!("{} = {}", one.name, one.shown(*q)))
             .collect();
-        format!(
-            "the joint of \"{}\" is in, or close to, a singular position ({}): there {} move the element alike; start elsewhere, let stops end the \
-             motion before, or turn the axes of the joint; what turns freely about all axes has a ball joint",
+        let position = format!(
+            "the joint of \"{}\" is {word} a singular position ({}): there {} move the element alike, and the mass matrix is singular",
             joint.name,
             shown.join(", "),
             joint.alike(&q).join(" and ")
-        )
+        );
+        let remedy = "start elsewhere, let stops end the motion before, or turn the axes of the joint; what turns freely about all axes has a ball joint";
+        [position, remedy.to_owned()]
     })
 }
 
-/// The joints of several freedoms, at values of parameters, with where these start.
+/// The joints of several freedoms with these values of the parameters, and the coordinates of each at the start.
 fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
     let mut all = Vec::new();
     for (s, system) in model.systems.iter().enumerate() {
@@ -100,6 +118,7 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
                 system: s,
                 element: e,
             };
+            let mass = element.mass.value(parameters);
             let of = |(index, freedom): (usize, &Freedom)| One {
                 name: freedom.name.clone(),
                 axis: freedom.axis.each_ref().map(|a| a.value(parameters)),
@@ -107,6 +126,10 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
                 turns: freedom.kind.turns(),
                 advance: freedom.kind.advance().map(|a| a.value(parameters)),
                 stops: stops(model, id, index, parameters),
+                rotor: {
+                    let length = if freedom.kind.turns() { LENGTH } else { 1.0 };
+                    freedom.armature.value(parameters) / (mass * length * length)
+                },
             };
             let joint = Several {
                 name: format!("{}/{}", system.name, element.name),
@@ -121,22 +144,17 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
     all
 }
 
-/// Where stops that always act end a freedom.
+/// The range of a freedom between the stops that always act.
 fn stops(model: &Model, joint: ElementId, index: usize, defaults: &[f64]) -> [f64; 2] {
     let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
     for force in &model.forces {
-        let ForceKind::Freedom {
-            child,
-            freedom,
-            law,
-        } = &force.kind
-        else {
+        let ForceKind::Freedom(on) = &force.kind else {
             continue;
         };
-        if (*child, *freedom) != (joint, index) || force.active != Active::default() {
+        if (on.child, on.freedom) != (joint, index) || force.active != Active::default() {
             continue;
         }
-        if let Some(stop) = &law.stop {
+        if let Some(stop) = &on.law.stop {
             let value = |end: &Option<_>, open: f64| {
                 let end: &Option<bryant_generator::model::Number> = end;
                 end.as_ref().map_or(open, |end| end.value(defaults))
@@ -156,7 +174,7 @@ impl Several {
         let relevant: Vec<usize> = (1..inner)
             .filter(|&index| self.depends_on(&found, index))
             .collect();
-        // singular everywhere: the model would have been refused
+        // a joint that is singular everywhere was refused with the model
         let (first, others) = relevant.split_first()?;
         let mut places = vec![found[*first]];
         if others.is_empty() {
@@ -191,7 +209,7 @@ impl Several {
         ))
     }
 
-    /// H, freedom by freedom: the velocity of the element's origin per `LENGTH`, and its angular velocity.
+    /// H, one column for each freedom: the velocity of the element's origin divided by `LENGTH`, and its angular velocity.
     fn columns(&self, q: &[f64]) -> Vec<[f64; 6]> {
         let mut rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let mut slid = [0.0; 3];
@@ -225,16 +243,22 @@ impl Several {
     /// Ĥᵀ Ĥ
     fn gram(&self, q: &[f64]) -> Vec<Vec<f64>> {
         let columns = self.columns(q);
-        let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum();
-        let row = |a| columns.iter().map(|b| dot(a, b)).collect();
-        columns.iter().map(row).collect()
+        let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let row = |(i, a): (usize, &[f64; 6])| -> Vec<f64> {
+            let entry = |(j, b): (usize, &[f64; 6])| match i == j {
+                true => dot(a, b) + self.freedoms[j].rotor,
+                false => dot(a, b),
+            };
+            columns.iter().enumerate().map(entry).collect()
+        };
+        columns.iter().enumerate().map(row).collect()
     }
 
     fn determinant(&self, q: &[f64]) -> f64 {
         pivots(self.gram(q)).into_iter().product()
     }
 
-    /// Where the determinant is 0 within these ranges.
+    /// A position within these ranges where the determinant is 0.
     fn smallest(&self, ranges: &[[f64; 2]]) -> Option<Vec<f64>> {
         let dimensions = ranges.len();
         let place = |index: usize| -> Vec<f64> {
@@ -263,7 +287,7 @@ impl Several {
         (best.0 < ZERO).then_some(best.1)
     }
 
-    /// Downhill along coordinates, by steps that are halved where none helps.
+    /// Descends along one coordinate after the other, with steps that are halved when no step improves.
     fn descended(&self, value: f64, q: Vec<f64>, ranges: &[[f64; 2]]) -> (f64, Vec<f64>) {
         let (mut value, mut q) = (value, q);
         let mut step = 0.1;
@@ -286,7 +310,7 @@ impl Several {
         (value, q)
     }
 
-    /// Whether a singular position stops being one where a coordinate is moved.
+    /// Whether a singular position is no longer singular when this coordinate changes.
     fn depends_on(&self, q: &[f64], index: usize) -> bool {
         [0.3, -0.3].into_iter().any(|by| {
             let mut moved = q.to_vec();
@@ -332,11 +356,11 @@ impl Several {
         places
     }
 
-    /// The freedoms that depend on each other in a singular position.
+    /// The freedoms that are linearly dependent in a singular position.
     fn alike(&self, q: &[f64]) -> Vec<String> {
         let gram = self.gram(q);
         let all = 0..self.freedoms.len();
-        // without one of those that depend on each other, the rest do not
+        // if one of the dependent columns is left out, the rest are independent
         let needed = |without: &usize| {
             let keep: Vec<usize> = all.clone().filter(|i| i != without).collect();
             let row = |i: &usize| keep.iter().map(|j| gram[*i][*j]).collect();
@@ -349,7 +373,7 @@ impl Several {
 }
 
 impl One {
-    /// Where it is searched: within its stops and somewhat beyond; a turn, and some way along its axis, where it has none.
+    /// The range of the search: slightly more than the range between the stops; without stops, a turn, or some distance along the axis.
     fn range(&self) -> [f64; 2] {
         let open = match self.turns {
             true => PI,
@@ -367,7 +391,7 @@ impl One {
     }
 
     fn shown(&self, value: f64) -> String {
-        // what rounding makes of 0 has no sign
+        // a zero that rounding makes negative has no sign
         match self.turns {
             true => format!("{:.0}°", value.to_degrees() + 0.0).replace("-0°", "0°"),
             false => format!("{:.0} mm", 1e3 * value + 0.0).replace("-0 mm", "0 mm"),
@@ -375,7 +399,7 @@ impl One {
     }
 }
 
-/// The pivots of elimination of a symmetric matrix that is not negative.
+/// The pivots of Gaussian elimination of a positive semi-definite matrix.
 fn pivots(mut matrix: Vec<Vec<f64>>) -> Vec<f64> {
     let size = matrix.len();
     let mut pivots = Vec::with_capacity(size);
@@ -396,7 +420,7 @@ fn pivots(mut matrix: Vec<Vec<f64>>) -> Vec<f64> {
     pivots
 }
 
-/// The digits of a whole number behind the point, in reverse: places that fill an interval evenly (Halton 1960).
+/// The digits of an integer in reverse order behind the point: these numbers fill an interval evenly (Halton 1960).
 fn halton(mut index: usize, base: u32) -> f64 {
     let (mut result, mut unit) = (0.0, 1.0);
     let base = base as usize;
@@ -419,7 +443,7 @@ fn cross(a: Vector, b: Vector) -> Vector {
     })
 }
 
-/// A rotation followed by a turn about an axis, both in absolute axes (Rodrigues).
+/// A rotation followed by a rotation about an axis, both in absolute axes (Rodrigues).
 fn turned(rotation: &[Vector; 3], axis: Vector, angle: f64) -> [Vector; 3] {
     let (sine, cosine) = angle.sin_cos();
     let columns: [Vector; 3] = std::array::from_fn(|j| {

@@ -6,22 +6,22 @@ use bryant_generator::expression::count::Count;
 use bryant_generator::model::Model;
 use serde_json::{Value, json};
 
-/// An effect with what it costs.
+/// An effect with its cost.
 pub struct Row<'a> {
-    /// Which.
+    /// The effect.
     pub entry: &'a Entry,
-    /// The method in which it shows.
+    /// The method whose cost it changes.
     pub method: Method,
-    /// All, less those without it.
+    /// The operations with the effect, less those without it.
     pub operations: Option<Difference>,
-    /// With it and without.
+    /// Measurements with the effect and without it.
     pub measured: Option<(Measured, Measured)>,
 }
 
-/// Operations that an effect adds; fewer than none where without it nothing is shared any more.
+/// Operations that an effect adds; negative if, without the effect, common subexpressions are no longer shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// Sums, products and the like.
+    /// Sums, products and other arithmetic operations.
     pub operations: i64,
     /// Sines, cosines, angles and calls.
     pub calls: i64,
@@ -33,7 +33,7 @@ fn calls(count: &Count) -> usize {
 }
 
 impl Difference {
-    /// Of two counts.
+    /// The difference of two counts.
     pub fn between(with: &Count, without: &Count) -> Self {
         Difference {
             operations: with.total() as i64 - without.total() as i64,
@@ -42,20 +42,20 @@ impl Difference {
     }
 }
 
-/// This scene, and the same with nothing left out.
+/// The totals of this scene, and of the same scene with nothing left out.
 pub struct Total {
     /// This scene.
     pub scene: (Count, Option<Measured>),
     /// The scene timed once more.
     pub again: Option<Measured>,
-    /// With nothing left out.
+    /// The scene with nothing left out.
     pub general: (Count, Option<Measured>),
-    /// Run-time parameters where nothing is left out.
+    /// Number of run-time parameters of the scene with nothing left out.
     pub parameters: usize,
 }
 
 impl Total {
-    /// A difference of times that is noise \[s\].
+    /// A difference of times that is below the noise \[s\].
     pub fn noise(&self) -> Option<f64> {
         Some((self.scene.1?.time - self.again?.time).abs())
     }
@@ -64,17 +64,17 @@ impl Total {
 /// Cells of a row.
 type Cells = [String; 7];
 
-/// The columns of times, of which there are none where nothing is timed.
+/// The columns of times; they are left out if nothing is timed.
 const TIMES: std::ops::Range<usize> = 3..6;
 
-/// Columns side by side, numbers to the right. Rows are written one by one, so widths are known before any time is.
+/// Columns side by side, numbers right-aligned. Rows are written one by one, so the widths must be known before any time is.
 pub struct Table {
     widths: [usize; 7],
     timed: bool,
 }
 
 impl Table {
-    /// Of these rows; `timed` where there will be times.
+    /// A table for these rows; `timed` says whether times will follow.
     pub fn new<'a>(rows: impl Iterator<Item = &'a Row<'a>>, total: &Total, timed: bool) -> Self {
         let mut lines = heading().to_vec();
         lines.extend(rows.map(cells));
@@ -90,7 +90,7 @@ impl Table {
             }
         }
         if timed {
-            // as wide as the longest that is likely
+            // as wide as the longest text that is likely
             for column in TIMES {
                 widths[column] = widths[column].max(LIKELY);
             }
@@ -108,15 +108,15 @@ impl Table {
         self.line(&cells(row))
     }
 
-    /// What stands below the effects.
+    /// The rows below the effects.
     pub fn totals(&self, total: &Total) -> String {
         let lines = totals(total);
         let mut text: String = "\n".to_owned();
         text.extend(lines.iter().map(|line| self.line(line)));
         if let Some(noise) = total.noise() {
             text += &format!(
-                "\nThis scene, timed twice, differs by {} ns from itself; smaller differences mean nothing.\n\
-                 Larger ones that no operation explains come of registers, which every change of the equations assigns anew.\n",
+                "\nThis scene was timed twice; the times differ by {} ns. Smaller differences mean nothing.\n\
+                 A larger difference without more operations comes from registers, which every change of the equations assigns again.\n",
                 nanoseconds(noise)
             );
         }
@@ -139,7 +139,7 @@ impl Table {
     }
 }
 
-/// Characters of a time or a length of code that is no exception: 12345.6.
+/// Number of characters of a usual time or code length: 12345.6.
 const LIKELY: usize = 7;
 
 fn heading() -> [Cells; 2] {
@@ -218,7 +218,7 @@ fn bytes(with: Option<u64>, without: Option<u64>) -> String {
     }
 }
 
-/// The reason, and the line.
+/// The reason of an effect's state, and its line.
 fn why(entry: &Entry) -> String {
     let mut text = entry.why.clone();
     if let Some(place) = entry
@@ -238,7 +238,7 @@ fn why(entry: &Entry) -> String {
     text
 }
 
-/// Everything, for programs; `complete` unless an interruption left something out.
+/// The whole table, for programs; `complete` is false if an interruption left something out.
 pub fn as_json(model: &Model, rows: &[Row<'_>], total: &Total, complete: bool) -> Value {
     let effects: Vec<Value> = rows
         .iter()

@@ -1,4 +1,4 @@
-//! What a report shows beside a run: curves of a test, and a second run with other parameters.
+//! The additions of a report to a run: curves of a test, and a second run with other parameters.
 
 use super::super::Error;
 use super::super::compare::{channel, recording};
@@ -18,13 +18,13 @@ use bryant_runtime::program::Job;
 use bryant_signal::{Channel, unit};
 use serde_json::{Value, json};
 
-/// Samples of a curve at most; of more, every second one and so on is shown.
+/// A curve shows at most this many samples; of more samples, every second one and so on is shown.
 const MOST_SAMPLES: usize = 4000;
 
-/// The curves of a test that belong to outputs, in the units of these.
+/// The curves of a test that belong to outputs, in the units of the outputs.
 ///
 /// # Errors
-/// The recording cannot be read, or has no channel of an output; a channel is of another quantity.
+/// The recording cannot be read, or has no channel of an output, or a channel has another quantity.
 pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<Vec<Value>, Error> {
     let Some(path) = &arguments.measured else {
         return Ok(Vec::new());
@@ -36,7 +36,7 @@ pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<V
         let Some(index) = column(output) else {
             let names: Vec<&str> = model.outputs.iter().map(|o| o.name.as_str()).collect();
             return Err(Error::Input(format!(
-                "--channel: the model has no output \"{output}\"\n  help: there is {}",
+                "--channel: the model has no output \"{output}\"\n  help: there are: {}",
                 names.join(", ")
             )));
         };
@@ -83,7 +83,7 @@ pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<V
     curves.collect()
 }
 
-/// The motion and the curves of the run with other parameters; null where none is asked for.
+/// The motion and the curves of the run with other parameters; null if no such run is requested.
 ///
 /// # Errors
 /// There is no such parameter, or the run fails or cannot be trusted.
@@ -109,7 +109,7 @@ pub fn run(
     let label = arguments.beside.join(", ");
     if let Err(error) = &second.result {
         return Err(Error::failed(format!(
-            "the run beside it, with {label}, did not come to its end: {}",
+            "the second run, with {label}, did not come to its end: {}",
             error.message
         )));
     }
@@ -119,7 +119,7 @@ pub fn run(
         .filter(|_| recording.doubts.is_empty())
     {
         return Err(Error::failed(format!(
-            "the run beside it, with {label}, cannot be trusted: {}\n  help: {}",
+            "the second run, with {label}, cannot be trusted: {}\n  help: {}",
             doubt.message, doubt.remedy
         )));
     }

@@ -1,4 +1,4 @@
-//! Injury criteria of a run: responses that are read off its samples, whatever the rows of the table.
+//! Injury criteria of a run: responses that are read off its samples, independent of the rows of the table.
 
 use super::{Arguments, Error};
 use crate::command::criteria::places;
@@ -13,17 +13,17 @@ use bryant_study::criteria::limits::Limits;
 use bryant_study::criteria::{Judged, Missing, judge};
 use bryant_study::facts::{CriteriaFact, ModelFacts};
 
-/// What a run is judged by.
+/// The criteria that a run is judged by.
 pub struct Criteria {
     limits: Limits,
     judged: Vec<Judged>,
 }
 
 impl Criteria {
-    /// What is asked for on the command line, or by the model, if anything.
+    /// The criteria that the command line or the model requests, if any.
     ///
     /// # Errors
-    /// There is no such regulation, dummy, place or output; nothing that a criterion is read off.
+    /// There is no such regulation, dummy, place or output, or no output that a criterion can be read off.
     pub fn of(arguments: &Arguments, facts: &ModelFacts) -> Result<Option<Self>, Error> {
         let named = places(&arguments.place);
         let asked = match (&arguments.criteria, &facts.criteria) {
@@ -50,7 +50,7 @@ impl Criteria {
             (None, _) => {
                 return match named.first() {
                     Some((place, _)) => Err(Error::Input(format!(
-                        "--place {place}: places are those of criteria\n  help: add --criteria 'REGULATION, DUMMY'; `bryant criteria --list` has them"
+                        "--place {place}: a place belongs to criteria, and there are none\n  help: add --criteria 'REGULATION, DUMMY'; `bryant criteria --list` has them"
                     ))),
                     None => Ok(None),
                 };
@@ -67,7 +67,7 @@ impl Criteria {
         Ok(Some(Criteria { limits, judged }))
     }
 
-    /// The responses that the criteria are, in their order.
+    /// The responses of the criteria, in their order.
     pub fn responses(&self) -> impl Iterator<Item = Response> {
         let there = self
             .judged
@@ -76,7 +76,7 @@ impl Criteria {
         there.map(Response::of_study)
     }
 
-    /// The channels whose samples say more than the number: the filtered signals of the neck.
+    /// The channels whose samples are kept, because they say more than the number: the filtered signals of the neck.
     pub fn kept(&self) -> Vec<Kept> {
         let neck = self.judged.iter().find_map(|one| {
             let channel = one.response.as_ref().ok()?.channel;
@@ -93,8 +93,8 @@ impl Criteria {
         kept.collect()
     }
 
-    /// The verdict of a run, whose answers to the responses begin at `first` and whose kept signals at `kept`; none where the run did not come to its end,
-    /// or cannot be trusted.
+    /// The verdict of a run. The answers to its responses begin at index `first`, the kept signals at index `kept`. `None` if the run did
+    /// not reach its end, or cannot be trusted.
     pub fn verdict(
         &self,
         recording: &Recording,

@@ -1,4 +1,4 @@
-//! Where the results of a run go: files, and standard output.
+//! The places where the results of a run go: files, and standard output.
 
 use super::{Arguments, Error, Terminal};
 use crate::command::model_argument::Found;
@@ -17,7 +17,7 @@ use bryant_signal::mme::{self, About};
 use bryant_signal::{Channel, Signal};
 use std::path::{Path, PathBuf};
 
-/// Files of a run, and what is printed.
+/// The files of a run, and the output that is printed.
 pub struct Files {
     csv: Option<PathBuf>,
     final_state: Option<PathBuf>,
@@ -28,15 +28,15 @@ pub struct Files {
 }
 
 impl Files {
-    /// Those that are asked for, and the usual ones.
+    /// The requested files, and the usual ones.
     ///
     /// # Errors
-    /// Two results go to one place, or one to a file that is read; a plot of what there is not.
+    /// Two results go to one place, or one to a file that the command reads; or a plot needs a column that does not exist.
     pub fn of(arguments: &Arguments, found: &Found) -> Result<Self, Error> {
         let model = &found.model;
         if model.dimension == Dimension::Plane && arguments.view != View::Side {
             return Err(Error::Input(format!(
-                "--view {}: {} is planar, and there is nothing to see of it but from the side\n  help: leave --view away",
+                "--view {}: {} is planar and is seen from the side only\n  help: leave out --view",
                 arguments.view.name(),
                 model.name
             )));
@@ -89,7 +89,7 @@ impl Files {
             let Some(path) = path else { continue };
             if is_standard(path) {
                 return Err(Error::Input(format!(
-                    "{option} -: the file is no text, and is not printed\n  help: name a file"
+                    "{option} -: the file is not text and cannot be printed\n  help: name a file"
                 )));
             }
             outputs.take(option, path)?;
@@ -97,7 +97,7 @@ impl Files {
         if let Some(path) = &arguments.report {
             if is_standard(path) {
                 return Err(Error::Input(
-                    "--report -: a report is a page for a browser, and is not printed\n  help: name a file, as --report run.html".into(),
+                    "--report -: a report is a page for a browser and is not printed\n  help: name a file, as --report run.html".into(),
                 ));
             }
             outputs.take("--report", path)?;
@@ -138,10 +138,10 @@ impl Files {
         })
     }
 
-    /// Writes the files; which were written.
+    /// Writes the files; returns the paths of those written.
     ///
     /// # Errors
-    /// A file cannot be written, a picture not be drawn.
+    /// A file cannot be written, or a picture cannot be drawn.
     pub fn write(
         &self,
         arguments: &Arguments,
@@ -183,10 +183,10 @@ impl Files {
         Ok(written)
     }
 
-    /// Prints the table and the text of responses, or what is to go to standard output in its place.
+    /// Prints the table and the text of the responses, or the result that goes to standard output in their place.
     ///
     /// # Errors
-    /// It cannot be written, or not be drawn.
+    /// The result cannot be written or drawn.
     pub fn print(
         &self,
         arguments: &Arguments,
@@ -214,7 +214,7 @@ impl Files {
             terminal.print(&recording.table.text(layout))?;
             return terminal.print(responses);
         }
-        // a result that was asked for is not lost with the table
+        // a result that the user asked for must not be lost with the table
         for line in responses.lines().filter(|line| !line.is_empty()) {
             terminal.note(line);
         }
@@ -222,7 +222,7 @@ impl Files {
     }
 }
 
-/// Writes the outputs as channels of ISO-MME; which file is about the test.
+/// Writes the outputs as channels of ISO-MME; returns the path of the file about the test.
 fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<PathBuf, Error> {
     let [times, columns @ ..] = recording.table.columns.as_slice() else {
         unreachable!("a table has times");
@@ -236,7 +236,7 @@ fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<Path
             Some(code) => (code, output.name.as_str()),
             None => (&output.name, ""),
         };
-        // what the code says of its filter is true
+        // the code names a filter, so the samples must be filtered by it
         let signal = match class_of_code(name).filter(|_| output.filter.is_none()) {
             Some(class) => filtered(&signal, class, Standard::Iso6487).map_err(|error| {
                 Error::Input(format!(
@@ -274,7 +274,7 @@ fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<Path
     Ok(path)
 }
 
-/// The picture, as the ending of its file says.
+/// The picture in the format that the ending of its file says.
 fn drawn(
     arguments: &Arguments,
     model: &Model,

@@ -17,16 +17,16 @@ use bryant_generator::effect;
 use bryant_runtime::program::{Header, History, Job};
 use serde_json::{Value, json};
 
-/// Poses in a report at most: more than one for each picture of a screen in ten seconds.
+/// A report has at most this many poses: more than one for each picture of a screen in ten seconds.
 const MOST_POSES: usize = 600;
 
-/// Rows of the table in a report at most: a page of some megabytes.
+/// The table of a report has at most this many rows: a page of some megabytes.
 pub const MOST_ROWS: f64 = 2e4;
 
 /// The page of a run.
 ///
 /// # Errors
-/// The equations cannot be made once more, for the forces between bodies.
+/// The equations cannot be prepared again for the forces between bodies.
 pub fn html(
     arguments: &Arguments,
     found: &Found,
@@ -102,7 +102,7 @@ fn works(header: &Header, history: &History) -> Value {
     json!({ "times": times, "effects": effects.collect::<Vec<_>>() })
 }
 
-/// At most [`MOST_POSES`] of the instants of a run, evenly, the last among them.
+/// At most [`MOST_POSES`] of the instants of a run, evenly spread and with the last one.
 pub(super) fn kept(recording: &Recording) -> Vec<Instant> {
     let stride = recording.instants.len().div_ceil(MOST_POSES).max(1);
     let last = recording.instants.len().saturating_sub(1);
@@ -114,7 +114,7 @@ pub(super) fn kept(recording: &Recording) -> Vec<Instant> {
 /// The animation of a run.
 ///
 /// # Errors
-/// The run has no two instants to show.
+/// The run has fewer than two instants.
 pub fn animation(found: &Found, job: &Job, recording: &Recording) -> Result<Vec<u8>, Error> {
     let (model, instants) = (&found.model, kept(recording));
     let parameters = recording.parameters(job);
@@ -123,8 +123,8 @@ pub fn animation(found: &Found, job: &Job, recording: &Recording) -> Result<Vec<
     crate::animation::glb(&model.name, &scene).map_err(Error::failed)
 }
 
-/// The forces between bodies at these instants, a column for each component: of the same run once more, with outputs for them. None where the run did
-/// not come to its end, this time or before.
+/// The forces between bodies at these instants, a column for each component. The same run is computed again, with outputs for these forces.
+/// `None` if the run did not reach its end, this time or before.
 fn forces(
     found: &Found,
     job: &Job,
@@ -147,7 +147,7 @@ fn forces(
     if again.result.is_err() {
         return Ok(Vec::new());
     }
-    // more outputs change no step
+    // additional outputs do not change steps
     let bits = |state: &[f64]| {
         state
             .iter()
@@ -156,7 +156,7 @@ fn forces(
     };
     if bits(&again.last_state) != bits(&recording.last_state) {
         return Err(Error::system(
-            "the forces of the report are not those of the run\n  help: leave --report away, and tell the authors",
+            "the forces of the report are not those of the run\n  help: leave out --report, and tell the authors",
         ));
     }
     let times = &again.table.columns[0].values;
@@ -172,7 +172,7 @@ fn forces(
     Ok(columns.map(|column| at_rows(&column.values)).collect())
 }
 
-/// Responses as the page reads them.
+/// The responses in the form that the page reads.
 fn told(responses: &Value) -> Value {
     let each = responses.as_array().into_iter().flatten().map(|response| {
         json!({
@@ -184,7 +184,7 @@ fn told(responses: &Value) -> Value {
     each.collect()
 }
 
-/// The command line that makes this page again.
+/// The command line that makes this page.
 fn command(arguments: &Arguments) -> String {
     let words = std::env::args().skip(1).map(|word| quoted(&word));
     let words: Vec<String> = words.collect();

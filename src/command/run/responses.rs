@@ -1,6 +1,6 @@
-//! What is read off a run: one number for a whole signal, as a study has them.
+//! The responses of a run: one number for a whole signal, as in a study.
 //!
-//! They are read off samples of their own, so that the rows of the table leave no trace in them.
+//! They are read off samples of their own, so that they do not depend on the rows of the table.
 
 use super::criteria::Criteria;
 use super::{Arguments, Error, Trust};
@@ -20,34 +20,35 @@ use serde_json::{Value, json};
 
 /// The responses of a run.
 pub struct Responses {
-    /// Those that are asked for, and behind them the criteria.
+    /// The requested responses, followed by those of the criteria.
     asked: Vec<Response>,
-    /// How many are asked for.
+    /// The number of requested responses.
     own: usize,
-    /// By what the run is judged.
+    /// The criteria that the run is judged by.
     criteria: Option<Criteria>,
-    /// Where the signals begin that the criteria keep.
+    /// The index of the first signal that the criteria keep.
     kept: usize,
     /// Time between the samples \[s\].
     every: f64,
-    /// In the words of the runtime.
+    /// The responses as a request to the runtime.
     pub reading: Reading,
-    /// In what the run is not as the study whose responses these are, in words.
+    /// How the run differs from those of the study whose responses it has, in words.
     otherwise: Option<String>,
 }
 
-/// Times at most at which a report has the works of effects.
+/// A report has the works of effects at no more than about this many times.
 const WORKS: f64 = 300.0;
-/// Differences below this share are those of rounding.
+/// Differences below this share are rounding errors.
 const ROUNDING: f64 = 1e-12;
 /// Significant digits of a response, as in the summary of a study.
 const DIGITS: i32 = 4;
 
 impl Responses {
-    /// Those that are asked for, of a run that begins at `start` \[s\].
+    /// The requested responses for a run that begins at `start` \[s\].
     ///
     /// # Errors
-    /// What cannot be read off this run, two of one name, too many samples, a time between samples of nothing.
+    /// A response cannot be read off this run, two have the same name, there are too many samples, or a time between samples is given
+    /// without a response.
     pub fn of(arguments: &Arguments, found: &Found, start: f64) -> Result<Self, Error> {
         let model = &found.model;
         let facts = ModelFacts::of(&found.scene);
@@ -77,14 +78,14 @@ impl Responses {
             let name = &response.name;
             if asked[..index].iter().any(|earlier| earlier.name == *name) {
                 return Err(Error::Input(format!(
-                    "the response \"{name}\" is asked for twice\n  help: leave one of them away"
+                    "the response \"{name}\" is asked for twice\n  help: leave one of them out"
                 )));
             }
         }
         if asked.is_empty() && arguments.sampling.is_some() {
             return Err(Error::Input(
                 "--sampling says when responses are sampled, and there are none\n  \
-                 help: ask for one by --response 'WHAT of OUTPUT', or leave it away; rows of the table are given by --every"
+                 help: ask for one with --response 'WHAT of OUTPUT', or leave out --sampling; --every gives the rows of the table"
                     .into(),
             ));
         }
@@ -108,7 +109,7 @@ impl Responses {
         }
         let intervals = match end > start && !(asked.is_empty() && kept.is_empty()) {
             true => intervals(sampling, end - start, &asked, size_of::<f64>())?,
-            // the run will say so
+            // the run itself will report this
             false => 1,
         };
         if kept.iter().any(|kept| kept.channel.filter.is_some()) && end > start && intervals < MEAN
@@ -131,13 +132,13 @@ impl Responses {
         })
     }
 
-    /// What the run is judged by, and how; nothing where nothing is asked for.
+    /// The verdict about the run. The outer value is `None` if no criteria are requested.
     pub fn verdict(&self, recording: &Recording) -> Option<Option<Verdict>> {
         let criteria = self.criteria.as_ref()?;
         Some(criteria.verdict(recording, [self.own, self.kept], self.every))
     }
 
-    /// Each response with its value, and how far it is from that of the run it was compared with.
+    /// Each response with its value and its difference from the run that it was compared with.
     fn values<'a>(
         &'a self,
         recording: &'a Recording,
@@ -157,7 +158,7 @@ impl Responses {
             })
     }
 
-    /// For people: a line each, below an empty one; nothing where nothing is asked for.
+    /// The responses for people, a line each, after an empty line; empty if none are requested.
     pub fn text(&self, recording: &Recording, trust: &Trust) -> String {
         if self.own == 0 {
             return String::new();
@@ -172,7 +173,7 @@ impl Responses {
                 };
                 let apart = apart.map(|apart| match apart {
                     _ if apart < ROUNDING => "as in its check".to_owned(),
-                    apart => format!("{} away from its check", percent(apart)),
+                    apart => format!("differs by {} from its check", percent(apart)),
                 });
                 [response.name.clone(), value, apart.unwrap_or_default()]
             })
@@ -190,7 +191,7 @@ impl Responses {
         }
         if recording.answers.is_empty() {
             text +=
-                "responses are read off whole runs that can be trusted, which this one is not\n";
+                "there are no responses: the run did not come to its end, or cannot be trusted\n";
         }
         if let Some(line) = &self.otherwise {
             text += line;
@@ -199,7 +200,7 @@ impl Responses {
         text
     }
 
-    /// `[{"response", "value", "unit", "difference"}, …]`; what is not known is `null`.
+    /// `[{"response", "value", "unit", "difference"}, …]`; an unknown value is `null`.
     pub fn json(&self, recording: &Recording, trust: &Trust) -> Value {
         let each = self
             .values(recording, trust)
@@ -215,7 +216,7 @@ impl Responses {
     }
 }
 
-/// The outputs with a filter of their own, which are shown filtered.
+/// The outputs that have a filter of their own and are shown filtered.
 fn filtered(model: &Model) -> Vec<Kept> {
     let outputs = model.outputs.iter().enumerate();
     let filtered = outputs.filter(|(_, output)| output.filter.is_some());
@@ -226,7 +227,7 @@ fn filtered(model: &Model) -> Vec<Kept> {
     kept.collect()
 }
 
-/// A number to four digits, and whole where it is larger.
+/// A number with four digits; a larger number is printed as an integer.
 fn digits(value: f64) -> String {
     let size = value.abs();
     match size {

@@ -1,8 +1,8 @@
-//! What stands in the columns of every table.
+//! The columns of every table.
 
 use bryant_hard::{Bound, Check, Found};
 
-/// "≤ 1e-10 m", or that a statement must hold.
+/// The bound: "≤ 1e-10 m", or that a statement must hold.
 pub fn bound(check: &Check) -> String {
     match check.found {
         Found::Number { bound, unit, .. } => match bound {
@@ -13,7 +13,7 @@ pub fn bound(check: &Check) -> String {
     }
 }
 
-/// What was found.
+/// The measured value, or the statement's observation.
 pub fn measured(check: &Check) -> String {
     match &check.found {
         Found::Number { measured, unit, .. } => with_unit(*measured, unit),
@@ -21,7 +21,7 @@ pub fn measured(check: &Check) -> String {
     }
 }
 
-/// "× 31": how far from the bound on the good side; "missed" on the other.
+/// The distance from the bound: "× 31" on the good side, "missed" on the other.
 pub fn margin(check: &Check) -> String {
     if !check.holds() {
         return "missed".to_owned();
@@ -40,13 +40,13 @@ fn with_unit(value: f64, unit: &str) -> String {
     }
 }
 
-/// Three digits, in whichever notation is shorter.
+/// A number with three digits, in the shorter notation.
 fn number(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
-    // what is left of the noughts of 1.00 or 1.00e-5 says nothing
+    // zeros at the end of 1.00 or 1.00e-5 are removed
     let short = |text: &str| match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text.to_owned(),

@@ -7,9 +7,9 @@ use std::fmt::Write as _;
 /// The whole page: what it is, how it is made, a table per case.
 pub fn page(outcomes: &[Outcome], command: &str) -> String {
     let mut page = format!(
-        "# Hard cases\n\nSmall scenes that are hard to compute, each with the law that it must obey, and how far from the bound it \
-         stays. Bounds come from theory and stand\nbeside their reason; none is fitted to what came out. The margin is the factor \
-         between the bound and what was measured. Written by `{command}`; the\nsame cases run in `cargo test`.\n\n{}.\n",
+        "# Hard cases\n\nThese are small scenes that are hard to compute. Each case states the law that the scene must obey, and how far the \
+         result stays from its bound. Every bound comes\nfrom theory, which stands beside it; none is fitted to a result. The margin \
+         is the factor between the bound and the measured value. `{command}` writes this page; the\nsame cases run in `cargo test`.\n\n{}.\n",
         text::summary(outcomes)
     );
     let mut group = None;

@@ -4,7 +4,7 @@ use super::cells;
 use crate::stability::Outcome;
 use std::fmt::Write as _;
 
-/// Characters of a criterion and its variant, and of a measured statement, at most.
+/// Largest number of characters of a criterion with its variant, and of a measured statement.
 const WIDTHS: [usize; 2] = [64, 48];
 
 /// Groups, cases, checks; at the end how many held.
@@ -68,7 +68,7 @@ fn cut(text: String, width: usize) -> String {
     }
 }
 
-/// "41 cases, 130 checks, all bounds kept", or how many were not.
+/// "41 cases, 130 checks, all bounds kept", or the number of bounds that were missed.
 pub fn summary(outcomes: &[Outcome]) -> String {
     let checks = || outcomes.iter().flat_map(|outcome| &outcome.checks);
     let missed = checks().filter(|check| !check.holds()).count();

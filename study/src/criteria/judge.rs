@@ -1,4 +1,4 @@
-//! The criteria of a model: which of its outputs they are read off.
+//! The criteria of a model: the outputs that they are read off.
 
 use super::limits::{self, Limits};
 use super::{CRITERIA, Criterion, Missing, PLACES, fits};
@@ -10,20 +10,20 @@ use bryant_runtime::response::filter::{Filter, Standard};
 
 /// A criterion of a model.
 pub struct Judged {
-    /// Which.
+    /// The criterion.
     pub criterion: &'static Criterion,
-    /// Its limit, in the criterion's unit; none of one that is not limited.
+    /// Its limit, in the criterion's unit; `None` if it has no limit.
     pub limit: Option<f64>,
-    /// How it is read off a run \[SI\]; or why it is not.
+    /// How it is read off a run \[SI\], or why it is not.
     pub response: Result<Response, Missing>,
-    /// What is to be said of it.
+    /// A remark on it.
     pub detail: &'static str,
 }
 
-/// All criteria that a regulation limits, and those of places that none of them is of, of a model that is to be judged so.
+/// The criteria of a model by a regulation: all criteria that the regulation limits, and the criteria at places for which it limits none.
 ///
 /// # Errors
-/// There is no such regulation or dummy, no such place or output, or an output is in the unit of another quantity.
+/// There is no such regulation or dummy, no such place or output, or an output has a unit of another quantity.
 pub fn judge(facts: &ModelFacts, asked: &CriteriaFact) -> Result<(Limits, Vec<Judged>), String> {
     let limits = limits::find(&asked.standard, &asked.dummy)?;
     let found = outputs(facts, asked)?;
@@ -59,7 +59,7 @@ pub fn judge(facts: &ModelFacts, asked: &CriteriaFact) -> Result<(Limits, Vec<Ju
     Ok((limits, all))
 }
 
-/// How a criterion is read off a run, and what is to be said of it; `found` are the outputs at the places that are there.
+/// How a criterion is read off a run, with a remark on it; `found` are the outputs at the available places.
 fn response(
     criterion: &Criterion,
     facts: &ModelFacts,
@@ -74,7 +74,7 @@ fn response(
         .iter()
         .map(|index| facts.outputs[*index].name.as_str());
     let of = names.collect::<Vec<_>>().join(", ");
-    // whatever filter the column of an output has
+    // independent of the filter that the column of an output has
     let filter = criterion.filter.map(|class| Filter { class, standard });
     let channel = Channel::of(&indices, filter, formed.combination);
     let channel = channel.ok_or_else(|| Missing::Unusable("it has too few places".to_owned()))?;
@@ -92,9 +92,9 @@ fn response(
     Ok((response, formed.detail))
 }
 
-/// The response of a criterion of a model that says by what it is judged.
+/// The response of a criterion for a model that names its regulation.
 ///
-/// # Errors
+/// The model names no regulation, it lacks the outputs, or the regulation does not have this criterion.
 /// The model does not say so, it has not the outputs, or the regulation is not one of that criterion.
 pub fn named(facts: &ModelFacts, name: &str) -> Result<Response, String> {
     let Some(criterion) = Criterion::named(name) else {
@@ -131,12 +131,12 @@ pub fn named(facts: &ModelFacts, name: &str) -> Result<Response, String> {
     }
 }
 
-/// The part of a dummy that a place is on: `head` of `head-wx`.
+/// The part of the dummy that a place belongs to: `head` of `head-wx`.
 fn stem(place: &str) -> &str {
     place.split('-').next().unwrap_or(place)
 }
 
-/// The SI unit of the unit that a criterion is shown in.
+/// The SI unit for the unit in which a criterion is shown.
 fn si(shown: &str) -> &str {
     match shown {
         "g" => "m/s^2",
@@ -145,7 +145,8 @@ fn si(shown: &str) -> &str {
     }
 }
 
-/// The outputs at the places of a dummy, by the places' names: those that are named, else those with a channel code of the place.
+/// The outputs at the places of a dummy, by the names of the places: outputs that the user names, else outputs with the channel code of the
+/// place.
 fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str, usize)>, String> {
     for (name, _) in &asked.places {
         if PLACES.iter().all(|place| place.name != name) {
@@ -165,7 +166,7 @@ fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str
                 None => {
                     let all: Vec<&str> = facts.outputs.iter().map(|o| o.name.as_str()).collect();
                     return Err(format!(
-                        "there is no output \"{output}\" for the place {}\n  help: there is {}",
+                        "there is no output \"{output}\" for the place {}\n  help: there are: {}",
                         place.name,
                         all.join(", ")
                     ));

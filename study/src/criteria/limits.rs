@@ -4,7 +4,7 @@ use bryant_runtime::response::channel::{Chest, Neck};
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
 
-/// What a regulation wants of a dummy.
+/// The limits of a regulation for a dummy.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
@@ -12,21 +12,21 @@ pub struct Limits {
     pub standard: String,
     /// The dummy.
     pub dummy: String,
-    /// Where the numbers are from.
+    /// The source of the numbers.
     pub source: String,
-    /// By criterion, in the unit that it is shown in.
+    /// Limits by criterion, in the unit in which the criterion is shown.
     pub limits: BTreeMap<String, f64>,
-    /// Critical values of the neck; none where there is no such criterion.
+    /// Critical values of the neck; `None` if there is no such criterion.
     #[serde(default, deserialize_with = "neck")]
     pub nij: Option<Neck>,
-    /// The chest for the viscous criterion; none where there is no such criterion.
+    /// The dimensions of the chest for the viscous criterion; `None` if there is no such criterion.
     #[serde(default, deserialize_with = "chest")]
     pub chest: Option<Chest>,
-    /// Critical moment \[N m\] and force \[N\] of the tibia; none where there is no such criterion.
+    /// Critical moment \[N m\] and force \[N\] of the tibia; `None` if there is no such criterion.
     pub tibia: Option<[f64; 2]>,
 }
 
-/// As [`Neck`], to be read.
+/// [`Neck`] in the form of the file.
 #[derive(Deserialize)]
 #[serde(remote = "Neck", deny_unknown_fields)]
 struct WrittenNeck {
@@ -36,7 +36,7 @@ struct WrittenNeck {
     extension: f64,
 }
 
-/// As [`Chest`], to be read.
+/// [`Chest`] in the form of the file.
 #[derive(Deserialize)]
 #[serde(remote = "Chest", deny_unknown_fields)]
 struct WrittenChest {
@@ -56,7 +56,7 @@ fn chest<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Chest>, D::Error> 
     Ok(Option::<Read>::deserialize(from)?.map(|read| read.0))
 }
 
-/// All of them.
+/// The limits of all regulations.
 ///
 /// # Panics
 /// Never: a test reads the file.
@@ -65,10 +65,10 @@ pub fn all() -> Vec<Limits> {
     read.unwrap_or_else(|error| unreachable!("limits.json: {error}"))
 }
 
-/// The limits of a regulation for a dummy, whatever case they are written in.
+/// The limits of a regulation for a dummy; the names may be in upper or lower case.
 ///
 /// # Errors
-/// There are none.
+/// There are no such limits.
 pub fn find(standard: &str, dummy: &str) -> Result<Limits, String> {
     let all = all();
     let fits = |one: &&Limits| {
@@ -100,7 +100,7 @@ mod tests {
                 assert!(CRITERIA.iter().any(|one| one.name == name), "{name}");
                 assert!(*limit > 0.0, "{name}");
             }
-            // what a criterion needs besides is there
+            // criteria that need additional values have them
             assert_eq!(limits.limits.contains_key("Nij"), limits.nij.is_some());
             assert_eq!(limits.limits.contains_key("VC"), limits.chest.is_some());
             let of_tibia = limits.limits.contains_key("tibia left");

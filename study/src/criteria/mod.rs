@@ -1,4 +1,4 @@
-//! Injury criteria: what they are called, which places of a dummy they are of, how they are filtered and formed, and the limits of regulations.
+//! Injury criteria: their names, the places of a dummy that they use, their filters and formulas, and the limits of regulations.
 //!
 //! | file | what |
 //! |---|---|
@@ -23,32 +23,32 @@ use limits::Limits;
 
 /// A criterion.
 pub struct Criterion {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
-    /// What its limits and values are shown in.
+    /// The unit in which its limits and values are shown.
     pub unit: &'static str,
     /// SI value of that unit.
     pub scale: f64,
-    /// By which its signals are filtered, where they are.
+    /// The filter of its signals, if they are filtered.
     pub filter: Option<Class>,
     measure: Measure,
 }
 
-/// What a criterion is of its signals, by the names of their places.
+/// How a criterion is formed from its signals, which are given by the names of their places.
 enum Measure {
-    /// Of a resultant acceleration.
+    /// A response of a resultant acceleration.
     Resultant(&'static str, What),
-    /// Of one signal.
+    /// A response of one signal.
     Of(&'static str, Combination, What),
-    /// Of the neck.
+    /// The neck injury criterion.
     Nij,
     /// The moment about the joint of head and neck that bends the head back.
     NeckExtension,
-    /// Of the chest's deflection.
+    /// The viscous criterion of the chest's deflection.
     Viscous,
-    /// Of a tibia, by the beginning of the names of its places.
+    /// The tibia index; the name is the beginning of the names of its places.
     Tibia(&'static str),
-    /// Of the angular velocity of the head.
+    /// A criterion of the angular velocity of the head.
     Rotation,
 }
 
@@ -73,7 +73,8 @@ const PURE: (&str, f64) = ("", 1.0);
 const MM: (&str, f64) = ("mm", 1e-3);
 const CLIP: What = What::Clip { duration: 3e-3 };
 
-/// Critical angular velocities of BrIC \[rad/s\]: the means of those by two measures of strain \[Takhounts 2013, as in the program pyisomme\].
+/// Critical angular velocities of BrIC \[rad/s\]: the means of the values by two measures of strain \[Takhounts 2013, as in the program
+/// pyisomme\].
 const ROTATION: [f64; 3] = [66.25, 56.45, 42.87];
 
 /// All criteria.
@@ -119,35 +120,35 @@ pub const CRITERIA: [Criterion; 18] = {
 pub enum Missing {
     /// Nothing is measured at this place.
     Place(String),
-    /// What is measured there cannot be used, or the regulation has no critical values.
+    /// The measurement at the place cannot be used, or the regulation has no critical values.
     Unusable(String),
 }
 
-/// What a criterion is read off.
+/// The signals that a criterion is read off.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formed {
-    /// The places whose signals it is formed of, in the order of the combination.
+    /// The places of the signals, in the order of the combination.
     pub places: Vec<String>,
-    /// How they are put together.
+    /// How the signals are combined.
     pub combination: Combination,
-    /// What is read off.
+    /// The response that is read off.
     pub what: What,
-    /// What is to be said of it.
+    /// A remark on it.
     pub detail: &'static str,
 }
 
 impl Criterion {
-    /// A criterion by its name, whatever case it is written in.
+    /// A criterion by its name in upper or lower case.
     pub fn named(name: &str) -> Option<&'static Criterion> {
         CRITERIA
             .iter()
             .find(|one| one.name.eq_ignore_ascii_case(name.trim()))
     }
 
-    /// What it is read off, where `has` says which places are there, and nothing moves along y where it is `planar`.
+    /// The signals of the criterion. `has` says which places are available; nothing moves along y if the motion is `planar`.
     ///
     /// # Errors
-    /// A place is not there, or the regulation has no critical values.
+    /// A place is not available, or the regulation has no critical values.
     pub fn formed(
         &self,
         limits: &Limits,
@@ -215,7 +216,7 @@ impl Criterion {
     }
 }
 
-/// The places of a resultant: its components, or, where there are none, the resultant itself.
+/// The places of a resultant: its components, or the resultant itself if there are no components.
 fn resultant(
     place: &str,
     has: &dyn Fn(&str) -> bool,

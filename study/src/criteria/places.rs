@@ -1,8 +1,8 @@
 //! The places where a dummy measures.
 
-/// A place: its name, the channel codes of ISO-MME that mean it, with `?` for any character, and its SI unit.
+/// A place: its name, the channel code of ISO-MME that belongs to it, with `?` for any character, and its SI unit.
 pub struct Place {
-    /// As it is named after `--place`, and under `criteria` in a model, there with `_` for `-`.
+    /// The name after `--place`; under `criteria` in a model it has `_` in place of `-`.
     pub name: &'static str,
     /// Channel code.
     pub code: &'static str,
@@ -14,7 +14,7 @@ const fn place(name: &'static str, code: &'static str, unit: &'static str) -> Pl
     Place { name, code, unit }
 }
 
-/// All places, as the keys of `criteria` in a model.
+/// All places, in the order of the keys of `criteria` in a model.
 pub const PLACES: [Place; 25] = [
     place("head", "??HEADCG????ACR?", "m/s^2"),
     place("head-x", "??HEADCG????ACX?", "m/s^2"),
@@ -23,7 +23,7 @@ pub const PLACES: [Place; 25] = [
     place("head-wx", "??HEADCG????AVX?", "rad/s"),
     place("head-wy", "??HEADCG????AVY?", "rad/s"),
     place("head-wz", "??HEADCG????AVZ?", "rad/s"),
-    // of excursions there is no one code
+    // there is no single code for excursions
     place("head-excursion", "", "m"),
     place("neck-fx", "??NECKUP????FOX?", "N"),
     place("neck-fz", "??NECKUP????FOZ?", "N"),
@@ -41,11 +41,11 @@ pub const PLACES: [Place; 25] = [
     place("tibia-right-mx", "??TIBIRI????MOX?", "N*m"),
     place("tibia-right-my", "??TIBIRI????MOY?", "N*m"),
     place("tibia-right-fz", "??TIBIRI????FOZ?", "N"),
-    // which accelerometer of a vehicle is meant, nobody but its user knows
+    // only the user knows which accelerometer of a vehicle is meant
     place("pulse", "", "m/s^2"),
 ];
 
-/// Whether a channel code fits one with wild cards.
+/// Whether a channel code matches a pattern with wild cards.
 pub fn fits(code: &str, pattern: &str) -> bool {
     let pairs = || code.chars().zip(pattern.chars());
     !code.is_empty() && code.len() == pattern.len() && pairs().all(|(a, b)| b == '?' || a == b)
@@ -57,7 +57,7 @@ mod tests {
     use crate::facts::ModelFacts;
     use bryant_generator::description::vocabulary;
 
-    /// The keys of `criteria` in a model are the places, in their order.
+    /// The keys of `criteria` in a model are the places, in the same order.
     #[test]
     fn a_model_has_all_places_as_keys() {
         let all = vocabulary();

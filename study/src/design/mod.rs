@@ -1,4 +1,4 @@
-//! Which values a row has: a pure function of the study and the row's index, so that any row may be run anywhere, any time.
+//! The values of a row. They depend only on the study and the row's index, so that any row may be run anywhere and at any time.
 //!
 //! ```text
 //! row ─design→ u ∈ (0, 1)^d ─quantiles→ parameters        row ─mixed radix→ grid        row → list
@@ -14,13 +14,13 @@ use crate::study::{Plan, RandomDesign, Study};
 use permutation::Permutation;
 use sobol::Sobol;
 
-/// Streams of random numbers: what they are for, above the index of the parameter.
+/// Streams of random numbers: the purpose is stored above the index of the parameter.
 const JITTER: u64 = 1 << 32;
 const PERMUTATION: u64 = 2 << 32;
 const INDEPENDENT: u64 = 3 << 32;
 
-/// Parts of a stratum that a point of a Latin hypercube falls into the middle of one of: so few that u never leaves its
-/// stratum by rounding, with up to 2³² rows.
+/// A point of a Latin hypercube falls into the middle of one of this many parts of a stratum: so few that rounding never moves u out of its
+/// stratum, with up to 2³² rows.
 const PARTS: f64 = (1 << 20) as f64;
 
 /// Draws the rows of a study.
@@ -38,31 +38,31 @@ enum Points {
     Independent,
 }
 
-/// More parameters than the design has dimensions for.
+/// There are more parameters than the design has dimensions for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{found} parameters are more than the {most} that this design has numbers for")]
 pub struct TooManyParameters {
-    /// Parameters varied.
+    /// Number of varied parameters.
     pub found: usize,
-    /// Parameters possible.
+    /// Largest possible number of parameters.
     pub most: usize,
 }
 
-/// Parameters that a random design can vary.
+/// Largest number of parameters that a random design can vary.
 pub fn most_parameters(design: RandomDesign) -> usize {
     match design {
         RandomDesign::Sobol => Sobol::DIMENSIONS,
         RandomDesign::Saltelli => Sobol::DIMENSIONS / 2,
-        // bounded by what can be written
+        // bounded by the type of the number
         RandomDesign::LatinHypercube | RandomDesign::MonteCarlo => u32::MAX as usize,
     }
 }
 
 impl<'a> Sampler<'a> {
-    /// Ready to draw.
+    /// A sampler for a study.
     ///
     /// # Errors
-    /// More parameters than Sobol' sequences have numbers for, which a study that was read does not have.
+    /// There are more parameters than Sobol' sequences have numbers for; a study that was read from a file does not have this error.
     pub fn new(study: &'a Study) -> Result<Self, TooManyParameters> {
         let d = study.varied.len();
         let points = match &study.plan {
@@ -90,7 +90,7 @@ impl<'a> Sampler<'a> {
         Ok(Sampler { study, points })
     }
 
-    /// The values of a row, SI, one per varied parameter.
+    /// The values of a row, SI, one for each varied parameter.
     pub fn values(&self, row: u64, values: &mut [f64]) {
         match &self.study.plan {
             Plan::Grid(levels) => {
@@ -118,7 +118,7 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// The point of the unit cube that a row comes from, where its design is a random one.
+    /// The point of the unit cube for a row, if its design is random.
     pub fn point(&self, row: u64, point: &mut [f64]) -> Option<&'a [Distribution]> {
         let Plan::Random {
             design,

@@ -3,14 +3,14 @@
 
 use crate::hash;
 
-/// Rounds; four suffice for a pseudo-random permutation with random functions, the others cost little.
+/// Number of rounds; four suffice for a pseudo-random permutation if the functions are random, and more cost little.
 const ROUNDS: u64 = 6;
 
 /// A permutation that depends on a seed and a stream.
 #[derive(Clone, Copy, Debug)]
 pub struct Permutation {
     length: u64,
-    /// Bits of each half.
+    /// Number of bits in each half.
     half: u32,
     seed: u64,
     stream: u64,
@@ -28,12 +28,12 @@ impl Permutation {
         }
     }
 
-    /// Where `index` < `length` goes.
+    /// The image of `index` < `length`.
     pub fn of(&self, index: u64) -> u64 {
         let mut place = index;
         loop {
             place = self.round_trip(place);
-            // the network's domain has at most 4 n places, so that a walk ends after a few steps
+            // the domain of the network has at most 4 n places, so the walk ends after a few steps
             if place < self.length {
                 return place;
             }
@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn places_of_neighbours_are_uncorrelated() {
-        // a correlation of n pairs has deviation 1/√n
+        // the correlation of n pairs has the standard deviation 1/√n
         let n = 10_000u64;
         for stream in 0..4 {
             let permutation = Permutation::new(n, 1, stream);

@@ -1,29 +1,29 @@
-//! Sobol' sequences, scrambled.
+//! Scrambled Sobol' sequences.
 //!
-//! Point i has the bits x = ⊕ v_k over the ones k of i's Gray code, with the direction numbers v of [`directions`]; then each
-//! bit is flipped or not by a hash of the bits above it, Owen's nested uniform scrambling, which keeps the balance of the
+//! Point i has the bits x = ⊕ v_k over the ones k of the Gray code of i, with the direction numbers v of [`directions`]. Then each bit is
+//! flipped or not, depending on a hash of the bits above it. This is Owen's nested uniform scrambling, which keeps the balance of the
 //! sequence and makes each point uniform \[A. B. Owen, 1995; P. Bratley, B. L. Fox, ACM TOMS 14, 88 (1988)\].
 
 use super::directions::{self, DIRECTIONS};
 use crate::hash;
 
-/// Bits of a coordinate: points there are, in binary digits.
+/// Number of bits of a coordinate; there are 2^`BITS` points.
 const BITS: usize = 32;
 
-/// A sequence of so many dimensions.
+/// A sequence with a number of dimensions.
 #[derive(Clone, Debug)]
 pub struct Sobol {
-    /// Per dimension, of the highest bit first.
+    /// For each dimension, starting with the highest bit.
     directions: Vec<[u32; BITS]>,
 }
 
 impl Sobol {
-    /// Points that there are: 2³².
+    /// Number of points: 2³².
     pub const POINTS: u64 = 1 << BITS;
-    /// Dimensions that there are numbers for.
+    /// Largest number of dimensions.
     pub const DIMENSIONS: usize = directions::DIMENSIONS;
 
-    /// The sequence; `None` where there are more dimensions than numbers.
+    /// The sequence; `None` if there are more dimensions than direction numbers.
     pub fn new(dimensions: usize) -> Option<Sobol> {
         let first = std::array::from_fn(|bit| 1 << (BITS - 1 - bit));
         let others = DIRECTIONS.iter().map(|(p, m)| numbers(*p, m));
@@ -68,11 +68,11 @@ fn numbers(polynomial: u32, initial: &[u32]) -> [u32; BITS] {
     v
 }
 
-/// Owen's scrambling: a bit is flipped by a hash of those above it.
+/// Owen's scrambling: a bit is flipped by a hash of the bits above it.
 fn scrambled(x: u32, seed: u64, dimension: u64) -> u32 {
     let mut flips = 0;
     for bit in (0..BITS as u32).rev() {
-        // what stands above the bit, behind a one that tells how long it is
+        // the bits above, behind a leading one that gives their number
         let above = (1u64 << BITS | u64::from(x)) >> (bit + 1);
         flips |= ((hash::bits(seed, dimension, above) >> 63) as u32) << bit;
     }
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn scrambled_points_have_one_in_each_elementary_interval() {
-        // a (0, 2)-sequence: of 2^m points, each interval 2^-a × 2^-(m−a) of the first two dimensions has exactly one
+        // a (0, 2)-sequence: among 2^m points, each interval 2^-a × 2^-(m−a) of the first two dimensions has exactly one
         let (m, seed) = (8, 11);
         let sobol = Sobol::new(2).unwrap();
         for a in 0..=m {
@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn one_scrambled_point_is_uniform_over_the_seeds() {
-        // mean of n uniform numbers: ½ with deviation 1/√(12 n)
+        // the mean of n uniform numbers is ½ with the standard deviation 1/√(12 n)
         let sobol = Sobol::new(3).unwrap();
         let n = 4096;
         for index in [0, 1, 1000] {

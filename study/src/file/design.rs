@@ -1,4 +1,4 @@
-//! `design`, `runs`, `seed`, `parameters`: which rows there are.
+//! `design`, `runs`, `seed`, `parameters`: the rows of a study.
 
 use super::distribution;
 use super::reader::{Reader, optional};
@@ -9,7 +9,7 @@ use crate::study::{Levels, MOST_ROWS, Plan, RandomDesign, Varied};
 use bryant_generator::description::place::At;
 use std::path::Path;
 
-/// Designs by their names.
+/// The names of the designs.
 const DESIGNS: [&str; 6] = [
     "grid",
     "list",
@@ -19,14 +19,14 @@ const DESIGNS: [&str; 6] = [
     "saltelli",
 ];
 
-/// What the file says about rows.
+/// The rows that the file describes.
 pub struct Planned {
     pub rows: u64,
     pub varied: Vec<Varied>,
     pub plan: Plan,
 }
 
-/// Reads the design; `None` where there is a problem, which the reader has.
+/// Reads the design; `None` if there is a problem, which the reader collects.
 pub fn read(
     reader: &Reader,
     root: At<'_>,
@@ -70,7 +70,7 @@ pub fn read(
     }
 }
 
-/// The parameter that a key names, or a problem with the nearest one.
+/// The parameter with this name; otherwise a problem that suggests the nearest name is added.
 pub fn known<'f>(
     reader: &Reader,
     at: At<'_>,
@@ -210,7 +210,7 @@ fn random(
     })
 }
 
-/// The number of rows where it is not too large.
+/// The number of rows, if it is not too large.
 pub fn within(
     reader: &Reader,
     root: At<'_>,

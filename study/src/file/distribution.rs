@@ -1,4 +1,4 @@
-//! The value of a parameter in `parameters`: an interval, a distribution, some values.
+//! The value of a parameter in `parameters`: an interval, a distribution, or some values.
 
 use super::reader::{Reader, optional};
 use crate::distribution::Distribution;
@@ -11,7 +11,7 @@ const KINDS: [&str; 5] = ["from", "normal", "lognormal", "triangular", "values"]
 const HELP: &str = "write `{ from: a, to: b }`, `{ normal: { mean: m, deviation: s } }`, `{ lognormal: { median: m, deviation: s } }`, \
                     `{ triangular: { from: a, mode: m, to: b } }` or `{ values: [a, b, c] }`";
 
-/// Values of a grid.
+/// The values of a parameter in a grid.
 pub fn levels(reader: &Reader, at: At<'_>, fact: &ParameterFact) -> Option<Levels> {
     if !reader.record(
         at,
@@ -144,7 +144,7 @@ fn values(reader: &Reader, at: At<'_>, fact: &ParameterFact) -> Option<Vec<f64>>
     read.into_iter().collect()
 }
 
-/// Weights as shares of 1; equal ones where none are given.
+/// Weights as shares of 1; equal weights if none are given.
 fn weights(reader: &Reader, at: At<'_>, count: usize) -> Option<Vec<f64>> {
     let Some(at) = optional(at, "weights") else {
         return Some(vec![1.0 / count as f64; count]);
@@ -164,7 +164,7 @@ fn weights(reader: &Reader, at: At<'_>, count: usize) -> Option<Vec<f64>> {
     Some(weights.iter().map(|w| w / sum).collect())
 }
 
-/// A normal or lognormal distribution, its tails checked.
+/// A normal or lognormal distribution with checked tails.
 fn bell(reader: &Reader, at: At<'_>, fact: &ParameterFact, kind: &str) -> Option<Distribution> {
     let (middle, unit) = if kind == "normal" {
         ("mean", fact.unit.as_str())
@@ -215,11 +215,11 @@ fn bell(reader: &Reader, at: At<'_>, fact: &ParameterFact, kind: &str) -> Option
     };
     let ends = distribution.ends();
     let empty = kind == "lognormal" && max.is_some_and(|max| max <= 0.0);
-    // below that, shares of it are not told apart
+    // below this, shares of the probability cannot be resolved
     let mass = normal::between(ends[0], ends[1]);
     if empty || mass.is_nan() || mass < 1e-290 {
         let message = format!(
-            "between its ends the distribution of \"{}\" has nothing",
+            "the distribution of \"{}\" has no probability between its ends",
             fact.name
         );
         reader.add(at.problem(message, format!("`min` and `max` lie around the {middle}")));
@@ -228,7 +228,7 @@ fn bell(reader: &Reader, at: At<'_>, fact: &ParameterFact, kind: &str) -> Option
     Some(distribution)
 }
 
-/// Whether all that can come lies within the bounds of the parameter.
+/// Whether all possible values lie within the bounds of the parameter.
 fn inside(reader: &Reader, at: At<'_>, fact: &ParameterFact, found: [f64; 2]) -> bool {
     if fact.allows(found) {
         return true;
@@ -267,7 +267,7 @@ fn inside(reader: &Reader, at: At<'_>, fact: &ParameterFact, found: [f64; 2]) ->
     false
 }
 
-/// Whether each of some values lies within the bounds of the parameter.
+/// Whether all these values lie within the bounds of the parameter.
 fn allowed(reader: &Reader, at: At<'_>, fact: &ParameterFact, values: &[f64]) -> bool {
     let mut sound = true;
     for (index, value) in values.iter().enumerate() {

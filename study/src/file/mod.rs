@@ -1,4 +1,4 @@
-//! The study file: YAML, read into a [`Study`] against the facts of a model, with every problem at its line.
+//! The study file: YAML, read into a [`Study`] and checked against the facts of a model. Every problem has its line.
 //!
 //! ```text
 //! text ─tree→ located tree ─names, units, bounds→ Study
@@ -35,11 +35,11 @@ pub const KEYS: [&str; 11] = [
     "tables",
 ];
 
-/// A study file that is YAML and names its model.
+/// A study file that is valid YAML and names its model.
 #[derive(Debug)]
 pub struct StudyFile {
     source: Source,
-    /// The model as it stands there: a bundled one, or a path relative to the file.
+    /// The model as the file names it: a bundled model, or a path relative to the file.
     pub model: String,
 }
 
@@ -47,7 +47,7 @@ impl StudyFile {
     /// Reads a text; `name` is what messages call the file.
     ///
     /// # Errors
-    /// What is not YAML, and a study without a model.
+    /// The text is not YAML, or the study has no model.
     pub fn parse(name: &str, text: &str) -> Result<StudyFile, Diagnostics> {
         const BEGIN: &str = "a study begins with `model: NAME`, `design: sobol`, `runs: 1024`, `parameters:` and `responses:`";
         if text.trim().is_empty() {
@@ -66,14 +66,14 @@ impl StudyFile {
         }
     }
 
-    /// The file that the rows of a list are in, as the study names it; `None` where they are nowhere else.
+    /// The file with the rows of a list, as the study names it; `None` if the rows are in the study itself or there is no list.
     pub fn rows_from(&self) -> Option<String> {
         let rows = optional(self.source.at(), "rows")?;
         Reader::default().text(optional(rows, "csv")?)
     }
 
-    /// The responses of the study and the time between the samples that they are read off, for one run of a model that is `duration` long \[s\].
-    /// `sampling` stands in place of that of the study. What else stands there does not count.
+    /// The responses of the study and the time between their samples, for one run of a model that is `duration` long \[s\]. `sampling`
+    /// replaces that of the study. The rest of the study is ignored.
     ///
     /// # Errors
     /// All problems of `run` and `responses` at once.
@@ -102,12 +102,12 @@ impl StudyFile {
         }
     }
 
-    /// How long the runs of the study are \[s\], where it says so.
+    /// The duration of the study's runs \[s\], if the study gives one.
     pub fn duration(&self, facts: &ModelFacts) -> Option<f64> {
         settings::run(&Reader::default(), self.source.at(), &facts.run).duration
     }
 
-    /// The study, checked against its model. `directory` is where relative paths begin: that of the file.
+    /// The study, checked against its model. Relative paths begin at `directory`, which is that of the file.
     ///
     /// # Errors
     /// All problems at once.

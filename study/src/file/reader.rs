@@ -1,4 +1,4 @@
-//! Values of a located tree, with the problems they have collected.
+//! Reads values of a located tree and collects the problems in them.
 
 use crate::quantity::strict;
 use bryant_generator::description::place::At;
@@ -7,7 +7,7 @@ use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::{Diagnostic, Diagnostics};
 use std::cell::RefCell;
 
-/// Largest whole number that every f64 below is told apart from.
+/// Up to this number, every integer has a distinct f64.
 const EXACT: f64 = (1u64 << 53) as f64;
 
 /// Reads values and collects what is wrong with them.
@@ -20,7 +20,7 @@ impl Reader {
         self.0.borrow_mut().push(problem);
     }
 
-    /// No problem so far.
+    /// Whether there is no problem so far.
     pub fn is_sound(&self) -> bool {
         self.0.borrow().is_empty()
     }
@@ -32,7 +32,7 @@ impl Reader {
         Diagnostics { problems }
     }
 
-    /// Checks that a value is a mapping with these keys alone.
+    /// Checks that a value is a mapping and has no other keys than these.
     pub fn record(&self, at: At<'_>, what: &str, keys: &[&str]) -> bool {
         let Kind::Map(entries) = &at.node.kind else {
             let message = format!("here stands {}, but {what} is a mapping", at.node.article());
@@ -80,7 +80,7 @@ impl Reader {
         }
     }
 
-    /// The value of a key that must be there.
+    /// The value of a required key.
     pub fn required<'a>(&self, at: At<'a>, key: &str, help: &str) -> Option<At<'a>> {
         let found = optional(at, key);
         if found.is_none() {
@@ -90,7 +90,7 @@ impl Reader {
         found
     }
 
-    /// A text that is not empty.
+    /// A text, not empty.
     pub fn text(&self, at: At<'_>) -> Option<String> {
         match &at.node.kind {
             Kind::Scalar { text, .. } if !at.node.is_null() && !text.trim().is_empty() => {
@@ -104,7 +104,7 @@ impl Reader {
         }
     }
 
-    /// A quantity in SI units, of the dimension of `unit`; a bare number is in `unit`.
+    /// A quantity in SI units with the dimension of `unit`; a bare number is in `unit`.
     pub fn quantity(&self, at: At<'_>, unit: &str) -> Option<f64> {
         let Kind::Scalar { text, .. } = &at.node.kind else {
             let message = format!("here stands {}, but a number is needed", at.node.article());
@@ -141,7 +141,7 @@ impl Reader {
         None
     }
 
-    /// A whole number from 0, also as `1e6`.
+    /// An integer of at least 0, also written as `1e6`.
     pub fn whole(&self, at: At<'_>, what: &str) -> Option<u64> {
         let number = match &at.node.kind {
             Kind::Scalar { text, .. } => text.parse::<u64>().ok().or_else(|| {
@@ -159,7 +159,7 @@ impl Reader {
             let (message, help) = match float {
                 Some(large) if large > EXACT => (
                     format!("{what} is too large"),
-                    format!("{} can be, written as digits, at most", u64::MAX),
+                    format!("write a number of at most {}", u64::MAX),
                 ),
                 _ => (
                     format!("{what} is not a whole number from 0"),
@@ -171,7 +171,7 @@ impl Reader {
         number
     }
 
-    /// A whole number from 1.
+    /// An integer of at least 1.
     pub fn count(&self, at: At<'_>, what: &str) -> Option<u64> {
         match self.whole(at, what)? {
             0 => {
@@ -194,7 +194,7 @@ impl Reader {
     }
 }
 
-/// The value of a key, `None` where it is not there.
+/// The value of a key, `None` if the key is missing.
 pub fn optional<'a>(at: At<'a>, key: &str) -> Option<At<'a>> {
     at.node.get(key).filter(|node: &&Node| !node.is_null())?;
     Some(at.key(key))

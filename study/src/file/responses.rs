@@ -1,4 +1,4 @@
-//! `responses`: what is read off each run.
+//! `responses`: the numbers that are read off each run.
 
 use super::reader::{Reader, optional};
 use crate::criteria;
@@ -11,7 +11,7 @@ use bryant_generator::description::tree::Kind;
 use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_runtime::response::filter::Filter;
 
-/// Reads all responses; those with a problem are left out, and the reader has the problem.
+/// Reads all responses; responses with a problem are left out, and the reader collects the problem.
 pub fn read(reader: &Reader, root: At<'_>, facts: &ModelFacts, run: &RunSettings) -> Vec<Response> {
     let help = "name what is read off each run, such as `- { of: OUTPUT, what: peak }`";
     let Some(at) = reader.required(root, "responses", help) else {
@@ -30,10 +30,10 @@ pub fn read(reader: &Reader, root: At<'_>, facts: &ModelFacts, run: &RunSettings
         .collect()
 }
 
-/// The word for all criteria that can be read off.
+/// The word for all available criteria.
 const ALL: &str = "all";
 
-/// Responses that are injury criteria of a model that says by what it is judged.
+/// Responses that are injury criteria of a model that names its regulation.
 fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) -> Vec<Response> {
     if !reader.record(at, "a criterion", &["criterion", "name"]) {
         return Vec::new();
@@ -47,7 +47,7 @@ fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) 
             let there = all.into_iter().filter_map(|one| one.response.ok());
             there.collect::<Vec<_>>()
         }),
-        // any name tells what is missing
+        // any name gives the message about what is missing
         _ => criteria::named(
             facts,
             match word.as_str() {
@@ -75,7 +75,7 @@ fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) 
     found
 }
 
-/// The heading of a column; reported where it is none.
+/// The heading of a column; a problem is added if it is not valid.
 fn heading(reader: &Reader, at: At<'_>) -> Option<String> {
     let name = reader.text(at)?;
     if name.contains(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')) {
@@ -119,7 +119,7 @@ fn response(
     let (index, output) = output?;
     if what.is_injury_criterion() && dimension(&output.unit) != dimension("m/s^2") {
         let message = format!(
-            "{word} is of accelerations, but \"{}\" is in \"{}\"",
+            "{word} needs an acceleration, but \"{}\" is in \"{}\"",
             output.name, output.unit
         );
         reader.add(at.key("of").problem(message, "name an output in m/s^2"));
@@ -161,7 +161,7 @@ fn written_time(at: At<'_>) -> Option<(&'static str, String)> {
         })
 }
 
-/// A kind with its time, where it needs one.
+/// A kind of response with its time, if it needs one.
 fn timed(
     reader: &Reader,
     at: At<'_>,
@@ -217,14 +217,14 @@ fn timed(
     })
 }
 
-/// The time between the samples that responses are read off \[s\]: as the study says, or what the model and their filters need.
+/// The time between the samples of responses \[s\]: as the study says, or what the model and the filters need.
 pub fn sampling(run: &RunSettings, facts: &ModelFacts, responses: &[Response]) -> f64 {
     let needed = responses.iter().filter_map(Response::longest_interval);
     run.sampling
         .unwrap_or_else(|| needed.fold(facts.run.sampling, f64::min))
 }
 
-/// Whether there are samples enough: what is read off windows needs several in each, and a filter at least so many.
+/// Whether there are enough samples: a window needs several samples, and a filter needs a minimum number.
 fn sampled(
     reader: &Reader,
     at: At<'_>,

@@ -1,4 +1,4 @@
-//! `rows` of `design: list`: written in the study, or in a CSV file with a heading of names, `slack` or `slack [mm]`.
+//! `rows` of `design: list`: written in the study, or in a CSV file with a heading of names such as `slack` or `slack [mm]`.
 
 use super::design::{Planned, known, within};
 use super::reader::Reader;
@@ -13,11 +13,11 @@ use bryant_generator::diagnostic::quoted;
 use std::io::Read as _;
 use std::path::Path;
 
-/// Rows of a list are held in memory.
+/// Largest number of rows in a list, because they are held in memory.
 const MOST_LISTED: usize = 10_000_000;
-/// Bytes of a CSV file at most.
+/// Largest size of a CSV file in bytes.
 const MOST_BYTES: u64 = 1 << 30;
-/// Problems told of a CSV file; thousands of lines with the same fault help nobody.
+/// Largest number of problems that are reported for a CSV file: thousands of equal messages help nobody.
 const MOST_PROBLEMS: usize = 20;
 
 /// Reads the rows.
@@ -58,7 +58,7 @@ pub fn read(
 
 type Read<'f> = (Vec<&'f ParameterFact>, Vec<f64>);
 
-/// Rows in the study itself. A parameter that a row leaves out has its default there.
+/// Rows in the study itself. A parameter that a row leaves out has its default value there.
 fn written<'f>(reader: &Reader, at: At<'_>, facts: &'f ModelFacts) -> Option<Read<'f>> {
     let items = reader.items(at, "`rows`");
     let mut sound = true;
@@ -111,7 +111,7 @@ fn written<'f>(reader: &Reader, at: At<'_>, facts: &'f ModelFacts) -> Option<Rea
     sound.then_some((varied, values))
 }
 
-/// Rows in a CSV file. `name` is what messages call it.
+/// Rows in a CSV file; messages call the file `name`.
 fn table<'f>(
     reader: &Reader,
     at: At<'_>,
@@ -212,7 +212,7 @@ fn table<'f>(
     complete.then(|| (columns.into_iter().map(|(fact, _)| fact).collect(), values))
 }
 
-/// A number of a table: in the unit of its heading, in SI, or with a unit of its own.
+/// A number in a table: in the unit of its heading, in SI, or with a unit of its own.
 fn cell(text: &str, fact: &ParameterFact, unit: &str) -> Result<f64, (String, String)> {
     let with_unit = match text.parse::<f64>() {
         Ok(_) if !unit.is_empty() => format!("{text} {unit}"),

@@ -1,4 +1,4 @@
-//! `fixed`, `run`, `keep`, `tables`, and that names are not given twice.
+//! `fixed`, `run`, `keep`, `tables`, and the check that names are not used twice.
 
 use super::design::known;
 use super::reader::{Reader, optional};
@@ -92,7 +92,7 @@ pub fn run(reader: &Reader, root: At<'_>, model: &RunFact) -> RunSettings {
     settings
 }
 
-/// What may be missing in the balances of fixed steps.
+/// The share of energy and momentum that may be missing in runs with fixed steps.
 fn energy_limit(reader: &Reader, at: At<'_>) -> Option<f64> {
     let limit = optional(at, "energy_limit")?;
     if optional(at, "step").is_none() {
@@ -197,7 +197,7 @@ pub fn keep(reader: &Reader, root: At<'_>, facts: &ModelFacts, rows: Option<u64>
     keep
 }
 
-/// Formats of tables; Parquet where nothing is said.
+/// Formats of tables; Parquet by default.
 pub fn tables(reader: &Reader, root: At<'_>) -> Vec<TableKind> {
     let Some(at) = optional(root, "tables") else {
         return vec![TableKind::Parquet];
@@ -216,7 +216,7 @@ pub fn tables(reader: &Reader, root: At<'_>) -> Vec<TableKind> {
     tables
 }
 
-/// Columns of the table have names of their own, and a parameter one value.
+/// Checks that columns of the table have distinct names, and that a parameter has only one value.
 pub fn distinct(
     reader: &Reader,
     root: At<'_>,

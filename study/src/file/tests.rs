@@ -1,4 +1,4 @@
-//! Study files: what they mean, and what is said of those that make no sense.
+//! Study files: their meaning, and the messages about invalid files.
 
 use super::*;
 use crate::distribution::Distribution;
@@ -48,7 +48,7 @@ fn resolve(text: &str) -> Result<Study, Diagnostics> {
     StudyFile::parse("study.yaml", text)?.resolve(&facts(), Path::new("."))
 }
 
-/// A study whose `parameters` and design are given, with one response.
+/// A study with this design and these `parameters`, and with one response.
 fn with(head: &str, parameters: &str) -> Result<Study, Diagnostics> {
     resolve(&format!(
         "model: seat\n{head}\nparameters:\n  {parameters}\nresponses: [{{ of: head excursion, what: peak }}]\n"
@@ -130,7 +130,7 @@ fn an_example_means_what_it_says() {
     assert_eq!(study.tables, [TableKind::Parquet, TableKind::Csv]);
 }
 
-/// Settings of runs.
+/// The settings of the runs of a study.
 fn run(settings: &str) -> Result<RunSettings, Diagnostics> {
     let head = format!("design: sobol\nruns: 8\nrun: {settings}");
     with(&head, "friction: { from: 0.1, to: 0.2 }").map(|study| study.run)
@@ -239,7 +239,7 @@ fn a_grid_has_all_combinations() {
     let Plan::Grid(levels) = study.plan else {
         panic!("a grid")
     };
-    // 10 mm steps, to the rounding of one sum
+    // steps of 10 mm, up to the rounding of one sum
     for k in 0..7 {
         let level = levels[0].value(k);
         assert!((level - 0.01 * k as f64).abs() < 1e-17, "{level}");
@@ -389,7 +389,7 @@ fn ranges_keep_to_the_bounds_of_the_model() {
         ),
         (
             "friction: { normal: { mean: 0, deviation: 1e-3 }, min: 0.9, max: 1 }",
-            "has nothing",
+            "has no probability",
         ),
         (
             "friction: { triangular: { from: 0, mode: 2, to: 1 } }",
@@ -650,7 +650,7 @@ fn what_is_no_study_is_an_error() {
     assert!(bare.contains("`parameters` is missing"), "{bare}");
 }
 
-/// Text with some pieces taken out, put elsewhere, or exchanged for numbers that make no sense.
+/// A text with some pieces removed, moved, or replaced by meaningless numbers.
 fn mangled(case: u64) -> String {
     let number = |k: u64, below: usize| (hash::uniform(17, case, k) * below as f64) as usize;
     let pieces = [

@@ -1,4 +1,4 @@
-//! Every response over every parameter, a point per run; a sample of the runs where they are many.
+//! Every response over every parameter, one point for each run; a sample of the runs if there are many.
 
 use crate::design::permutation::Permutation;
 use crate::study::Study;
@@ -8,26 +8,26 @@ use bryant_picture::chart::{self, Axes, range};
 use bryant_picture::text::wrap;
 use bryant_picture::{Anchor, Drawing};
 
-/// Pixels of a panel, of its frame, and from the panel's corner to the frame's.
+/// Pixels of a panel, of its frame, and of the offset between their corners.
 const PANEL: [f64; 2] = [300.0, 240.0];
 const FRAME: [f64; 2] = [214.0, 150.0];
 const CORNER: [f64; 2] = [70.0, 46.0];
-/// Characters of a name in a line.
+/// Number of characters of a name in one line.
 const NAME: usize = 36;
-/// Share of a range that is left free at either end.
+/// Share of a range that stays empty at either end.
 const MARGIN: f64 = 0.04;
-/// Points of a panel at most.
+/// Largest number of points in a panel.
 const MOST_POINTS: usize = 2000;
-/// Points of the picture at most.
+/// Largest number of points in the picture.
 const MOST_IN_ALL: usize = 60_000;
 
-/// Draws the picture: a row per response, a column per parameter.
+/// Draws the picture: a row for each response, a column for each parameter.
 pub fn draw(study: &Study, sample: &Sample) -> Drawing {
     let (columns, rows) = (study.varied.len(), study.responses.len());
     let most = MOST_POINTS
         .min(MOST_IN_ALL / (columns * rows).max(1))
         .max(1);
-    // a step through the rows would miss values of a grid
+    // taking every n-th row would miss values of a grid
     let order = Permutation::new(sample.count as u64, 0, 0);
     let chosen: Vec<usize> = (0..sample.count.min(most))
         .map(|k| order.of(k as u64) as usize)

@@ -1,5 +1,5 @@
-//! Which parameters the variance of each response comes from: bars of total indices, main indices in front of them, intervals of
-//! 95 % as lines; the parameter with the largest total on top.
+//! The parameters that the variance of each response comes from: bars of total indices with main indices in front, and intervals of 95 % as
+//! lines; the parameter with the largest total is on top.
 
 use crate::study::Study;
 use crate::summary::Summary;
@@ -8,20 +8,20 @@ use crate::summary::text::method;
 use bryant_picture::chart::{self, Axes};
 use bryant_picture::{Anchor, Drawing};
 
-/// Pixels of the bars, and of names to the left of them at least.
+/// Width of the bars in pixels, and least width of the names to the left of them.
 const BARS: f64 = 620.0;
 const NAMES: f64 = 120.0;
-/// Pixels of a character of a name.
+/// Width of a character of a name in pixels.
 const LETTER: f64 = 7.4;
-/// Pixels of a parameter.
+/// Height of a parameter in pixels.
 const BAR: f64 = 26.0;
-/// Pixels of a response's title, and of its axis.
+/// Height of a response's title in pixels, and of its axis.
 const TITLE: f64 = 52.0;
 const AXIS: f64 = 52.0;
-/// Parameters drawn of each response at most, those with the largest totals.
+/// Largest number of parameters for each response: those with the largest totals.
 const MOST: usize = 20;
 
-/// Draws the picture; `None` where no response has indices.
+/// Draws the picture; `None` if no response has indices.
 pub fn draw(study: &Study, summary: &Summary) -> Option<Drawing> {
     let known: Vec<(&str, &Sensitivity)> = summary
         .responses

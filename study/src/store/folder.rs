@@ -1,4 +1,4 @@
-//! The folder of a study's results: opened for one study alone, its blocks read and written.
+//! The folder of a study's results: it is opened for one study only, and its blocks are read and written.
 
 use super::identity::{Identity, Program};
 use super::part::{self, PartError};
@@ -10,7 +10,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// Bytes of a file of a folder of results at most: of 4096 rows with 30 000 responses each.
+/// Largest size of a file in a folder of results in bytes: 4096 rows with 30 000 responses each.
 pub const MOST_BYTES: u64 = 1 << 30;
 
 /// Results of one study, in one folder.
@@ -21,17 +21,17 @@ pub struct Folder {
     responses: usize,
 }
 
-/// How the rows are divided.
+/// The division of the rows into blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Blocks {
     /// Rows of the study.
     pub rows: u64,
-    /// Rows of a block; the last one has what is left.
+    /// Rows of a block; the last block has the remaining rows.
     pub size: u64,
 }
 
 impl Blocks {
-    /// Blocks there are.
+    /// Number of blocks.
     pub fn count(self) -> u64 {
         self.rows.div_ceil(self.size)
     }
@@ -43,21 +43,21 @@ impl Blocks {
     }
 }
 
-/// A block as it is found.
+/// A block in the folder.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Found {
-    /// Whole.
+    /// The block is complete.
     Good(Outcomes),
-    /// Nothing is there.
+    /// The block is missing.
     Missing,
-    /// Something is there that is not the block.
+    /// The file is not a valid block.
     Bad(PartError),
 }
 
 /// Why a folder cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
-    /// Results of another study are in it.
+    /// The folder has results of another study.
     #[error(
         "{} holds results of something else\n  there: {there}\n  here:  {here}\n  differs: {}\n  help: {}",
         .path.display(), .differs.join(", "), .help
@@ -65,46 +65,46 @@ pub enum FolderError {
     Other {
         /// The folder.
         path: PathBuf,
-        /// Identity of what is there.
+        /// Identity of the existing results.
         there: String,
-        /// Identity of what is to be run.
+        /// Identity of the requested results.
         here: String,
-        /// In what.
+        /// The differences.
         differs: Vec<String>,
-        /// What to do.
+        /// The remedy.
         help: &'static str,
     },
-    /// It is in use for something else.
+    /// The folder is used for something else.
     #[error(
         "{} is not a folder of results, and not empty\n  help: name a new folder, or an empty one", .0.display()
     )]
     Foreign(PathBuf),
-    /// `study.json` is not what this program writes.
+    /// `study.json` was not written by this program.
     #[error("{} cannot be understood: {reason}\n  help: name another folder; if nothing else is in this one, remove it", .path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         reason: String,
     },
-    /// It cannot be read.
+    /// A file or folder cannot be read.
     #[error("cannot read {}: {source}", .path.display())]
     Read {
         /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         source: io::Error,
     },
-    /// It cannot be written to.
+    /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
 }
 
 impl Folder {
-    /// Opens the folder for a study, and makes it where it is not there.
+    /// Opens the folder for a study, and creates it if it does not exist.
     ///
     /// # Errors
-    /// It is of another study or of something else, or cannot be read or written.
+    /// The folder belongs to another study or to something else, or it cannot be read or written.
     pub fn open(path: &Path, study: &Study, program: &Program) -> Result<Folder, FolderError> {
         let file = path.join("study.json");
         let unreadable = |reason: String| FolderError::Unreadable {
@@ -137,17 +137,17 @@ impl Folder {
         })
     }
 
-    /// Where it is.
+    /// The path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What its results are of.
+    /// The identity of its results.
     pub fn identity(&self) -> &Identity {
         &self.identity
     }
 
-    /// How its rows are divided.
+    /// The division of its rows into blocks.
     pub fn blocks(&self) -> Blocks {
         Blocks {
             rows: self.identity.rows,
@@ -160,7 +160,7 @@ impl Folder {
         self.path.join("blocks").join(format!("{block:08}.part"))
     }
 
-    /// Whether the file of a block is there, sound or not.
+    /// Whether the file of a block exists, valid or damaged.
     pub fn has(&self, block: u64) -> bool {
         self.block_path(block).is_file()
     }
@@ -168,7 +168,7 @@ impl Folder {
     /// Reads a block.
     ///
     /// # Errors
-    /// A file is there but cannot be read.
+    /// A file exists but cannot be read.
     pub fn read(&self, block: u64) -> Result<Found, FolderError> {
         let path = self.block_path(block);
         let bytes = match read_bytes(&path, MOST_BYTES) {
@@ -198,10 +198,10 @@ impl Folder {
         replace(&path, |out| at(&path, out.write_all(&bytes)))
     }
 
-    /// Removes what processes that were ended left unfinished. Only when nothing is being written.
+    /// Removes unfinished files of processes that were ended. No file may be in the process of being written.
     ///
     /// # Errors
-    /// A folder cannot be read, a file not be removed.
+    /// A folder cannot be read, or a file cannot be removed.
     pub fn tidy(&self) -> Result<(), FolderError> {
         for directory in [
             self.path.clone(),
@@ -233,7 +233,7 @@ impl Folder {
     }
 }
 
-/// What of a study decides about results: the keys of [`Study`] as `study.json` has them, and what a user calls them.
+/// The parts of a study that decide about results: the keys of [`Study`] in `study.json`, and their names for a user.
 const PARTS: [(&str, &str); 6] = [
     ("rows", "the number of runs"),
     ("varied", "the parameters that are varied"),
@@ -243,7 +243,7 @@ const PARTS: [(&str, &str); 6] = [
     ("responses", "the responses"),
 ];
 
-/// Refuses results of another identity, and says in what it differs.
+/// Refuses results of another identity, and names the differences.
 fn same(path: &Path, there: &Identity, here: &Identity) -> Result<(), FolderError> {
     let mut differs: Vec<String> = Vec::new();
     let mut differ = |is: bool, what: &str| {
@@ -272,7 +272,7 @@ fn same(path: &Path, there: &Identity, here: &Identity) -> Result<(), FolderErro
         differs.push("how responses are read off runs, or results kept, in this version".into());
     }
     let help = if other_study && differs.len() == 1 {
-        "name another folder, or give the study back what it had when these results were made (its `study.json` has it)"
+        "name another folder, or restore the study as it was when these results were made (see its `study.json`)"
     } else {
         "name another folder; these results are completed by the program and the model that began them"
     };
@@ -285,7 +285,7 @@ fn same(path: &Path, there: &Identity, here: &Identity) -> Result<(), FolderErro
     })
 }
 
-/// A folder without `study.json` is taken only where nothing of anybody else's is in it.
+/// A folder without `study.json` is accepted only if it contains no other files.
 fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
     let read = |source| FolderError::Read {
         path: path.to_owned(),
@@ -299,7 +299,7 @@ fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
     for entry in entries {
         let name = entry.map_err(read)?.file_name();
         let name = name.to_string_lossy();
-        // another process may be opening it at the same time
+        // another process may be opening the folder at the same time
         if name != "blocks" && name != "study.json" && !name.starts_with(UNFINISHED) {
             return Err(FolderError::Foreign(path.to_owned()));
         }

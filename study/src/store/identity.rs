@@ -1,5 +1,5 @@
-//! What results are of: SHA-256 of the study as checked, of the model, of the program, of the arithmetic, and of what responses mean.
-//! Results of another identity never mix.
+//! The identity of results: SHA-256 of the checked study, of the model, of the program, of the arithmetic, and of the definition of
+//! responses. Results with different identities are never mixed.
 
 use super::part;
 use crate::digest::hexadecimal;
@@ -8,25 +8,25 @@ use crate::study::Study;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// Rows in a block at most.
+/// Largest number of rows in a block.
 const LARGEST_BLOCK: u64 = 4096;
-/// Rows in a block at least, where there are so many.
+/// Least number of rows in a block, if the study has so many.
 const SMALLEST_BLOCK: u64 = 16;
-/// Blocks that a small study has, so that there is work for every thread.
+/// Number of blocks of a small study, so that there is work for every thread.
 const BLOCKS: u64 = 256;
 
-/// What computes the results, beside the study.
+/// The program that computes the results, without the study.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Program {
     /// Digest of the model.
     pub model: String,
     /// Version of the program.
     pub version: String,
-    /// What numbers are computed with, where that may change their last digits: "f64", "f64 avx512", ….
+    /// The arithmetic, if it may change the last digits of numbers: "f64", "f64 avx512", ….
     pub arithmetic: String,
 }
 
-/// What a folder's results are of, as `study.json` says it.
+/// The identity of a folder's results, as stored in `study.json`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
     /// SHA-256, hexadecimal.
@@ -35,23 +35,23 @@ pub struct Identity {
     pub model: String,
     /// Version of the program.
     pub version: String,
-    /// What numbers are computed with.
+    /// The arithmetic.
     pub arithmetic: String,
-    /// Rows of the study.
+    /// Number of rows of the study.
     pub rows: u64,
-    /// Rows of a block.
+    /// Number of rows of a block.
     pub block: u64,
-    /// The study as checked.
+    /// The checked study.
     pub study: serde_json::Value,
 }
 
 impl Identity {
-    /// Of a study that a program runs.
+    /// The identity of a study that a program runs.
     ///
     /// # Errors
-    /// A number of the study that JSON cannot hold, which a study that was read does not have.
+    /// The study has a number that JSON cannot hold; a study that was read from a file does not have one.
     pub fn of(study: &Study, program: &Program) -> Result<Identity, serde_json::Error> {
-        // The keys of both in their order of declaration: the text is the same wherever it is written.
+        // The keys of both are in the order of declaration: the text is the same wherever it is written.
         let meaning = (part::MAGIC, response::REVISION);
         let text = serde_json::to_string(&(meaning, study, program))?;
         Ok(Identity {
@@ -66,7 +66,7 @@ impl Identity {
     }
 }
 
-/// Rows of a block: a power of two that depends on the number of rows alone.
+/// Rows of a block: a power of two that depends only on the number of rows.
 fn block(rows: u64) -> u64 {
     let wanted = rows.div_ceil(BLOCKS).next_power_of_two();
     wanted.clamp(SMALLEST_BLOCK, LARGEST_BLOCK)

@@ -1,4 +1,4 @@
-//! Where results are kept: a folder that any number of processes may fill, and that is never half right.
+//! The store of results: a folder that any number of processes may fill, and that never has partial results.
 //!
 //! ```text
 //! study.json            what the results are of

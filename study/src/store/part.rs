@@ -7,7 +7,7 @@
 //! SHA-256 of all that 32
 //! ```
 //!
-//! Numbers are little-endian; all NaN are the same.
+//! Numbers are little-endian; all NaN have the same bytes.
 
 use crate::engine::{Outcome, Outcomes, Status};
 use sha2::{Digest, Sha256};
@@ -19,17 +19,17 @@ pub const MAGIC: &str = "BRYPART2";
 const HEADER: usize = 8 + 64 + 8 + 4 + 4;
 /// Bytes of the digest.
 const DIGEST: usize = 32;
-/// Bytes of a row beside its responses: those ahead of them, and the number of its reason behind.
+/// Bytes of a row without its responses: those before them, and the number of its reason after them.
 const ROW: usize = 21;
 const REASON: usize = 2;
 
-/// Why bytes are not the block that is wanted.
+/// Why bytes are not the requested block.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PartError {
-    /// Cut off, changed, or never such a file.
+    /// The bytes are cut off, changed, or were never such a file.
     #[error("it is damaged")]
     Damaged,
-    /// Sound, but of another study or other rows.
+    /// The bytes are valid, but belong to another study or other rows.
     #[error("it holds results of something else")]
     Other,
 }
@@ -47,7 +47,7 @@ pub fn encode(identity: &str, first: u64, outcomes: &Outcomes) -> Vec<u8> {
     for response in 0..outcomes.width {
         bytes.extend((0..rows).flat_map(|row| number(outcomes.of(row)[response])));
     }
-    // in the order in which they come first
+    // in the order of their first rows
     let mut reasons: Vec<&str> = Vec::new();
     for reason in &outcomes.reasons {
         let number = reason.as_deref().map_or(0, |reason| {
@@ -57,7 +57,7 @@ pub fn encode(identity: &str, first: u64, outcomes: &Outcomes) -> Vec<u8> {
                 reasons.len() - 1
             })
         });
-        // a block has fewer rows than there are numbers
+        // a block has fewer rows than this type has numbers
         bytes.extend((number as u16).to_le_bytes());
     }
     for reason in reasons {
@@ -69,10 +69,10 @@ pub fn encode(identity: &str, first: u64, outcomes: &Outcomes) -> Vec<u8> {
     bytes
 }
 
-/// The block of these rows, if the bytes are that.
+/// The block of these rows, if the bytes contain it.
 ///
 /// # Errors
-/// They are not.
+/// The bytes do not contain it.
 pub fn decode(
     bytes: &[u8],
     identity: &str,
@@ -114,7 +114,7 @@ pub fn decode(
     Ok(outcomes)
 }
 
-/// The reason of each row, where the bytes are such.
+/// The reason of each row, if the bytes are valid.
 fn decode_reasons(bytes: &[u8], rows: usize) -> Option<Vec<Option<Arc<str>>>> {
     let (numbers, mut rest) = bytes.split_at_checked(rows * REASON)?;
     let mut reasons: Vec<Arc<str>> = Vec::new();

@@ -1,4 +1,4 @@
-//! Files that are whole or not there: written beside their place, made to last, then moved into it.
+//! Files that are complete or not there: they are written beside their place, flushed to disk, then moved to their place.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -15,7 +15,7 @@ pub struct WriteError {
 }
 
 impl WriteError {
-    /// What to do first, in the beginning of a sentence.
+    /// The first remedy, as the beginning of a sentence.
     pub fn remedy(&self) -> &'static str {
         match self.source.kind() {
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
@@ -26,13 +26,13 @@ impl WriteError {
     }
 }
 
-/// Beginning of the names of files that are being written.
+/// Prefix of the names of unfinished files.
 pub const UNFINISHED: &str = ".unfinished-";
 
-/// Replaces a file by what `content` writes; a failure, or the end of the process, leaves the old one or none.
+/// Replaces a file by the output of `content`; after a failure, or the end of the process, the old file or none remains.
 ///
 /// # Errors
-/// The directory is not there or cannot be written to, the disk is full.
+/// The directory does not exist or cannot be written to, or the disk is full.
 pub fn replace<E: From<WriteError>>(
     path: &Path,
     content: impl FnOnce(&mut (dyn Write + Send)) -> Result<(), E>,
@@ -44,7 +44,7 @@ pub fn replace<E: From<WriteError>>(
     let directory = path.parent().unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(UNFINISHED);
-    // Readable as any file that a program creates, not only by its owner.
+    // The file is readable like any file that a program creates, not only by its owner.
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -60,7 +60,7 @@ pub fn replace<E: From<WriteError>>(
     temporary
         .persist(path)
         .map_err(|error| failed(error.error))?;
-    // The new name, too, must outlast a loss of power; where directories cannot be opened, the system sees to it.
+    // The new name, too, must survive a loss of power; if directories cannot be opened, the system ensures this.
     if cfg!(unix) {
         File::open(directory)
             .and_then(|d| d.sync_all())
@@ -69,7 +69,7 @@ pub fn replace<E: From<WriteError>>(
     Ok(())
 }
 
-/// Turns an error of writing `path` into one that names it.
+/// Adds the path to an error of writing.
 pub fn at<T>(path: &Path, result: io::Result<T>) -> Result<T, WriteError> {
     result.map_err(|source| WriteError {
         path: path.to_owned(),

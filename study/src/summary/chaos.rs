@@ -1,13 +1,13 @@
-//! Indices from a polynomial through the runs (polynomial chaos): y = Σ c_α ψ_α, with ψ orthonormal under the distribution of the
-//! parameters, has the variance Σ_{α ≠ 0} c_α², and each term its own parameters \[B. Sudret, Reliab. Eng. Syst. Saf. 93, 964
+//! Sobol' indices from a polynomial that is fitted to the runs (polynomial chaos): y = Σ c_α ψ_α, with ψ orthonormal under the distribution
+//! of the parameters, has the variance Σ_{α ≠ 0} c_α². Each term depends on its own parameters \[B. Sudret, Reliab. Eng. Syst. Saf. 93, 964
 //! (2008)\].
 //!
-//! ψ are products of functions of one parameter each (`family`); c are least squares; the total degree is the one that predicts
-//! best the runs left out of the fit, one at a time, whose errors are r_i/(1 − h_i) with h the diagonal of the projection.
-//! Intervals come from leaving out one of 32 parts of the runs (jackknife).
+//! The ψ are products of functions of one parameter each (`family`), and the c follow from least squares. The total degree is the one that
+//! predicts best the runs that are left out of the fit, one at a time; their errors are r_i/(1 − h_i) with h the diagonal of the
+//! projection. Intervals follow from leaving out one of 32 parts of the runs (jackknife).
 //!
-//! Values that come seldom, and combinations of them, may leave a term no runs that tell it from others, or a single one, which
-//! would be predicted from itself: such a term is left out.
+//! If some values, or combinations of values, are rare, a term may have no run that distinguishes it from other terms, or only one run,
+//! which would be predicted from itself. Such a term is left out.
 
 use super::family::{Family, HIGHEST};
 use super::index::{Estimate, Indices, Method, Sensitivity};
@@ -15,20 +15,20 @@ use super::sample::Sample;
 use crate::design::permutation::Permutation;
 use nalgebra::{DMatrix, DVector};
 
-/// Terms of a polynomial at most.
+/// Largest number of terms of a polynomial.
 const MOST_TERMS: usize = 300;
-/// Parts of the runs, of which one is left out.
+/// Number of parts of the runs, of which one is left out.
 const PARTS: usize = 32;
-/// Stream that puts runs into parts.
+/// Stream of random numbers that assigns runs to parts.
 const PARTING: u64 = 13 << 32;
-/// Part of its norm that a term must keep beside earlier ones, squared: roundings of sums over the runs are less.
+/// Least share of its squared norm that a term must keep after projection on earlier terms; rounding of sums over the runs is smaller.
 const INDEPENDENT: f64 = 1e-10;
-/// 1 − h of a run that is predicted from itself alone, but for roundings.
+/// 1 − h of a run that is predicted from itself only, up to rounding.
 const ALONE: f64 = 1e-8;
-/// Half of a normal interval of 95 %, in deviations.
+/// Half of a normal interval of 95 %, in standard deviations.
 const WIDTH: f64 = 1.959_963_984_540_054;
 
-/// Indices of a response; `None` where it does not vary, or where there are too few runs for a polynomial.
+/// Indices of a response; `None` if it does not vary, or if there are too few runs for a polynomial.
 pub fn indices(sample: &Sample, response: usize) -> Option<Sensitivity> {
     let d = sample.families.len();
     let width = sample.responses.len() / sample.count.max(1);
@@ -43,7 +43,7 @@ pub fn indices(sample: &Sample, response: usize) -> Option<Sensitivity> {
     let mean = values.mean();
     let values = values.add_scalar(-mean);
     let variance = values.norm_squared() / n as f64;
-    // what rounding alone leaves of a constant
+    // a constant varies by rounding only
     if variance <= (1e-14 * mean).powi(2) {
         return None;
     }
@@ -98,14 +98,14 @@ pub fn indices(sample: &Sample, response: usize) -> Option<Sensitivity> {
 
 /// Products of polynomials, by their total degree.
 struct Basis {
-    /// Per term, the degree in each parameter.
+    /// For each term, the degree in each parameter.
     terms: Vec<Vec<usize>>,
-    /// Terms up to each total degree.
+    /// Number of terms up to each total degree.
     ends: Vec<usize>,
 }
 
 impl Basis {
-    /// All degrees whose terms together are at most so many; `None` where that is not even the first. Caps are the highest
+    /// All total degrees whose terms together are at most `most`; `None` if the first degree already has more. `caps` are the highest
     /// degrees of each parameter alone.
     fn new(caps: &[usize], most: usize) -> Option<Basis> {
         let mut basis = Basis {
@@ -120,7 +120,7 @@ impl Basis {
             };
             let mut next = Vec::new();
             for term in &basis.terms[begin..] {
-                // each term once: a higher degree in its last parameter or in a later one
+                // each term comes once: it raises the degree of its last parameter or of a later one
                 let last = term.iter().rposition(|k| *k > 0).unwrap_or(0);
                 for parameter in (last..caps.len()).filter(|p| term[*p] < caps[*p]) {
                     let mut term = term.clone();
@@ -131,7 +131,7 @@ impl Basis {
                     return (degree > 1).then_some(basis);
                 }
             }
-            // all functions of the parameters are there
+            // all functions of the parameters are used
             if next.is_empty() {
                 return (degree > 1).then_some(basis);
             }
@@ -141,7 +141,7 @@ impl Basis {
         Some(basis)
     }
 
-    /// Without some terms, which ascend.
+    /// Removes some terms, given in increasing order.
     fn remove(&mut self, lost: &[usize]) {
         let before = |end: &usize| lost.partition_point(|term| term < end);
         self.ends = self.ends.iter().map(|end| end - before(end)).collect();
@@ -150,7 +150,7 @@ impl Basis {
         }
     }
 
-    /// Highest degree that a term has.
+    /// Highest degree of a term.
     fn highest(&self) -> usize {
         self.ends.len() - 1
     }
@@ -169,7 +169,7 @@ impl Basis {
         }
     }
 
-    /// The degree with the least error of runs left out, and the mean square of that.
+    /// The degree with the least error of runs left out, and the mean square of this error.
     fn best(&self, fit: &Fit, q: &DMatrix<f64>, values: &DVector<f64>) -> Option<(usize, f64)> {
         let n = values.len();
         let (mut residual, mut leverage) = (values.clone(), vec![0.0; n]);
@@ -192,7 +192,7 @@ impl Basis {
         best
     }
 
-    /// Main and total share of the variance of a polynomial, per parameter.
+    /// Main and total share of the variance of a polynomial, for each parameter.
     fn shares(&self, coefficients: &DVector<f64>) -> Option<Vec<[f64; 2]>> {
         let mut shares = vec![[0.0; 2]; self.terms[0].len()];
         let mut variance = 0.0;
@@ -212,22 +212,22 @@ impl Basis {
     }
 }
 
-/// Least squares by normal equations; the terms are orthonormal on average, so these are well conditioned.
+/// Least squares by normal equations, which are well conditioned because the terms are orthonormal on average.
 struct Fit {
-    /// L of Ψ Ψᵀ = L Lᵀ; infinite on the diagonal for a term that earlier ones have all of, whose coefficient thus is 0.
+    /// L of Ψ Ψᵀ = L Lᵀ; infinite on the diagonal for a term that depends linearly on earlier ones, whose coefficient is then 0.
     lower: DMatrix<f64>,
     /// L⁻¹ Ψ y
     projected: DVector<f64>,
 }
 
 impl Fit {
-    /// Of all terms.
+    /// The fit with all terms.
     fn new(matrix: &DMatrix<f64>, values: &DVector<f64>) -> Option<Fit> {
         Fit::solved(matrix * matrix.transpose(), matrix * values)
     }
 
     fn solved(gram: DMatrix<f64>, right: DVector<f64>) -> Option<Fit> {
-        // the constant term: as many as there are runs, which is what the others have on average
+        // the entry of the constant term is the number of runs, which is the average for all others
         let least = INDEPENDENT * gram[(0, 0)];
         let terms = gram.nrows();
         let mut lower = gram;
@@ -254,7 +254,7 @@ impl Fit {
         Some(Fit { lower, projected })
     }
 
-    /// Terms that earlier ones have all of, and those with which a run is predicted from itself alone.
+    /// Terms that depend linearly on earlier ones, and terms with which a run is predicted from itself only.
     fn lost(&self, q: &DMatrix<f64>) -> Vec<usize> {
         let mut leverage = vec![0.0; q.ncols()];
         let mut lost = Vec::new();
@@ -270,7 +270,7 @@ impl Fit {
         lost
     }
 
-    /// Coefficients of the first terms alone: Lᵀ c = L⁻¹ Ψ y, of the leading blocks.
+    /// Coefficients of only the first terms: Lᵀ c = L⁻¹ Ψ y for the leading blocks.
     fn coefficients(&self, terms: usize) -> Option<DVector<f64>> {
         let leading = self.lower.view((0, 0), (terms, terms));
         leading.tr_solve_lower_triangular(&self.projected.rows(0, terms))
@@ -286,7 +286,7 @@ fn jackknife(
     shares: &[[f64; 2]],
 ) -> Option<Vec<[f64; 2]>> {
     let n = values.len();
-    // in turn, so that parts have the same size, but not by neighbours, which designs tie together
+    // parts have the same size, but no neighbours, because designs relate neighbours to each other
     let order = Permutation::new(n as u64, 0, PARTING);
     let mut parts: Vec<Vec<usize>> = vec![Vec::new(); PARTS];
     for row in 0..n {
@@ -324,7 +324,7 @@ mod tests {
 
     #[test]
     fn terms_are_counted_by_binomials() {
-        // C(d + p, p) terms up to degree p
+        // there are C(d + p, p) terms up to degree p
         let basis = Basis::new(&[HIGHEST; 3], 60).unwrap();
         assert_eq!(basis.ends, [1, 4, 10, 20, 35, 56]);
         let mut terms = basis.terms.clone();
@@ -336,7 +336,7 @@ mod tests {
 
     #[test]
     fn no_parameter_has_more_terms_than_functions() {
-        // levels 3, 1 and 2: (1, a, a²) × (1, c)
+        // 3, 1 and 2 levels: (1, a, a²) × (1, c)
         let mut basis = Basis::new(&[2, 0, 1], 300).unwrap();
         assert_eq!(basis.ends, [1, 3, 5, 6]);
         assert!(

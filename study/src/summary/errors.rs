@@ -1,29 +1,29 @@
-//! How accurate the rows are, by their own estimates.
+//! The accuracy of the rows, by their own estimates.
 
 use super::sample::{is_in, quantile};
 use crate::study::Study;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// Numbers of which the median is taken, at most.
+/// The median is taken of at most this many numbers.
 const MOST: u64 = 100_000;
 
-/// Estimated relative errors of the rows that are done, see docs/studies.md.
+/// Estimated relative errors of the finished rows, see docs/studies.md.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Errors {
-    /// The accuracy that was asked for; `None` of fixed steps.
+    /// The requested accuracy; `None` for fixed steps.
     pub asked: Option<f64>,
-    /// Rows that have an estimate.
+    /// Number of rows with an estimate.
     pub known: u64,
-    /// Rows that are done and have none.
+    /// Number of finished rows without an estimate.
     pub unknown: u64,
-    /// Median, NaN of none.
+    /// Median, NaN if there are no estimates.
     pub median: f64,
-    /// The largest, NaN of none.
+    /// Largest estimate, NaN if there are none.
     pub largest: f64,
-    /// Run of the largest, counted from 0.
+    /// The run with the largest estimate, counted from 0.
     pub largest_run: u64,
-    /// Rows whose estimate is above what was asked for.
+    /// Number of rows whose estimate is above the requested accuracy.
     pub above: u64,
     #[serde(skip)]
     sample: Vec<f64>,
@@ -32,7 +32,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Of no row yet.
+    /// No rows yet.
     pub fn new(study: &Study) -> Errors {
         Errors {
             asked: match study.run.step {
@@ -50,7 +50,7 @@ impl Errors {
         }
     }
 
-    /// One more row that is done; `error` is NaN where it is not known.
+    /// Adds a finished row; `error` is NaN if it is not known.
     pub fn add(&mut self, row: u64, error: f64) {
         if error.is_nan() {
             self.unknown += 1;
@@ -66,14 +66,14 @@ impl Errors {
         }
     }
 
-    /// With the median, after the last row.
+    /// Computes the median after the last row.
     pub fn finish(mut self) -> Errors {
         self.sample.sort_unstable_by(f64::total_cmp);
         self.median = quantile(&std::mem::take(&mut self.sample), 0.5);
         self
     }
 
-    /// As a person reads it: a line; nothing where no row is done.
+    /// A line for people; empty if no row is finished.
     pub fn text(&self) -> String {
         let mut text = String::new();
         match (self.known, self.unknown) {
@@ -83,7 +83,7 @@ impl Errors {
         }
         let _ = write!(
             text,
-            "estimated error: {} in the middle, {} at most (run {})",
+            "estimated error: median {}, largest {} (run {})",
             percent(self.median),
             percent(self.largest),
             self.largest_run
@@ -110,7 +110,7 @@ impl Errors {
     }
 }
 
-/// Two digits of a relative error, in percent.
+/// A relative error in percent with two digits.
 fn percent(error: f64) -> String {
     let percent = 100.0 * error;
     if percent != 0.0 && !(1e-4..1e4).contains(&percent) {
@@ -155,12 +155,12 @@ mod tests {
         );
         assert_eq!(
             errors(Some(1e-3), &[1e-4, 5e-3, nan, 2e-4]).text(),
-            "estimated error: 0.020 % in the middle, 0.50 % at most (run 1); 1 run is above the 0.10 % that was asked for; \
+            "estimated error: median 0.020 %, largest 0.50 % (run 1); 1 run is above the 0.10 % that was asked for; \
              not known of 1 run\n"
         );
         assert_eq!(
             errors(None, &[0.0, 1e-9, 3.0]).text(),
-            "estimated error: 1.0e-7 % in the middle, 300 % at most (run 2)\n"
+            "estimated error: median 1.0e-7 %, largest 300 % (run 2)\n"
         );
     }
 }

@@ -1,25 +1,25 @@
-//! Functions of one parameter, orthonormal under its distribution: Legendre's polynomials in u = F(x); Hermite's in Φ⁻¹(u) where x
-//! is normal or lognormal; of a parameter with values of its own, polynomials in these under their weights, of which k values
-//! have k − 1 beside the constant: together, any function of it.
+//! Functions of one parameter that are orthonormal under its distribution: Legendre polynomials in u = F(x); Hermite polynomials in Φ⁻¹(u)
+//! if x is normal or lognormal; for a parameter with k discrete values, polynomials under their weights. Besides the constant there are k −
+//! 1 of these, which together represent any function of the parameter.
 
 use crate::distribution::{Distribution, level};
 use crate::normal;
 
-/// Degree at most; numbers of Hermite's polynomials grow fast.
+/// Largest degree; the numbers of Hermite polynomials grow fast.
 pub const HIGHEST: usize = 12;
-/// Part of a product that must be left of it beside lower degrees: half of the digits of a double.
+/// Least share of a product that must remain after projection on lower degrees: half of the digits of a double.
 const LEFT: f64 = 1e-8;
 
 /// Orthonormal functions of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Family {
-    /// Of u.
+    /// Legendre polynomials of u.
     Legendre,
-    /// Of Φ⁻¹(u).
+    /// Hermite polynomials of Φ⁻¹(u).
     Hermite,
-    /// Of the values alone.
+    /// Functions of discrete values.
     Levels {
-        /// Weights of the values, as they are written.
+        /// Weights of the values, in their given order.
         weights: Vec<f64>,
         /// The functions at these values.
         functions: Vec<Vec<f64>>,
@@ -27,7 +27,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// What fits a distribution.
+    /// The family that fits a distribution.
     pub fn of(distribution: &Distribution) -> Family {
         match distribution {
             Distribution::Uniform { .. } | Distribution::Triangular { .. } => Family::Legendre,
@@ -39,7 +39,7 @@ impl Family {
         }
     }
 
-    /// Highest degree that there is.
+    /// Highest degree of the family.
     pub fn highest(&self) -> usize {
         match self {
             Family::Legendre | Family::Hermite => HIGHEST,
@@ -47,7 +47,7 @@ impl Family {
         }
     }
 
-    /// The functions at u of (0, 1), up to a degree or to the highest that there is.
+    /// The functions at u in (0, 1), up to a degree or to the highest one.
     pub fn evaluate(&self, u: f64, highest: usize) -> Vec<f64> {
         match self {
             Family::Legendre => legendre(2.0 * u - 1.0, highest),
@@ -82,9 +82,9 @@ fn hermite(x: f64, highest: usize) -> Vec<f64> {
     values
 }
 
-/// The functions at each value as written, by Stieltjes' procedure, orthogonal to all lower ones twice over. Where the next power
-/// of the value is lost in roundings, because some values lie too close for their range, it is the value that the lower ones tell
-/// worst from the others.
+/// The functions at each given value, by Stieltjes' procedure; each is made orthogonal to all lower ones twice. If the next power of the
+/// value is lost in rounding, because some values are too close for their range, the next function is instead the indicator of the value
+/// that the lower functions separate worst from the others.
 fn functions(values: &[f64], weights: &[f64]) -> Vec<Vec<f64>> {
     let mut levels: Vec<(f64, f64)> = Vec::new();
     let mut order: Vec<usize> = (0..values.len()).filter(|k| weights[*k] > 0.0).collect();
@@ -100,11 +100,11 @@ fn functions(values: &[f64], weights: &[f64]) -> Vec<Vec<f64>> {
     let (Some((low, _)), Some((high, _))) = (levels.first(), levels.last()) else {
         return vec![vec![1.0]; values.len()];
     };
-    // by halves, whose difference does not overflow
+    // computed with halves, whose difference does not overflow
     let x = |value: f64| (0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low);
     let sum: f64 = levels.iter().map(|(_, weight)| weight).sum();
     let roots: Vec<f64> = levels.iter().map(|(_, w)| (w / sum).sqrt()).collect();
-    // functions times the roots of the weights are orthonormal vectors
+    // functions times the square roots of the weights are orthonormal vectors
     let mut vectors = vec![roots.clone()];
     for degree in 1..levels.len().min(HIGHEST + 1) {
         let mut next: Vec<f64> = levels
@@ -114,7 +114,7 @@ fn functions(values: &[f64], weights: &[f64]) -> Vec<Vec<f64>> {
             .collect();
         let size = norm(&next);
         let left = rest(&mut next, &vectors);
-        // false of NaN, too, of values that differ by less than they can be halved
+        // also false for NaN, and for values that are too close to be halved
         let told = left > LEFT * size;
         if !told {
             let known = |l: usize| vectors.iter().map(|v| v[l] * v[l]).sum::<f64>();
@@ -129,7 +129,7 @@ fn functions(values: &[f64], weights: &[f64]) -> Vec<Vec<f64>> {
     }
     let at = |level: &Option<usize>| match level {
         Some(l) => vectors.iter().map(|v| v[*l] / roots[*l]).collect(),
-        // comes with the probability 0
+        // has the probability 0
         None => (0..vectors.len()).map(|k| f64::from(k == 0)).collect(),
     };
     level_of.iter().map(at).collect()
@@ -139,7 +139,7 @@ fn norm(vector: &[f64]) -> f64 {
     vector.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
-/// Makes a vector orthogonal to others, which are orthonormal; and the norm of what that leaves at first.
+/// Makes a vector orthogonal to other vectors, which are orthonormal; returns the norm after the first projection.
 fn rest(vector: &mut [f64], others: &[Vec<f64>]) -> f64 {
     let mut left = f64::NAN;
     for _ in 0..2 {
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn polynomials_are_orthonormal() {
-        // the midpoint rule over u; of Hermite's, tails beyond u = 1/2n are left out
+        // the midpoint rule over u; it neglects tails of Hermite polynomials beyond u = 1/2n
         let n = 1_000_000;
         for (family, tolerance) in [(Family::Legendre, 1e-9), (Family::Hermite, 2e-3)] {
             let mut products = [[0.0; 5]; 5];
@@ -175,7 +175,7 @@ mod tests {
             }
             for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
                 let expected = f64::from(u8::from(i == j));
-                // higher degrees live further out in the tails
+                // higher degrees extend further into the tails
                 let allowed = tolerance * 8f64.powi(i.max(j) as i32 - 1).max(1.0);
                 assert!(
                     (products[i][j] - expected).abs() < allowed,
@@ -186,7 +186,7 @@ mod tests {
         }
     }
 
-    /// Values and weights, and how many levels these are.
+    /// Values and weights, and the number of distinct levels.
     fn cases() -> Vec<(Vec<f64>, Vec<f64>, usize)> {
         vec![
             (vec![1.0, 2.0, 3.0], vec![1.0 / 3.0; 3], 3),
@@ -220,7 +220,7 @@ mod tests {
                     .zip(&weights)
                     .map(|(f, w)| w * f[i] * f[j])
                     .sum();
-                // sums of 40 terms of at most 1, orthogonal twice over to 12 others
+                // sums of 40 terms of at most 1, made orthogonal twice to 12 others
                 let allowed = 40.0 * 13.0 * f64::EPSILON;
                 let expected = f64::from(u8::from(i == j));
                 assert!(

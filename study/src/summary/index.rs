@@ -1,36 +1,35 @@
-//! Sobol' indices: the shares of a response's variance that come from a parameter alone (main), and from it and all that it takes
-//! part in (total) \[I. M. Sobol', 1993\].
+//! Sobol' indices: the shares of a response's variance that come from a parameter alone (main), and from this parameter with all its
+//! interactions (total) \[I. M. Sobol', 1993\].
 
 use serde::Serialize;
 
-/// Which parameters the variance of a response comes from.
+/// The parameters that the variance of a response comes from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sensitivity {
-    /// How that is known.
+    /// The method of estimation.
     pub method: Method,
-    /// One per parameter varied.
+    /// One entry for each varied parameter.
     pub parameters: Vec<Indices>,
 }
 
-/// How indices are known.
+/// The method of estimation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
     /// From the groups of a Saltelli design.
     Groups {
-        /// Groups that were complete.
+        /// Number of complete groups.
         groups: u64,
     },
     /// From a polynomial through a sample of the runs.
     Polynomial {
-        /// Its total degree.
+        /// Total degree.
         degree: usize,
-        /// Its terms.
+        /// Number of terms.
         terms: usize,
-        /// Runs it was fitted to.
+        /// Number of runs that it was fitted to.
         runs: usize,
-        /// Share of the variance of runs that were left out of the fit, one at a time, that it explains. Indices say nothing
-        /// about the rest.
+        /// Share of the variance that it explains in runs that were left out of the fit, one at a time. Indices say nothing about the rest.
         explained: f64,
     },
 }
@@ -38,13 +37,13 @@ pub enum Method {
 /// Indices of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Indices {
-    /// By itself.
+    /// Share of the parameter alone.
     pub main: Estimate,
-    /// With all that it takes part in.
+    /// Share of the parameter with all its interactions.
     pub total: Estimate,
 }
 
-/// A number and the interval that it lies in with 95 % confidence.
+/// A number and its interval of 95 % confidence.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// The estimate.

@@ -1,7 +1,7 @@
-//! What the results say: numbers about each response, and which parameters it depends on.
+//! The summary of the results: numbers about each response, and the parameters that it depends on.
 //!
-//! All is made in one pass over the blocks, in their order, and is the same whoever runs it. What needs values side by side
-//! (quantiles, polynomials, pictures) takes a sample of rows, drawn by a hash of their index, where there are too many.
+//! The summary takes one pass over the blocks in their order, and is the same whoever makes it. Quantiles, polynomials and pictures need
+//! many values at once; if there are too many rows, they use a sample of rows that is drawn by a hash of the index.
 
 pub mod chaos;
 pub mod errors;
@@ -22,62 +22,63 @@ use sample::Sample;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What a study's results say.
+/// The summary of a study's results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// What the results are of.
+    /// The identity of the results.
     pub identity: String,
-    /// Runs.
+    /// Number of runs.
     pub runs: u64,
-    /// How many ended how, of those that came.
+    /// Number of runs for each end that occurred.
     pub ends: Vec<(&'static str, u64)>,
-    /// Why runs have no result, or none to be trusted, and how many each; those whose end says all are not among them.
+    /// The reasons why runs have no result or cannot be trusted, with their numbers of runs; runs whose end says everything are not
+    /// included.
     pub reasons: Vec<(String, u64)>,
     /// The first runs whose computation took too long.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub slow: Vec<u64>,
-    /// How accurate the rows are that are done.
+    /// The accuracy of the finished rows.
     pub errors: Errors,
-    /// One per response.
+    /// One entry for each response.
     pub responses: Vec<About>,
 }
 
-/// What is said of a response. What is not defined is NaN, null in JSON.
+/// Numbers about a response. An undefined number is NaN, and null in JSON.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct About {
     /// Its name.
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
-    /// Runs that have it.
+    /// Number of runs that have it.
     pub count: u64,
-    /// Runs that do not.
+    /// Number of runs without it.
     pub missing: u64,
     /// Mean.
     pub mean: f64,
-    /// Standard deviation, of a sample.
+    /// Standard deviation of the sample.
     pub deviation: f64,
     /// Least value.
     pub minimum: f64,
     /// Largest value.
     pub maximum: f64,
-    /// Values below which lie 5, 50 and 95 % of the runs.
+    /// Values with 5, 50 and 95 % of the runs below them.
     pub quantiles: [f64; 3],
-    /// Runs that the quantiles are of: all, or a sample.
+    /// Number of runs used for the quantiles: all, or a sample.
     pub quantiles_of: usize,
     /// Correlation with each parameter.
     pub correlations: Vec<f64>,
-    /// Which parameters its variance comes from; `None` where the design does not tell or the response does not vary.
+    /// The parameters that its variance comes from; `None` if the design does not allow this, or the response does not vary.
     pub sensitivity: Option<Sensitivity>,
 }
 
 /// Shares of runs below the quantiles.
 pub const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 
-/// Runs that are named where all of a kind are counted.
+/// Number of runs that are named if all runs of a kind are counted.
 const NAMED: usize = 5;
 
-/// Summarises results. The sample is what pictures are drawn of.
+/// Summarises results. Pictures are drawn from the sample.
 ///
 /// # Errors
 /// A block cannot be read.

@@ -1,15 +1,15 @@
-//! Mean, variance and correlation of numbers that come one by one \[B. P. Welford, Technometrics 4, 419 (1962)\].
+//! Mean, variance and correlation of a stream of numbers \[B. P. Welford, Technometrics 4, 419 (1962)\].
 
 /// Count, mean, variance and ends of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments {
-    /// Numbers so far.
+    /// Number of values so far.
     pub count: u64,
     mean: f64,
     squares: f64,
-    /// Least, NaN of none.
+    /// Least value, NaN if there are none.
     pub minimum: f64,
-    /// Largest, NaN of none.
+    /// Largest value, NaN if there are none.
     pub maximum: f64,
 }
 
@@ -26,23 +26,23 @@ impl Default for Moments {
 }
 
 impl Moments {
-    /// One more, finite.
+    /// Adds a finite value.
     pub fn add(&mut self, value: f64) {
         self.count += 1;
         let difference = value - self.mean;
         self.mean += difference / self.count as f64;
         self.squares += difference * (value - self.mean);
-        // NaN gives way to a number
+        // a NaN is replaced by a number
         self.minimum = self.minimum.min(value);
         self.maximum = self.maximum.max(value);
     }
 
-    /// The mean, NaN of none.
+    /// The mean, NaN if there are no values.
     pub fn mean(&self) -> f64 {
         if self.count == 0 { f64::NAN } else { self.mean }
     }
 
-    /// The standard deviation of a sample, NaN of fewer than two.
+    /// The standard deviation of the sample, NaN for fewer than two values.
     pub fn deviation(&self) -> f64 {
         if self.count < 2 {
             return f64::NAN;
@@ -61,7 +61,7 @@ pub struct Correlation {
 }
 
 impl Correlation {
-    /// One more pair, finite.
+    /// Adds a pair of finite values.
     pub fn add(&mut self, x: f64, y: f64) {
         self.count += 1.0;
         let before = [x - self.means[0], y - self.means[1]];
@@ -73,7 +73,7 @@ impl Correlation {
         self.product += before[0] * after[1];
     }
 
-    /// From −1 to 1; NaN where one of them does not vary.
+    /// From −1 to 1; NaN if one of the columns does not vary.
     pub fn value(&self) -> f64 {
         let scale = self.squares[0].sqrt() * self.squares[1].sqrt();
         if scale > 0.0 {

@@ -1,23 +1,23 @@
-//! Indices from groups f(A), f(B), f(AB₁) … f(AB_d):
+//! Sobol' indices from groups f(A), f(B), f(AB₁) … f(AB_d):
 //!
 //! ```text
 //! main_i  = Σ f(B) (f(AB_i) − f(A)) / N V       [A. Saltelli et al., Comput. Phys. Commun. 181, 259 (2010)]
 //! total_i = Σ (f(A) − f(AB_i))² / 2 N V         [M. J. W. Jansen, Comput. Phys. Commun. 117, 35 (1999)]
 //! ```
 //!
-//! with V the variance of all f(A) and f(B), and f counted from its mean, which does not change the sums on average but makes
-//! them vary less. Sums are kept for batches of groups; intervals come from batches drawn with replacement (bootstrap).
+//! V is the variance of all f(A) and f(B). The mean is subtracted from f, which does not change the sums on average but makes them scatter
+//! less. Sums are kept for batches of groups; intervals follow from batches drawn with replacement (bootstrap).
 
 use super::index::{Estimate, Indices, Method, Sensitivity};
 use super::sample::quantile;
 use crate::hash;
 use crate::study::Study;
 
-/// Batches at most.
+/// Largest number of batches.
 const BATCHES: u64 = 256;
-/// Times that batches are drawn.
+/// Number of times that batches are drawn.
 const DRAWS: u64 = 1000;
-/// Stream of the draws.
+/// Stream of random numbers for the draws.
 const DRAWING: u64 = 11 << 32;
 
 /// Sums over the groups of a study, for every response.
@@ -27,15 +27,15 @@ pub struct Groups {
     width: usize,
     groups: u64,
     next: u64,
-    /// Responses of the rows of the group that is being read.
+    /// Responses of the rows of the current group.
     open: Vec<f64>,
-    /// Per response: what is subtracted from all values, the first one, so that no digits are lost.
+    /// For each response the number that is subtracted from all its values, so that no digits are lost: the first value.
     shifts: Vec<f64>,
-    /// Per response, per batch.
+    /// For each response and each batch.
     sums: Vec<Vec<Sums>>,
 }
 
-/// Sums over a batch of groups; f is counted from the shift.
+/// Sums over a batch of groups; the shift is subtracted from f.
 #[derive(Clone, Debug, PartialEq)]
 struct Sums {
     count: f64,
@@ -43,7 +43,7 @@ struct Sums {
     values: f64,
     /// f(A)² + f(B)²
     squares: f64,
-    /// Per parameter: f(B) (f(AB) − f(A)), f(AB) − f(A), (f(A) − f(AB))²
+    /// For each parameter: f(B) (f(AB) − f(A)), f(AB) − f(A), (f(A) − f(AB))²
     parameters: Vec<[f64; 3]>,
 }
 
@@ -68,11 +68,11 @@ impl Sums {
         }
     }
 
-    /// Main and total index of each parameter; `None` where nothing varies.
+    /// Main and total index of each parameter; `None` if nothing varies.
     fn indices(&self) -> Option<Vec<[f64; 2]>> {
         let mean = self.values / (2.0 * self.count);
         let variance = self.squares / (2.0 * self.count) - mean * mean;
-        // what rounding alone leaves of a constant
+        // a constant varies by rounding only
         let rounding = 1e-14 * self.squares / (2.0 * self.count);
         let varies = self.count >= 2.0 && variance > rounding;
         let scale = self.count * variance;
@@ -87,7 +87,7 @@ impl Sums {
 }
 
 impl Groups {
-    /// Of no group yet.
+    /// No groups yet.
     pub fn new(study: &Study) -> Groups {
         let (parameters, width) = (study.varied.len(), study.responses.len());
         let groups = study.rows / (parameters as u64 + 2);
@@ -103,7 +103,7 @@ impl Groups {
         }
     }
 
-    /// Responses of the next row.
+    /// Adds the responses of the next row.
     pub fn add(&mut self, responses: &[f64]) {
         self.open.extend_from_slice(responses);
         if self.open.len() < self.width * (self.parameters + 2) {
@@ -112,7 +112,7 @@ impl Groups {
         let open = std::mem::take(&mut self.open);
         for response in 0..self.width {
             let value = |row: usize| open[row * self.width + response];
-            // a group that has lost one of its runs says nothing
+            // a group in which a run failed says nothing
             if !(0..self.parameters + 2).all(|row| value(row).is_finite()) {
                 continue;
             }
@@ -139,7 +139,7 @@ impl Groups {
         self.next += 1;
     }
 
-    /// Indices of a response; `None` where it does not vary.
+    /// Indices of a response; `None` if it does not vary.
     pub fn indices(&self, response: usize) -> Option<Sensitivity> {
         let batches = &self.sums[response];
         let sum = |chosen: &mut dyn Iterator<Item = usize>| {

@@ -1,4 +1,4 @@
-//! Samples of rows, where all of them would not fit: a row is in if a hash of its index says so.
+//! Samples of rows, if there are too many rows: a hash of its index decides whether a row is in the sample.
 
 use super::family::Family;
 use crate::design::Sampler;
@@ -6,23 +6,23 @@ use crate::distribution::Distribution;
 use crate::hash;
 use crate::study::{Plan, Study};
 
-/// Rows that polynomials are fitted to and pictures drawn of.
+/// Number of rows for fits of polynomials and for pictures.
 const MOST_ROWS: u64 = 8192;
-/// Numbers that are sorted for quantiles, of all responses together.
+/// Number of values that are sorted for quantiles, for all responses together.
 const MOST_NUMBERS: u64 = 4_000_000;
 /// Stream of the hash.
 const THINNING: u64 = 9 << 32;
 
-/// Whether a row is among about `most` of all.
+/// Whether a row belongs to a sample of about `most` rows.
 pub fn is_in(row: u64, rows: u64, most: u64) -> bool {
     rows <= most || hash::uniform(0, THINNING, row) * (rows as f64) < most as f64
 }
 
-/// Some rows with all that is known of them.
+/// Some rows with all their data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     rows: u64,
-    /// Functions of each parameter that polynomials are made of; empty for designs that are not random.
+    /// Functions of each parameter for polynomials; empty for designs that are not random.
     pub families: Vec<Family>,
     /// Points of the unit cube, row-major; empty for designs that are not random.
     pub points: Vec<f64>,
@@ -30,12 +30,12 @@ pub struct Sample {
     pub values: Vec<f64>,
     /// Responses, row-major.
     pub responses: Vec<f64>,
-    /// Rows in it.
+    /// Number of rows in the sample.
     pub count: usize,
 }
 
 impl Sample {
-    /// Of no row yet.
+    /// No rows yet.
     pub fn new(study: &Study) -> Sample {
         let distributions: &[Distribution] = match &study.plan {
             Plan::Random { distributions, .. } => distributions,
@@ -51,7 +51,7 @@ impl Sample {
         }
     }
 
-    /// One more row of the study, taken or not.
+    /// Adds the next row of the study, if it belongs to the sample.
     pub fn add(&mut self, sampler: &Sampler<'_>, row: u64, values: &[f64], responses: &[f64]) {
         if !is_in(row, self.rows, MOST_ROWS) {
             return;
@@ -67,7 +67,7 @@ impl Sample {
     }
 }
 
-/// Numbers of every response, for their quantiles.
+/// The values of every response, for their quantiles.
 #[derive(Clone, Debug)]
 pub struct Ranks {
     rows: u64,
@@ -76,7 +76,7 @@ pub struct Ranks {
 }
 
 impl Ranks {
-    /// Of no row yet.
+    /// No rows yet.
     pub fn new(study: &Study) -> Ranks {
         let width = study.responses.len();
         Ranks {
@@ -86,7 +86,7 @@ impl Ranks {
         }
     }
 
-    /// One more row.
+    /// Adds a row.
     pub fn add(&mut self, row: u64, responses: &[f64]) {
         if is_in(row, self.rows, self.most) {
             for (column, y) in self.columns.iter_mut().zip(responses) {
@@ -95,7 +95,7 @@ impl Ranks {
         }
     }
 
-    /// Values below which lie these shares, interpolated between neighbours; and of how many numbers.
+    /// Values with these shares of all values below them, interpolated between neighbours; and the number of values used.
     pub fn quantiles<const N: usize>(
         &self,
         response: usize,
@@ -107,7 +107,7 @@ impl Ranks {
     }
 }
 
-/// Of sorted numbers; NaN of none.
+/// The quantile of sorted numbers; NaN if there are none.
 pub fn quantile(sorted: &[f64], share: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else {
         return f64::NAN;
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn samples_have_about_as_many_rows_as_wanted() {
-        // binomial: deviation below √most
+        // binomial: the standard deviation is below √most
         let (rows, most) = (1_000_000, 10_000);
         let found = (0..rows).filter(|row| is_in(*row, rows, most)).count() as f64;
         assert!(

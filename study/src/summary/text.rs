@@ -1,4 +1,4 @@
-//! The summary as a person reads it.
+//! The summary as text for people.
 
 use super::Summary;
 use super::index::{Estimate, Method, Sensitivity};
@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 /// Significant digits of numbers.
 const DIGITS: usize = 4;
 
-/// Tables of all responses; `parameters` are the names of those varied.
+/// Tables of all responses; `parameters` are the names of the varied parameters.
 pub fn text(summary: &Summary, parameters: &[String]) -> String {
     let mut text = format!("{} runs", summary.runs);
     let ends: Vec<String> = summary
@@ -100,7 +100,7 @@ pub fn text(summary: &Summary, parameters: &[String]) -> String {
     text
 }
 
-/// How indices are known, in words.
+/// The method of estimation of the indices, in words.
 pub fn method(sensitivity: &Sensitivity) -> String {
     match sensitivity.method {
         Method::Groups { groups } => format!("shares of the variance, from {groups} groups"),
@@ -120,7 +120,7 @@ fn share(value: f64) -> String {
     if value.is_nan() {
         return "–".into();
     }
-    // no sign on what is rounded to zero
+    // a number that rounds to zero has no sign
     let rounded = (value * 1000.0).round() / 1000.0 + 0.0;
     format!("{rounded:.3}")
 }
@@ -129,7 +129,7 @@ fn interval(of: Estimate) -> String {
     format!("{} to {}", share(of.low), share(of.high))
 }
 
-/// Few digits, with an exponent where there would be many zeros.
+/// A number with few digits, with an exponent if there would be many zeros.
 fn number(value: f64) -> String {
     if !value.is_finite() {
         return "–".into();
@@ -147,7 +147,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// The first column to the left, the others to the right.
+/// The first column is left-aligned, the others are right-aligned.
 fn aligned(text: &mut String, rows: &[Vec<String>]) {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |column: usize| {

@@ -1,5 +1,5 @@
-//! The table as CSV: units in the headings, numbers in the fewest digits that read back to the last bit, nothing where a number
-//! is not finite.
+//! The table as CSV: units are in the headings, and numbers have the fewest digits that read back exactly; a number that is not finite is
+//! an empty cell.
 
 use super::{TableError, numbers};
 use crate::results::Results;
@@ -57,7 +57,7 @@ pub fn heading(name: &str, unit: &str) -> String {
     }
 }
 
-/// The fewest digits that read back to the last bit; nothing for what is not finite.
+/// The fewest digits that read back exactly; empty for a number that is not finite.
 pub fn number(value: f64) -> String {
     if !value.is_finite() {
         return String::new();

@@ -1,4 +1,4 @@
-//! The table of a study: a row per run, in the order of the rows, the same bytes however it was run.
+//! The table of a study: a row for each run, in the order of the rows; it has the same bytes however the study was run.
 //!
 //! ```text
 //! run | parameters … | responses … | status | steps | reached [s] | error estimate | reason
@@ -13,19 +13,19 @@ use crate::store::write::{WriteError, replace};
 use crate::study::{Study, TableKind};
 use std::path::PathBuf;
 
-/// A column as its heading tells.
+/// A column with its heading.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Its name.
     pub name: String,
-    /// SI unit, "" for a pure number and for what is no quantity.
+    /// SI unit, "" for a pure number and for a column that is not a quantity.
     pub unit: String,
 }
 
 /// Why there is no table.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
-    /// The results are not complete or not sound.
+    /// The results are incomplete or damaged.
     #[error(transparent)]
     Results(#[from] ResultsError),
     /// The file cannot be written.
@@ -33,10 +33,10 @@ pub enum TableError {
     Write(#[from] WriteError),
 }
 
-/// Writes the tables that the study asks for, next to the blocks, and removes what ended processes left unfinished.
+/// Writes the tables that the study requests, beside the blocks, and removes unfinished files of processes that were ended.
 ///
 /// # Errors
-/// A file cannot be written, or a block not be read.
+/// A file cannot be written, or a block cannot be read.
 pub fn merge(results: &Results<'_>) -> Result<Vec<PathBuf>, TableError> {
     results.folder.tidy().map_err(ResultsError::from)?;
     let mut written = Vec::new();

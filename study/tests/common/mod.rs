@@ -1,4 +1,4 @@
-//! Engines that are formulas, and studies of them.
+//! Engines that evaluate formulas, and studies of them.
 
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
 use bryant_study::facts::{ModelFacts, OutputFact, ParameterFact};
@@ -8,10 +8,10 @@ use bryant_study::store::identity::Program;
 use bryant_study::study::Study;
 use std::path::Path;
 
-/// A closed form: responses of a row.
+/// A closed form: the responses of a row.
 pub type Formula = fn(&[f64]) -> Vec<f64>;
 
-/// Runs a formula. Rows for which it is not finite are `NonFinite`.
+/// Evaluates a formula. Rows whose result is not finite are `NonFinite`.
 pub struct Closed(pub Formula);
 
 impl Engine for Closed {
@@ -20,7 +20,7 @@ impl Engine for Closed {
     }
 }
 
-/// Why rows are without a result.
+/// The reason of rows without a result.
 pub const NO_WAY: &str = "there is no way, \"none\"";
 
 struct ClosedWorker(Formula);
@@ -57,10 +57,10 @@ impl Worker for ClosedWorker {
     }
 }
 
-/// Parameters of every model here: a, b, c.
+/// Number of parameters of every model here: a, b, c.
 pub const PARAMETERS: usize = 3;
 
-/// a, b, c, pure numbers, and two outputs.
+/// The facts: a, b, c are pure numbers, and there are two outputs.
 pub fn facts() -> ModelFacts {
     let parameter = |name: &str| ParameterFact {
         name: name.into(),
@@ -81,13 +81,13 @@ pub fn facts() -> ModelFacts {
     }
 }
 
-/// A study of a, b, c from −π to π with the final values of both outputs.
+/// A study of a, b, c from −π to π, with the final values of both outputs.
 pub fn study(head: &str) -> Study {
     let range = "{ from: -pi, to: pi }";
     with(head, &format!("{{ a: {range}, b: {range}, c: {range} }}"))
 }
 
-/// A study whose `parameters` are given, with the final values of both outputs.
+/// A study with these `parameters`, and with the final values of both outputs.
 pub fn with(head: &str, parameters: &str) -> Study {
     let text = format!(
         "model: closed\n{head}\nparameters: {parameters}\nresponses:\n  - {{ of: force, what: final }}\n  - {{ of: way, what: \
@@ -97,7 +97,7 @@ pub fn with(head: &str, parameters: &str) -> Study {
     file.resolve(&facts(), Path::new(".")).unwrap()
 }
 
-/// What the results are said to come from.
+/// The program that the results are attributed to.
 pub fn program() -> Program {
     Program {
         model: "closed form".into(),
@@ -111,7 +111,7 @@ pub fn open(path: &Path, study: &Study) -> Folder {
     Folder::open(path, study, &program()).unwrap()
 }
 
-/// Ishigami's function, and a sum that fails where a > 3.
+/// Ishigami's function, and a sum that is NaN for a > 3.
 pub fn ishigami(x: &[f64]) -> Vec<f64> {
     let [a, b, c] = [x[0], x[1], x[2]];
     let value = a.sin() + 7.0 * b.sin().powi(2) + 0.1 * c.powi(4) * a.sin();

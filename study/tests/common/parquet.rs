@@ -1,15 +1,15 @@
-//! A reader of Parquet files that are plain, apart from their writer: after the pages of the format
+//! A reader of plain Parquet files that shares no code with their writer. It follows the pages of the format
 //! (<https://parquet.apache.org/docs/file-format/>), its parquet.thrift and the compact protocol of Thrift.
 
 use std::collections::BTreeMap;
 
-/// What a file holds.
+/// The content of a file.
 pub struct Table {
-    /// Who wrote it.
+    /// The name of the program that wrote it.
     pub created_by: String,
     /// Keys and values.
     pub metadata: BTreeMap<String, String>,
-    /// Names and cells, from first to last row.
+    /// Names and cells, from the first row to the last.
     pub columns: Vec<(String, Vec<Cell>)>,
 }
 
@@ -36,7 +36,7 @@ pub fn read(file: &[u8]) -> Table {
     for (index, column) in schema.iter().enumerate() {
         assert_eq!(column[3].int(), 0, "every value is there");
         let kind = column[1].int();
-        // UINT_32 and UTF8 of old, a whole number of 32 bits without sign and a text of today
+        // the old UINT_32 and UTF8, and the new types: an unsigned integer of 32 bits, and a text
         match kind {
             1 => {
                 assert_eq!(column[6].int(), 13);
@@ -69,7 +69,7 @@ pub fn read(file: &[u8]) -> Table {
     }
 }
 
-/// The cells of a column of a group.
+/// The cells of one column in a group.
 fn chunk(file: &[u8], about: &Value, kind: i64) -> Vec<Cell> {
     let (count, start) = (about[5].int() as usize, about[9].int() as usize);
     let mut page = &file[start..];

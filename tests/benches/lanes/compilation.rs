@@ -1,7 +1,7 @@
-//! How long modules take to compile, and how long their machine code is.
+//! The compile time of modules, and the length of their machine code.
 //!
-//! Each module becomes a library with its derivative of the state alone, by `rustc -C opt-level=3` on one core, for any processor of its
-//! kind: once over `f64`, once over doubles in registers of every width that the runtime has for it.
+//! Each module becomes a library with only its derivative of the state, by `rustc -C opt-level=3` on one core for any processor of its
+//! kind: once over `f64`, once over doubles in registers of every width of the runtime.
 
 use super::machine_code;
 use bryant_generator::Config;

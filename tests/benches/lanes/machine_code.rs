@@ -1,10 +1,10 @@
-//! How long the machine code of a function is, read from the object files of a library.
+//! The length of the machine code of a function, read from the object files of a library.
 
 use object::read::archive::ArchiveFile;
 use object::{Object, ObjectSection, ObjectSymbol, SectionIndex, SymbolKind};
 
-/// Bytes of the machine code of all functions of a Rust library whose symbols contain `word`; `None` where the format is not
-/// known or there is no such function.
+/// Bytes of the machine code of all functions of a Rust library whose symbols contain `word`; `None` if the format is unknown or there is
+/// no such function.
 pub fn size(library: &[u8], word: &str) -> Option<u64> {
     let archive = ArchiveFile::parse(library).ok()?;
     let mut total = None;
@@ -12,7 +12,7 @@ pub fn size(library: &[u8], word: &str) -> Option<u64> {
         let Ok(data) = member.and_then(|member| member.data(library)) else {
             continue;
         };
-        // The metadata of the library is no object file.
+        // the metadata of the library are not an object file
         if let Ok(file) = object::File::parse(data) {
             for size in of_object(&file, word) {
                 *total.get_or_insert(0) += size;
@@ -43,7 +43,7 @@ fn of_object(file: &object::File<'_>, word: &str) -> Vec<u64> {
         if *size > 0 {
             return *size;
         }
-        // Only some formats store sizes: elsewhere a function ends where the next one begins.
+        // only some formats store sizes: in others a function ends where the next one begins
         let next = symbols[index + 1..]
             .iter()
             .find(|(s, a, ..)| s == section && a > address);

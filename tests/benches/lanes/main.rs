@@ -1,11 +1,11 @@
-//! What evaluations and runs cost over one double and over wide registers: three tables.
+//! The cost of evaluations and runs over one double and over wide registers, in three tables.
 //!
-//! 1. The time of one derivative of the state, per state, and which share of the processor's fused multiply-adds that is:
-//!    share = operations · lanes / (time · peak), a fused multiply-add being two operations, and the peak that of twelve independent
-//!    chains of them in registers of the same width. Sums and products that are not fused keep the share below 1. All models and the peaks
-//!    take turns, [`ROUNDS`] times, so that a processor that others slow down for a while slows all of them; the table has medians.
-//! 2. How long the module takes to compile, and how long its machine code is.
-//! 3. Runs of child-seat in a second, as a study makes them.
+//! 1. The time of one derivative of the state for each state, and its share of the processor's peak of fused multiply-adds: share =
+//!    operations · lanes / (time · peak). A fused multiply-add counts as two operations, and the peak is that of twelve independent chains of
+//!    them in registers of the same width. Sums and products that are not fused keep the share below 1. All models and the peaks take turns,
+//!    [`ROUNDS`] times, so that a disturbance of the processor slows all of them down; the table has medians.
+//! 2. The compile time of the module, and the length of its machine code.
+//! 3. The number of runs of child-seat in a second, as in a study.
 //!
 //! `cargo bench -p bryant-tests --bench lanes`; words behind `--` choose tables: evaluations, compilation, runs.
 
@@ -14,8 +14,8 @@ mod machine_code;
 mod runs;
 
 use bryant_generator::dynamics::{Options, derive_with};
-use bryant_generator::emit;
 use bryant_generator::model::read;
+use bryant_generator::program;
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector, Width};
 use std::hint::black_box;
@@ -70,16 +70,16 @@ impl<T: Real, M: Model<T>> Task for Derivative<'_, T, M> {
     }
 }
 
-/// How often everything is measured.
+/// Number of repetitions of every measurement.
 const ROUNDS: usize = 9;
 
-/// The median, the upper one of two, of at least one value.
+/// The median of at least one value; the upper one of two.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
 }
 
-/// The median of what five measurements say, each of about a millisecond \[s\].
+/// The median of five measurements of about a millisecond each \[s\].
 fn measured(mut work: impl FnMut()) -> f64 {
     let mut measure = |repetitions: u32| {
         let start = Instant::now();
@@ -93,7 +93,7 @@ fn measured(mut work: impl FnMut()) -> f64 {
     median((0..5).map(|_| measure(repetitions)).collect())
 }
 
-/// Time of one evaluation \[s\], off the special values of the start, where the processor might be faster.
+/// Time of one evaluation \[s\], at a state that avoids the special values of the start, which may be faster to evaluate.
 fn time<T: Real, M: Model<T>>() -> f64 {
     let model = M::new(M::Parameters::defaults());
     let mut y = model.initial_state();
@@ -110,7 +110,7 @@ fn time<T: Real, M: Model<T>>() -> f64 {
     })
 }
 
-/// Time per state \[s\].
+/// Time for one state \[s\].
 struct PerState<S>(PhantomData<S>);
 
 impl<S: Scene> OfAnyWidth for PerState<S> {
@@ -121,7 +121,7 @@ impl<S: Scene> OfAnyWidth for PerState<S> {
     }
 }
 
-/// Independent chains of fused multiply-adds: their latency, four cycles, times two in a cycle, and some to spare.
+/// Number of independent chains of fused multiply-adds: their latency of four cycles times two in a cycle, with some reserve.
 const CHAINS: usize = 12;
 const LENGTH: usize = 1000;
 
@@ -165,11 +165,11 @@ fn operations(path: &str) -> usize {
         matrices: false,
         ..Options::default()
     };
-    let emitted = emit::Options {
+    let emitted = program::Options {
         matrices: false,
-        ..emit::Options::default()
+        ..program::Options::default()
     };
-    let costs = emit::costs(&model, &derive_with(&model, options), &emitted);
+    let costs = program::costs(&model, &derive_with(&model, options), &emitted);
     let part = ["accelerations", "coordinate_rates"];
     let parts = costs.iter().filter(|(method, _)| part.contains(method));
     parts.map(|(_, table)| table.total.total()).sum()
@@ -180,7 +180,7 @@ struct Entry {
     name: &'static str,
     path: &'static str,
     elements: usize,
-    /// Time of one state over a register of a width, or over `f64` \[s\].
+    /// Time for one state over a register of a width, or over `f64` \[s\].
     time: fn(Option<Width>) -> Option<f64>,
 }
 
@@ -230,7 +230,7 @@ fn time_of<S: Scene>(width: Option<Width>) -> Option<f64> {
     }
 }
 
-/// The registers that this processor has and that fuse multiplication and addition.
+/// The widths of this processor's registers that support fused multiply-adds.
 fn widths() -> impl Iterator<Item = Width> {
     let fused = Width::ALL.into_iter().filter(|width| width.fuses());
     fused.filter(|width| width.there())
@@ -281,7 +281,7 @@ fn evaluations() {
 }
 
 fn main() {
-    // cargo says that this is a benchmark
+    // cargo passes --bench, which is not a table
     let words: Vec<String> = std::env::args()
         .skip(1)
         .filter(|word| !word.starts_with("--"))

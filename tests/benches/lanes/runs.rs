@@ -1,5 +1,5 @@
-//! Runs of child-seat in a second, as `bryant sweep` makes them: six parameters, 120 ms, to 0.1 %, each row twice for the estimate of its
-//! error, results on disk.
+//! Number of runs of child-seat in a second, as in `bryant sweep`: six parameters, 120 ms, to 0.1 %, each row twice for the estimate of its
+//! error, with results on disk.
 
 use bryant::bundled;
 use bryant::sweep::{self, Lanes};
@@ -46,7 +46,7 @@ pub fn table() {
     }
 }
 
-/// Runs in a second of a whole study.
+/// Runs per second of a whole study.
 fn rate(width: Width, threads: usize) -> f64 {
     let must = "the study is in order";
     let model = bundled::find("child-seat").expect(must);

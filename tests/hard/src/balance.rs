@@ -1,14 +1,14 @@
-//! What d'Alembert's principle says of given accelerations, body by body   \[Newton–Euler\]: the residual S v̇ − r of the
-//! equations of motion, without S, and without anything of how the generator derives or solves them.
+//! D'Alembert's principle for given accelerations, body by body \[Newton–Euler\]. This gives the residual S v̇ − r of the equations of
+//! motion without S, and without any part of the generator's derivation or solution.
 //!
 //! Root to leaves, with α = Σ e_j v̇_j + Σ ė_j v_j and u, c from a joint to the next and to the centre of gravity,
 //!
 //! a_c = a + α × u + ω × (ω × u),   F = m (a + α × c + ω × (ω × c) − g),   N = I α + ω × I ω + c × F
 //!
-//! leaves to root, what is outboard of each joint added up: F += ΣF_c, N += Σ u_c × F_c. A ball joint passes no moment, so by
-//! virtual power the residual of v_j of an element is e_j · N, that of a free reference joint F of the root. Loads are taken
-//! off F and N where they act. Each term is a sum of products of what a body has, n elements take n steps, and nothing is
-//! divided by: in double-double the residual is right to 30 digits of its largest term.
+//! From leaves to root, the contributions outboard of each joint are added up: F += ΣF_c, N += Σ u_c × F_c. A ball joint transmits no
+//! moment, so by virtual power the residual for v_j of an element is e_j · N, and that for a free reference joint is F of the root. Loads
+//! are subtracted from F and N where they act. Each term is a sum of products of body quantities, n elements take n steps, and there are no
+//! divisions: in double-double the residual is correct to 30 digits of its largest term.
 
 use bryant_generator::dynamics::layout::{Layout, Orientation};
 use bryant_generator::model::{
@@ -28,7 +28,7 @@ pub struct Tree {
     elements: Vec<Element>,
 }
 
-/// An element, with what acts on it.
+/// An element, with the loads on it.
 #[derive(Clone, Debug, Default)]
 struct Element {
     parent: Option<usize>,
@@ -49,7 +49,7 @@ struct Load {
     moment: Vector<f64>,
 }
 
-/// An element as it is turned: all in absolute axes.
+/// An element in its current orientation: all vectors in absolute axes.
 struct Turned<S> {
     /// e_j
     axes: Vec<Vector<S>>,
@@ -59,7 +59,7 @@ struct Turned<S> {
     offset: Vector<S>,
     /// c
     center: Vector<S>,
-    /// Of each load.
+    /// The point of each load.
     loaded: Vec<Vector<S>>,
 }
 
@@ -72,10 +72,10 @@ pub struct Posture<'t, S> {
 }
 
 impl Tree {
-    /// The only system of a model without parameters, whose forces are fields and loads that do not change.
+    /// The only system of a model without parameters, whose forces are constant fields and loads.
     ///
     /// # Errors
-    /// The model has something else.
+    /// The model has other parts.
     pub fn of(model: &Model) -> Result<Tree, Trouble> {
         let unfit = || Trouble::Case("only one system with constant fields and loads".to_owned());
         let [system] = &model.systems[..] else {
@@ -109,10 +109,10 @@ impl Tree {
         }
         for force in &model.forces {
             match &force.kind {
-                ForceKind::Field { on, acceleration } => {
-                    for ElementId { element, .. } in on {
+                ForceKind::Field(law) => {
+                    for ElementId { element, .. } in &law.on {
                         let field = &mut elements[*element].field;
-                        *field = sum(*field, given(acceleration)?);
+                        *field = sum(*field, given(&law.acceleration)?);
                     }
                 }
                 ForceKind::Load(load) => {
@@ -181,8 +181,8 @@ impl Tree {
 }
 
 impl<S: Real> Posture<'_, S> {
-    /// Linear and angular momentum, the latter about the reference joint, of a tree whose velocities are angular ones: S v
-    /// along the freedoms that move and turn the whole, and the same with all terms positive.
+    /// Linear and angular momentum of a tree whose velocities are angular velocities; the angular momentum is about the reference joint.
+    /// They are S v along the freedoms that move and rotate the whole tree. The second result has the same sums with all terms positive.
     pub fn momentum(&self, v: &[S]) -> [[S; 6]; 2] {
         let layout = &self.tree.layout;
         let zero = S::from_f64(0.0);
@@ -218,8 +218,8 @@ impl<S: Real> Posture<'_, S> {
         (0..size).map(column).collect()
     }
 
-    /// ω and α in absolute axes instead of the rates of Bryant angles, which from then on are what the posture understands;
-    /// nothing where velocities are ω already. Those of a reference joint stay.
+    /// Converts rates of Bryant angles to ω and α in absolute axes, which the posture uses from then on; changes nothing if velocities are
+    /// ω already. Those of a reference joint stay.
     pub fn in_angular_velocities(&mut self, v: &mut [S], rates: &mut [S]) {
         if !std::mem::take(&mut self.of_angles) {
             return;
@@ -242,7 +242,7 @@ impl<S: Real> Posture<'_, S> {
         }
     }
 
-    /// With the forces of velocity and field and the loads where there are velocities; without, inertia alone.
+    /// The balance; with velocities it includes bias forces, field and loads, without velocities only inertia.
     fn balance(&self, v: Option<&[S]>, rates: &[S]) -> Vec<S> {
         let Tree {
             layout,
@@ -264,7 +264,7 @@ impl<S: Real> Posture<'_, S> {
             }
             let mut omega = zero;
             if let Some(v) = v {
-                // ė_j = ω of those before × e_j: absolute axes and the one of the plane stand still
+                // ė_j = ω of the elements before × e_j: absolute axes and the axis of the plane are constant
                 for (e, rate) in turned.axes.iter().zip(&v[range]) {
                     if self.of_angles {
                         alpha = sum(alpha, scaled(*rate, cross(omega, *e)));
@@ -362,7 +362,7 @@ fn orientation<S: Real>(kind: Orientation, q: &[S]) -> ([Vector<S>; 3], Vec<Vect
             (columns, axes.to_vec())
         }
         (Orientation::Quaternion, &[w, x, y, z]) => {
-            // The rotation that the four numbers mean, whatever their rounding does to their length: v + 2 p × (p × v + w v).
+            // The rotation of the four numbers, whatever rounding does to their length: v + 2 p × (p × v + w v).
             let norm = w * w + x * x + y * y + z * z;
             let (p, two) = ([x, y, z], S::from_f64(2.0) / norm);
             let turn = |v| {
@@ -375,7 +375,7 @@ fn orientation<S: Real>(kind: Orientation, q: &[S]) -> ([Vector<S>; 3], Vec<Vect
     }
 }
 
-/// The columns of Rx(φ₁) Ry(φ₂) Rz(φ₃), turned one after another, and the axes of the three turns.
+/// The columns of Rx(φ₁) Ry(φ₂) Rz(φ₃), rotated one after another, and the axes of the three rotations.
 fn bryant<S: Real>([first, second, third]: Vector<S>) -> ([Vector<S>; 3], [Vector<S>; 3]) {
     let (zero, one) = (S::from_f64(0.0), S::from_f64(1.0));
     let ([s1, c1], [s2, c2], [s3, c3]) = (sin_cos(first), sin_cos(second), sin_cos(third));

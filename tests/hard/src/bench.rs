@@ -1,4 +1,4 @@
-//! What a case works with: it runs scenes, and notes what it finds.
+//! The tools of a case: it runs scenes and records its checks.
 
 use crate::case::{Bound, Check, Found};
 use crate::scene::Scene;
@@ -8,55 +8,55 @@ use bryant_generator::model::Model;
 use bryant_runtime::Report;
 use bryant_runtime::program::{Energy, Finding, Header, Job, RunError};
 
-/// Runs scenes as a user's models are run.
+/// Runs scenes in the same way as a user's models.
 pub trait Engine: Sync {
-    /// Generates and compiles the scene, unless that was done before, and does a job with it, in whatever arithmetic it asks for.
+    /// Generates and compiles the scene, unless that was done before, and runs a job with it, in the arithmetic that the job requests.
     ///
     /// # Errors
-    /// The scene is no model, or does not compile. A run that fails is no error.
+    /// The scene is not a valid model, or does not compile. A failed run is not an error.
     fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble>;
 
-    /// The value of a function of a model that is not algebra, at as many numbers as it has arguments; NaN of a user's function,
-    /// which only compiled code can call.
+    /// The value of a function of a model that is not algebra, with as many arguments as it needs; NaN for a user function, which only
+    /// compiled code can call.
     fn call(&self, model: &Model, function: Function, arguments: &[f64]) -> f64;
 }
 
-/// The functions of a model, for who evaluates its equations.
+/// The functions of a model, for the evaluation of its equations.
 pub fn functions<'a>(engine: &'a dyn Engine, model: &'a Model) -> impl Functions<f64> + 'a {
     |function: Function, arguments: &[f64]| engine.call(model, function, arguments)
 }
 
-/// What came out of a run, also of one that failed on the way.
+/// The result of a run, complete or failed.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// Names and units.
     pub header: Header,
     /// Time of every sample \[s\].
     pub times: Vec<f64>,
-    /// State of every sample: q, v, z, m.
+    /// For each sample the state: q, v, z, m.
     pub states: Vec<Vec<f64>>,
-    /// Outputs of every sample, SI.
+    /// For each sample the outputs, SI.
     pub outputs: Vec<Vec<f64>>,
-    /// What it took, or what stopped it.
+    /// The cost of the run, or its failure.
     pub result: Result<Report, RunError>,
-    /// Where the energy went, if anything ran.
+    /// The balance of energy, if anything ran.
     pub energy: Option<Energy>,
     /// Why it cannot be trusted.
     pub doubts: Vec<Finding>,
 }
 
-/// A case that could not be measured.
+/// Why a case could not be measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Trouble {
-    /// The scene is no model.
+    /// The scene is not a valid model.
     Refused(String),
-    /// A run failed that must not.
+    /// A run failed that must succeed.
     Failed(String),
-    /// Something around it: the compiler, a file.
+    /// An error of the system: the compiler, a file.
     System(String),
-    /// The case asks for what its scene does not have: a fault of the case.
+    /// The case requests something that its scene does not have: an error in the case.
     Case(String),
-    /// It panicked, with this message.
+    /// The case panicked, with this message.
     Panicked(String),
 }
 
@@ -74,7 +74,7 @@ impl std::fmt::Display for Trouble {
 impl std::error::Error for Trouble {}
 
 impl Run {
-    /// What it took.
+    /// The cost of the run.
     ///
     /// # Errors
     /// The run failed.
@@ -87,7 +87,7 @@ impl Run {
     /// An output at all samples.
     ///
     /// # Errors
-    /// There is none of this name.
+    /// There is no output of this name.
     pub fn output(&self, name: &str) -> Result<Vec<f64>, Trouble> {
         let names = self.header.outputs.iter().map(|output| &output.name);
         column(names, &self.outputs, name)
@@ -96,7 +96,7 @@ impl Run {
     /// An entry of the state at all samples.
     ///
     /// # Errors
-    /// There is none of this name.
+    /// There is no entry of this name.
     pub fn state(&self, name: &str) -> Result<Vec<f64>, Trouble> {
         let header = &self.header;
         let names = (header.coordinates.iter())
@@ -115,7 +115,7 @@ impl Run {
         last.ok_or_else(|| Trouble::Case("the run has no sample".into()))
     }
 
-    /// Where the energy went.
+    /// The balance of energy.
     ///
     /// # Errors
     /// Nothing ran.
@@ -136,7 +136,7 @@ fn column<'a>(
     Ok(rows.iter().map(|row| row[index]).collect())
 }
 
-/// Where a case runs its scenes and notes its checks.
+/// Runs the scenes of a case and records its checks.
 pub struct Bench<'a> {
     engine: &'a dyn Engine,
     full: bool,
@@ -145,7 +145,7 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// For one case; `full` for the harder variants that take long.
+    /// A bench for one case; `full` includes the harder variants that take long.
     pub fn new(engine: &'a dyn Engine, full: bool) -> Bench<'a> {
         Bench {
             engine,
@@ -155,45 +155,45 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// What runs its scenes.
+    /// The engine that runs the scenes.
     pub fn engine(&self) -> &'a dyn Engine {
         self.engine
     }
 
-    /// Whether the grid is the full one.
+    /// Whether the harder variants are included.
     pub fn full(&self) -> bool {
         self.full
     }
 
-    /// What was noted.
+    /// The recorded checks.
     pub fn into_checks(self) -> Vec<Check> {
         self.checks
     }
 
-    /// Names the member of the family that the checks from now on are of.
+    /// Names the variant that the following checks belong to.
     pub fn variant(&mut self, name: impl Into<String>) {
         self.variant = name.into();
     }
 
-    /// Does a job, whatever comes out.
+    /// Runs a job, whatever its result.
     ///
     /// # Errors
-    /// The scene is no model, or does not compile.
+    /// The scene is not a valid model, or does not compile.
     pub fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble> {
         self.engine.run(scene, job)
     }
 
-    /// Does a job that must succeed.
+    /// Runs a job that must succeed.
     ///
     /// # Errors
-    /// As [`Bench::run`], and a run that fails.
+    /// As [`Bench::run`], and a failed run.
     pub fn succeed(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble> {
         let run = self.engine.run(scene, job)?;
         run.report()?;
         Ok(run)
     }
 
-    /// Notes a number that must be no more than a bound.
+    /// Records a number that must be at most a bound.
     pub fn at_most(
         &mut self,
         criterion: impl Into<String>,
@@ -210,7 +210,7 @@ impl<'a> Bench<'a> {
         self.note(criterion.into(), because.into(), found);
     }
 
-    /// Notes a number that must be no less than a bound.
+    /// Records a number that must be at least a bound.
     pub fn at_least(
         &mut self,
         criterion: impl Into<String>,
@@ -227,7 +227,7 @@ impl<'a> Bench<'a> {
         self.note(criterion.into(), because.into(), found);
     }
 
-    /// Notes whether a statement holds, and what was seen.
+    /// Records whether a statement holds, with the observation.
     pub fn states(
         &mut self,
         criterion: impl Into<String>,

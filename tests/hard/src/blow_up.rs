@@ -1,4 +1,4 @@
-//! Runs that cannot be trusted say so, since when and because of what; runs that can do not.
+//! Runs that cannot be trusted report this, with the time and the reason; runs that can be trusted do not.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -12,44 +12,47 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::BlowUp,
         name: "fixed steps above the limit of stability",
-        law: "On ẏ = λ y with λ < 0 a method is stable for h |λ| below a limit of its own, where |R(−h |λ|)| = 1; above it the run is \
-              doubted, and the limit named.",
+        law: "On ẏ = λ y with λ < 0 a method is stable for h |λ| below its limit, where |R(−h |λ|)| = 1. Above the limit the run is \
+              reported as not to be trusted, with the limit.",
         run: steps_above_the_limit,
     },
     Case {
         group: Group::BlowUp,
         name: "energy out of nothing",
-        law: "Heun's method multiplies the energy of ẍ = −x by 1 + h⁴/4 in each step, so that 2 % are missing after 2 % · 4/h⁴ steps.",
+        law: "Heun's method multiplies the energy of ẍ = −x by 1 + h⁴/4 in each step. So 2 % are missing in the balance after 2 % · 4/h⁴ \
+              steps.",
         run: energy_out_of_nothing,
     },
     Case {
         group: Group::BlowUp,
         name: "curves left behind",
-        law: "A curve that is followed beyond its points by more than its own width, or held where nobody said so, is doubted; one that was told \
-              to hold, or is a line through 0, is not; one that must not be left ends the run.",
+        law: "A run cannot be trusted if a curve is followed beyond its points by more than its own width, or if its value is held without \
+              `extrapolate: hold`. With `extrapolate: hold`, and for a line through 0, it can. A curve with `extrapolate: error` ends the \
+              run when it is left.",
         run: curves_left_behind,
     },
     Case {
         group: Group::BlowUp,
         name: "inertia that vanishes in motion",
-        law: "det S = m² a² b² sin² θ of two links without inertia of their own: where they come in line the accelerations are not determined.",
+        law: "Two links without inertia of their own have det S = m² a² b² sin² θ. When they come into line, the accelerations are not \
+              determined.",
         run: inertia_that_vanishes,
     },
     Case {
         group: Group::BlowUp,
         name: "no false alarm",
-        law: "Scenes whose results are right, among the hardest here, are not doubted.",
+        law: "Scenes with right results, among them the hardest ones here, are not reported as doubtful.",
         run: no_false_alarm,
     },
 ];
 
-/// Where |R(−x)| = 1 for the first time, R the polynomial of these coefficients of 1, z, z² …
+/// The first x with |R(−x)| = 1, where R is the polynomial with these coefficients of 1, z, z² …
 fn real_limit(coefficients: &[f64]) -> f64 {
     let inside = |x: f64| {
         let value = coefficients.iter().rev().fold(0.0, |sum, c| sum * -x + c);
         value.abs() <= 1.0
     };
-    // The limit of each is between 1 and 10; below it there is no other.
+    // The limit of each polynomial is between 1 and 10, and there is none below.
     let (mut low, mut high) = (1.0, 10.0);
     while inside(low + 1e-3) && low < 10.0 {
         low += 1e-3;
@@ -87,7 +90,7 @@ const POLYNOMIALS: [(Formula, &[f64]); 4] = [
     ),
 ];
 
-/// What a run says of itself: its failure, or its doubts.
+/// The messages of a run: its failure, or its doubts.
 fn said(run: &Run) -> String {
     match &run.result {
         Err(error) => format!("failed: {}", error.message),
@@ -106,7 +109,7 @@ fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let limit = real_limit(polynomial) / rate;
         bench.variant(formula.name());
         let below = bench.run(&scene, &fixed(formula, 0.9 * limit))?;
-        // what so large a step makes of the energy of the first swing is another matter
+        // the effect of such a large step on the energy of the first swing does not matter here
         bench.states(
             "0.9 of the limit: not doubted because of the step",
             below.result.is_ok() && below.doubts.iter().all(|doubt| doubt.kind != "step"),
@@ -122,15 +125,15 @@ fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "unstable",
         );
         if let Some(doubt) = of_step {
-            // the step over the largest stable one, by the limit in the direction where it is largest
+            // the step over the largest stable one, by the limit in the direction where the limit is largest
             let largest = formula.stability_limit().unwrap_or(f64::NAN) / rate;
             let found = 1.2 * limit / doubt.amount;
             bench.at_most(
-                "the limit that is named, away from the method's over ω",
+                "deviation of the limit in the message from the method's limit over ω",
                 (found / largest - 1.0).abs(),
                 2.0 / 15.0,
                 "",
-                "λ is a double root, so that λᵏ k grows too, by 1/k a step in coordinates and in velocities: k = 15 steps are waited for",
+                "λ is a double root, so λᵏ k also grows, by 1/k for each step in coordinates and in velocities: the message comes after k = 15 steps",
             );
         }
     }
@@ -157,7 +160,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         );
         if let Some(doubt) = doubt {
             let growth = (h.powi(4) / 4.0).ln_1p();
-            // E/E₀ − 1 = 2 % of E, the largest energy; all of it is kinetic or gone through the spring twice in a period
+            // E/E₀ − 1 = 2 % of E, the largest energy; twice in a period all of it is kinetic or has gone into the spring
             let expected = -(0.98f64).ln() / growth * h;
             let pi = std::f64::consts::PI;
             bench.at_least(
@@ -165,7 +168,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 doubt.since,
                 0.5 * expected - h,
                 "s",
-                "half of 2 % · 4/h³: half of the energy at least is kinetic or work at any time",
+                "half of 2 % · 4/h³: at any time at least half of the energy is kinetic or work",
             );
             bench.at_most(
                 "since when",
@@ -182,7 +185,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let run = bench.run(&scene!("left-curves"), &Job::default())?;
     for (name, since) in [
-        // beyond by more than the width: 0.1 + 0.1 rad at 1 rad/s
+        // more than the width beyond the curve: 0.1 + 0.1 rad at 1 rad/s
         ("line", Some(0.2)),
         ("held", Some(0.1)),
         ("told", None),
@@ -204,7 +207,7 @@ fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         if let (Some(doubt), Some(since)) = (doubt, since) {
             let longest = run.report()?.largest_step;
             bench.at_most(
-                "since when, away from where the wheel comes there",
+                "deviation of its time from when the wheel comes there",
                 (doubt.since - since).abs(),
                 longest,
                 "s",
@@ -223,7 +226,7 @@ fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     );
     if let Err(error) = &run.result {
         bench.at_most(
-            "when, away from where the wheel comes there",
+            "deviation of the time from when the wheel comes there",
             (error.t.unwrap_or(f64::NAN) - 0.1).abs(),
             0.01,
             "s",
@@ -275,7 +278,7 @@ fn no_false_alarm(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "not doubted",
             run.doubts.is_empty(),
             said(&run),
-            "its results are right",
+            "its results are correct",
         );
     }
     Ok(())

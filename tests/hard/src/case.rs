@@ -1,21 +1,21 @@
-//! A case, and what comes out of it.
+//! A case and its results.
 
 use crate::bench::{Bench, Trouble};
 
-/// A hard case: what makes it hard is in its scene, what it must obey in its law.
+/// A hard case: its scene has the difficulty, its law says what must hold.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// What kind of hardness.
+    /// The kind of difficulty.
     pub group: Group,
-    /// A few words, unique among all cases: what is hard ("ten contacts at once").
+    /// A short name of the difficulty, unique among all cases ("ten contacts at once").
     pub name: &'static str,
-    /// What must hold, in a sentence, with the source of its formula.
+    /// The law that must hold, in a sentence, with the source of its formula.
     pub law: &'static str,
     /// Measures, and adds checks to the bench.
     pub run: fn(&mut Bench<'_>) -> Result<(), Trouble>,
 }
 
-/// Kinds of hardness, in the order of the table.
+/// Kinds of difficulties, in the order of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Group {
     /// Angles at their poles, tumbling, fast spin.
@@ -28,7 +28,7 @@ pub enum Group {
     NonSmoothness,
     /// Units, origin, order, precision.
     ScaleAndPrecision,
-    /// Long chains, many steps.
+    /// Input that is not a model, NaN and infinite numbers.
     Length,
     /// Input that is no model, numbers that are none.
     Garbage,
@@ -49,7 +49,7 @@ impl Group {
         Group::BlowUp,
     ];
 
-    /// As headings have it.
+    /// The heading of the group.
     pub const fn title(self) -> &'static str {
         match self {
             Group::Orientation => "orientation",
@@ -64,16 +64,16 @@ impl Group {
     }
 }
 
-/// One thing that a case found.
+/// One result of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
-    /// Which member of a family of scenes or settings ("dopri5 at 1e-9", "100 elements"); empty where there is one.
+    /// The variant of scene or settings ("dopri5 at 1e-9", "100 elements"); empty if there is only one.
     pub variant: String,
-    /// What is measured ("energy gained over energy exchanged").
+    /// The measured quantity ("energy gained over energy exchanged").
     pub criterion: String,
-    /// Where the bound comes from ("2 × steps × tolerance").
+    /// The source of the bound ("2 × steps × tolerance").
     pub because: String,
-    /// What was found.
+    /// The measured result.
     pub found: Found,
 }
 
@@ -82,33 +82,33 @@ pub struct Check {
 pub enum Found {
     /// A number.
     Number {
-        /// What came out.
+        /// The measured value.
         measured: f64,
-        /// What it must keep to.
+        /// The bound that it must keep.
         bound: Bound,
-        /// Of both; "" for a pure number.
+        /// Unit of both; "" for a pure number.
         unit: &'static str,
     },
     /// A statement.
     Statement {
         /// Whether it holds.
         holds: bool,
-        /// What was seen ("refused: …").
+        /// The observation ("refused: …").
         seen: String,
     },
 }
 
-/// What a number must keep to.
+/// The bound of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// No more than this.
+    /// At most this.
     AtMost(f64),
-    /// No less than this.
+    /// At least this.
     AtLeast(f64),
 }
 
 impl Check {
-    /// Whether the bound is kept: a measured value that is not a number keeps none.
+    /// Whether the bound is kept: NaN keeps no bound.
     pub fn holds(&self) -> bool {
         match &self.found {
             Found::Number {
@@ -121,7 +121,7 @@ impl Check {
         }
     }
 
-    /// How far from the bound, as a factor: above 1 on the good side; `None` of a statement.
+    /// The distance from the bound as a factor, above 1 on the good side; `None` for a statement.
     pub fn margin(&self) -> Option<f64> {
         match self.found {
             Found::Number {

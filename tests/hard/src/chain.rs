@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// An element of a chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link {
-    /// The joint on the element before, in its frame \[m\].
+    /// The position of its joint on the element before, in the frame of that element \[m\].
     pub at: [f64; 3],
     /// \[kg\]
     pub mass: f64,
@@ -36,7 +36,7 @@ impl Kind {
     /// All three.
     pub const ALL: [Kind; 3] = [Kind::Plane, Kind::Quaternion, Kind::Bryant];
 
-    /// For people.
+    /// The name for people.
     pub fn name(self) -> &'static str {
         match self {
             Kind::Plane => "plane",
@@ -46,19 +46,19 @@ impl Kind {
     }
 }
 
-/// What a chain of links is besides.
+/// The settings of a chain of links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {
     /// Dimension and coordinates.
     pub kind: Kind,
     /// Whether the first joint floats; else it is fixed.
     pub free: bool,
-    /// Whether a force and a moment act on the last element: what carries no load is eliminated in cheaper ways.
+    /// Whether a force and a moment act on the last element: an element without load is eliminated in a cheaper way.
     pub loaded: bool,
 }
 
-/// A general element of this mass: a solid ellipsoid with semi-axes of 3 to 20 cm, turned in its frame, its centre of gravity
-/// and the joint that carries it anywhere.
+/// A general element of this mass: a solid ellipsoid with semi-axes of 3 to 20 cm, rotated in its frame; its centre of gravity and its
+/// joint are at random positions.
 pub fn general(random: &mut Random, mass: f64) -> Link {
     let squares = [0, 1, 2].map(|_| random.uniform(0.03, 0.2f64).powi(2));
     let sum: f64 = squares.iter().sum();
@@ -95,7 +95,7 @@ pub fn scene(setting: Setting, links: &[Link]) -> Scene {
     Scene::new(format!("chain of {}", links.len()), text)
 }
 
-/// The chain afloat without any force, with these angular velocities at the start.
+/// The floating chain without any force, with these angular velocities at the start.
 pub fn afloat(links: &[Link], rates: &[[f64; 3]]) -> Scene {
     let setting = Setting {
         kind: Kind::Quaternion,
@@ -110,7 +110,7 @@ pub fn afloat(links: &[Link], rates: &[[f64; 3]]) -> Scene {
     Scene::new(format!("chain of {} afloat", links.len()), text)
 }
 
-/// A vector as the dimension has it; "{:?}" of a number reads back as the same number.
+/// A vector with the components of the dimension; "{:?}" of a number reads back exactly.
 fn vector(kind: Kind, [x, y, z]: [f64; 3]) -> String {
     match kind {
         Kind::Plane => format!("[{x:?}, {z:?}]"),
@@ -154,8 +154,8 @@ fn tree(setting: Setting, links: &[Link]) -> String {
     text
 }
 
-/// A random state: positions within a metre, any orientation (Bryant angles away from their singularity, which is no matter of
-/// masses), rates of a few per second.
+/// A random state: positions within a metre, any orientation (Bryant angles away from their singularity, which does not depend on masses),
+/// rates of a few per second.
 pub fn random_state(random: &mut Random, model: &Model) -> (Vec<f64>, Vec<f64>) {
     let layout = Layout::of(model);
     let mut q: Vec<f64> = (layout.coordinates.iter())

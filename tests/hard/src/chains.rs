@@ -1,4 +1,4 @@
-//! Long chains: the accelerations of one state.
+//! Long chains: the accelerations at one state.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
@@ -10,9 +10,9 @@ use crate::survey::Survey;
 pub const CASES: &[Case] = &[Case {
     group: Group::Length,
     name: "accelerations of long chains",
-    law: "S v̇ = r. The residual is that of d'Alembert's principle body by body, in double-double at the same state, and S and r \
-          that the error is measured by are made of it, so that neither the generator's S nor its elimination has a part in it. \
-          An elimination whose matrices lose their symmetry loses all digits on the way to the root.",
+    law: "S v̇ = r. The residual is that of d'Alembert's principle, body by body, in double-double at the same state. S and r, which \
+          measure the error, come from the same principle, and not from the generator. An articulated-body algorithm whose matrices lose \
+          their symmetry loses all digits on the way to the root.",
     run: accelerations,
 }];
 

@@ -1,4 +1,4 @@
-//! How fast the energy of what has no losses drifts, and how that falls with the step.
+//! The drift of energy in systems without losses, and how it decreases with the step.
 
 use crate::balance::Tree;
 use crate::bench::{Bench, Trouble};
@@ -23,22 +23,23 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::Length,
         name: "energy of a double pendulum",
-        law: "What has no losses keeps its energy but for the error of the method, which in a given time is O(h^p): half a step, \
-              2^p times less. The semi-implicit method is symplectic: its error swings and does not grow (Hairer, Lubich & Wanner, \
-              IX.8).",
+        law: "Without losses the energy is constant, except for the error of the method. In a given time this error is O(h^p): with half \
+              the step it is 2^p times smaller. The semi-implicit method is symplectic: its error oscillates and does not grow (Hairer, \
+              Lubich & Wanner, IX.8).",
         run: double_pendulum,
     },
     Case {
         group: Group::Length,
         name: "momentum of free flight",
-        law: "Nothing acts on a chain of ten general bodies that tumble about each other: its linear momentum, and its angular momentum \
-              about the origin, stay. They are S v along the motions of the whole, with S by d'Alembert's principle.",
+        law: "No force acts on a chain of ten general bodies that tumble about each other. So its linear momentum, and its angular \
+              momentum about the origin, are constant. They are the components of S v along the rigid motions of the whole chain, with S \
+              by d'Alembert's principle.",
         run: free_flight,
     },
 ];
 
-/// A method with its order, and the steps at which its drift on ẍ = −x is small enough for its first term to rule, and far above
-/// rounding after a million steps.
+/// A method with its order, and a step for ẍ = −x: it is so small that the first term of the drift dominates, and so large that the drift
+/// is far above rounding after a million steps.
 const STEPS: [(Formula, i32, f64); 7] = [
     (Formula::Heun, 2, 0.02),
     (Formula::Rk4, 4, 0.1),
@@ -53,7 +54,7 @@ fn oscillator(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let scene = scene!("oscillator");
     let energy = |state: &[f64]| 0.5 * (state[0] * state[0] + state[1] * state[1]);
     for (formula, order, h) in STEPS {
-        // Heun's energy grows e-fold in the time that others take for their first digit
+        // Heun's energy grows by e in the time that other methods need for their first digit
         let steps = if formula == Formula::Heun { 1e5 } else { 1e6 };
         bench.variant(format!("{} at h = {h} and {}", formula.name(), h / 2.0));
         let mut slopes = [0.0; 2];
@@ -69,14 +70,14 @@ fn oscillator(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             f64::from(power) - 0.25,
             "",
             format!(
-                "{power} by the order, more where terms beyond it cancel; less a quarter, as the term after the first is h² times as large"
+                "{power} by the order, more if further terms cancel; less a quarter, because the next term is smaller by h²"
             ),
         );
     }
     Ok(())
 }
 
-/// Of the scene: energy by the state φ₁, φ₂, ω₁, ω₂, above the pivot.
+/// The energy of the scene for the state φ₁, φ₂, ω₁, ω₂; the height is relative to the pivot.
 fn energy(state: &[f64]) -> f64 {
     let &[first, second, w1, w2] = state else {
         return f64::NAN;
@@ -90,7 +91,7 @@ fn energy(state: &[f64]) -> f64 {
     kinetic - mass * g * depth
 }
 
-/// A method with its order, and a step for a double pendulum whose quickest swing takes about a second.
+/// A method with its order, and a step for a double pendulum whose fastest swing takes about a second.
 const SWINGS: [(Formula, i32, f64); 8] = [
     (Formula::SemiImplicitEuler, 1, 0.002),
     (Formula::Heun, 2, 0.002),
@@ -107,7 +108,7 @@ fn double_pendulum(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let seconds = if bench.full() { 1000.0 } else { 40.0 };
     for (formula, order, h) in SWINGS {
         bench.variant(format!("{} at h = {h} and {}", formula.name(), h / 2.0));
-        // samples a whole number of steps apart, at the same times in both runs: where they do not fit, steps are shortened
+        // samples are a whole number of steps apart, at the same times in both runs: otherwise steps would be shortened
         let samples = (seconds / h / 10.0).round();
         let worst = |parts: f64| -> Result<f64, Trouble> {
             let job = many(formula, h / parts, 10.0 * samples * parts, samples);
@@ -178,7 +179,7 @@ fn free_flight(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             worst,
             8.0 * steps * f64::EPSILON,
             "",
-            "8 ε for each step, in which v is rounded once and a rotation made of four numbers that are; errors of the method, \
+            "8 ε for each step, in which v is rounded once, and so are the four numbers of a rotation; errors of the method, \
              (2 rad/s · h)⁹, are far below",
         );
     }

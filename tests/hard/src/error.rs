@@ -1,9 +1,9 @@
-//! How wrong accelerations are: backward, as the smallest change of S and r whose exact solution they are, and forward.
+//! Errors of accelerations: the backward error, which is the smallest change of S and r for which they are exact, and the forward error.
 //!
 //! η = ‖S v̇ − r‖∞ / (‖S‖∞ ‖v̇‖∞ + ‖r‖∞)   \[Rigal & Gaches 1967; Higham 2002, theorem 7.1\]
 //!
-//! It is taken of S as it stands, and of S scaled to a diagonal of ones, D⁻¹ S D⁻¹ with D = √diag S: in the first, masses of a
-//! ton hide whatever happens to those of a gram; in the second, nothing is hidden, and no change of units matters.
+//! It is computed for S itself, and for S scaled to a unit diagonal, D⁻¹ S D⁻¹ with D = √diag S. In the first, masses of a ton hide all
+//! errors of masses of a gram; in the second, nothing is hidden, and units do not matter.
 
 use crate::balance::{Posture, Tree};
 use crate::symmetric::Factors;
@@ -28,7 +28,7 @@ pub struct Forward {
 }
 
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    // a NaN stays
+    // NaN is kept
     values.fold(0.0, |most, value| {
         if value.abs() <= most {
             most
@@ -38,8 +38,8 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
     })
 }
 
-/// A tree at a state with its accelerations, in angular velocities, which are what the equations are solved in: the rates of
-/// Bryant angles come after, by φ̈ = W⁻¹ (α − ε).
+/// A tree at a state with its accelerations, as angular velocities, in which the equations are solved: the rates of Bryant angles follow
+/// from φ̈ = W⁻¹ (α − ε).
 fn state<'t, S: Real>(tree: &'t Tree, numbers: [&[f64]; 3]) -> (Posture<'t, S>, Vec<S>, Vec<S>) {
     let [q, mut v, mut rates] = numbers
         .map(|numbers| -> Vec<S> { numbers.iter().map(|&value| S::from_f64(value)).collect() });
@@ -48,7 +48,7 @@ fn state<'t, S: Real>(tree: &'t Tree, numbers: [&[f64]; 3]) -> (Posture<'t, S>, 
     (posture, v, rates)
 }
 
-/// The backward errors of v̇, its residual taken in double-double.
+/// The backward errors of v̇, with the residual computed in double-double.
 pub fn backward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Backward {
     let (posture, exact_v, exact_rates) = state::<DoubleDouble>(tree, [q, v, rates]);
     let residual = posture.residual(&exact_v, &exact_rates);
@@ -80,8 +80,7 @@ pub fn backward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Backward {
     }
 }
 
-/// The forward error of v̇ against the solution of the same system in double-double; `None` where that finds the matrix not
-/// positive definite.
+/// The forward error of v̇ against the solution of the same system in double-double; `None` if the matrix is not positive definite there.
 pub fn forward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Option<Forward> {
     let (posture, v, rates) = state::<DoubleDouble>(tree, [q, v, rates]);
     let factors = Factors::of(&posture.matrix())?;
@@ -98,8 +97,8 @@ pub fn forward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Option<Forwa
     })
 }
 
-/// The smallest pivot of S, scaled to a diagonal of ones, at a position: how far from singular it is there; 0 where it is
-/// not positive definite in double-double.
+/// The smallest pivot of S, scaled to a unit diagonal, at a position: its distance from singularity; 0 if it is not positive definite in
+/// double-double.
 pub fn smallest_pivot(tree: &Tree, q: &[f64]) -> f64 {
     let q: Vec<DoubleDouble> = q.iter().map(|&value| Real::from_f64(value)).collect();
     Factors::of(&tree.posture(&q).matrix()).map_or(0.0, |factors| factors.smallest_pivot())
@@ -112,7 +111,7 @@ mod tests {
     use crate::evaluate::Accelerations;
     use crate::random::Random;
 
-    /// An acceleration that is wrong by δ has a residual of S δ: measured are δ and no more than it.
+    /// An acceleration with the error δ has the residual S δ: the measured error is δ, and no more.
     #[test]
     fn a_disturbance_is_found_at_its_size() {
         for kind in Kind::ALL {

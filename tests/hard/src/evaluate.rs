@@ -1,5 +1,5 @@
-//! The accelerations of a model as its generated source computes them, without compiling: the same operations in the same
-//! order, interpreted in `f64`, or in double-double to see what of an error is rounding.
+//! The accelerations of a model by its generated source, without compilation: the same operations in the same order, interpreted in `f64`,
+//! or in double-double to see which part of an error is rounding.
 
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
@@ -11,8 +11,8 @@ use bryant_runtime::{DoubleDouble, Real};
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// v̇ at given q and v, of a model whose forces are algebra, depend on no time and remember nothing; Bryant angles are in their
-/// first chart, in which A = Rx(φ₁) Ry(φ₂) Rz(φ₃).
+/// v̇ at given q and v. The forces of the model must be algebra, without dependence on time or memory; Bryant angles are in their first
+/// chart, in which A = Rx(φ₁) Ry(φ₂) Rz(φ₃).
 #[derive(Debug)]
 pub struct Accelerations<S> {
     evaluator: Evaluator<S>,
@@ -20,7 +20,7 @@ pub struct Accelerations<S> {
 }
 
 impl<S: Scalar + PartialOrd> Accelerations<S> {
-    /// By the elimination, with the passes that the emitted text goes through.
+    /// By elimination, with the passes of the emitted text.
     pub fn by_elimination(model: &Model) -> Accelerations<S> {
         Self::by(model, Route::Elimination)
     }
@@ -55,7 +55,7 @@ impl<S: Scalar + PartialOrd> Accelerations<S> {
             auxiliaries: &[],
             memory: &self.charts,
         };
-        // The only call is the choice of a chart: the third where the first is less than the second, else the fourth.
+        // the only call is the choice of a chart: the third argument if the first is less than the second, else the fourth
         let choose = |function: Function, given: &[S]| match (function, given) {
             (Function::Choose, &[a, b, then, _]) if a < b => then,
             (Function::Choose, &[_, _, _, otherwise]) => otherwise,
@@ -65,7 +65,7 @@ impl<S: Scalar + PartialOrd> Accelerations<S> {
     }
 }
 
-/// Double-double for the interpreter: the runtime's, under the generator's trait.
+/// Double-double for the interpreter: the runtime's type with the generator's trait.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Precise(pub DoubleDouble);
 

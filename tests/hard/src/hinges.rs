@@ -1,4 +1,5 @@
-//! Trees of hinges, sliders, screws, lists and welds: accelerations in the frames of the links, by the residual of S v̇ = r in double-double.
+//! Trees of hinges, sliders, screws, lists and welds: accelerations in the frames of the links, checked by the residual of S v̇ = r in
+//! double-double.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
@@ -14,21 +15,21 @@ use std::fmt::Write;
 pub const CASES: &[Case] = &[Case {
     group: Group::MassAndShape,
     name: "hinges, sliders, lists and welds",
-    law: "S v̇ = r: v̇ by the cheapest formulation, in f64, is the solution of a nearby system. S and r are those of the columns of the \
-          joints in absolute axes, in double-double.",
+    law: "v̇ comes from the cheapest formulation, in f64. It solves S v̇ = r for slightly changed S and r. The exact S and r come from the \
+          velocity columns of the joints in absolute axes, in double-double.",
     run: hinges,
 }];
 
-/// States at which a tree is looked at.
+/// Number of states of each tree.
 const STATES: usize = 3;
 
 /// An element of a chain: its joint, mass, and moments of inertia.
 struct Link {
     joint: String,
     mass: f64,
-    /// Size \[m\]: of where it hangs and of its inertia.
+    /// Size \[m\]: of the distance to its joint and of its inertia.
     size: f64,
-    /// A coordinate at which it is looked at; at random without.
+    /// The coordinate of its states; random if `None`.
     at: Option<f64>,
 }
 
@@ -61,7 +62,7 @@ fn tilted(random: &mut Random, k: usize, tilt: f64) -> Link {
     }
 }
 
-/// Three hinges in a list, the first and last of which are almost one where the middle one is at `middle`.
+/// A list of three hinges, of which the first and the last are almost parallel when the middle one is at `middle`.
 fn near_singular(random: &mut Random, middle: f64) -> Link {
     Link {
         joint: "[{ hinge: z, name: a }, { hinge: y, name: b }, { hinge: z, name: c }]".into(),
@@ -141,7 +142,7 @@ const CHAINS: [(&str, Chain); 19] = [
     (
         "gears of 1 to 1000, rotors of 1 kg m²",
         |random, k, _| match k {
-            // the first of a system that floats is on a ball
+            // the first element of a floating system is on a ball joint
             0 | 1 => Link {
                 joint: "{ hinge: y, armature: 1 }".into(),
                 ..hinge(random, 1.0)
@@ -190,7 +191,7 @@ fn hinges(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             plain,
             100.0,
             "",
-            format!("100 n ε, asked for; the worst of {states}"),
+            format!("100 n ε, required; the worst of {states}"),
         );
         bench.at_most(
             "backward error over n ε, S scaled to a diagonal of ones",
@@ -198,14 +199,14 @@ fn hinges(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             100.0,
             "",
             format!(
-                "100 n ε, the same asked of each velocity by its own size; the worst of {states}"
+                "100 n ε, required for each velocity relative to its own size; the worst of {states}"
             ),
         );
     }
     Ok(())
 }
 
-/// The larger; a NaN wins and stays.
+/// The larger value; NaN is kept.
 fn worst(a: f64, b: f64) -> f64 {
     if a.is_nan() || b <= a { a } else { b }
 }
@@ -221,7 +222,7 @@ fn model(random: &mut Random, reference: &str, links: &[Link]) -> Result<Model, 
             0 => String::new(),
             _ => format!("on: e{}, at: {:?}, ", k - 1, vector(random)),
         };
-        // the first of a system that floats turns as it likes
+        // the first element of a floating system turns freely
         let joint = match (k, reference) {
             (0, "free") => "ball",
             _ => &link.joint,
@@ -241,8 +242,8 @@ fn model(random: &mut Random, reference: &str, links: &[Link]) -> Result<Model, 
         .map_err(|problems| Trouble::Refused(problems.to_string()))
 }
 
-/// |S v̇ − r| over what S, v̇ and the squares of v can make, over n ε: by the largest entries, and row by row with S scaled to a
-/// diagonal of ones.
+/// |S v̇ − r| relative to the possible size of S, v̇ and the squares of v, over n ε: by the largest entries, and row by row with S scaled
+/// to a unit diagonal.
 fn backward_error(model: &Model, random: &mut Random, links: &[Link]) -> [f64; 2] {
     let exact = derive_with(
         model,
@@ -306,8 +307,8 @@ fn backward_error(model: &Model, random: &mut Random, links: &[Link]) -> [f64; 2
         .collect();
     let largest = |of: &dyn Fn(usize) -> f64| (0..n).map(of).fold(0.0, worst);
     let unit = n as f64 * f64::EPSILON;
-    // a bias force is a column times an inertia times two rates; of what follows, the rate is the ratio times as large in all three, and S has
-    // two of these ratios
+    // a bias force is a column times an inertia times two rates; for a follower the rate is larger by the ratio in all three, and S
+    // contains two of these ratios
     let systems = model.systems.iter().flat_map(|system| system.freedoms());
     let ratios = systems.filter_map(|freedom| freedom.follows.as_ref());
     let fastest = ratios.fold(1.0f64, |most, f| most.max(f.ratio.value(&[]).abs()));

@@ -1,9 +1,9 @@
-//! Jobs as several cases ask for them, and what a check calls them.
+//! Jobs that several cases use, and their names in checks.
 
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Method, Tolerances};
 
-/// Steps of this length \[s\]; all else as the scene says.
+/// Fixed steps of this length \[s\]; everything else as in the scene.
 pub fn fixed(formula: Formula, step: f64) -> Job {
     Job {
         method: Some(Method::fixed(formula, step)),
@@ -11,18 +11,18 @@ pub fn fixed(formula: Formula, step: f64) -> Job {
     }
 }
 
-/// So many steps of this length \[s\], with so many samples at even distances.
+/// This number of steps of this length \[s\], with this number of samples at equal intervals.
 pub fn many(formula: Formula, step: f64, count: f64, samples: f64) -> Job {
     Job {
         duration: Some(step * count),
         every: Some(step * count / samples),
-        // a few more are taken where rounding leaves a rest
+        // rounding may require a few more steps
         max_steps: Some(2 * count as u64),
         ..fixed(formula, step)
     }
 }
 
-/// Steps under control of their error; all else as the scene says.
+/// Steps with error control; everything else as in the scene.
 pub fn adaptive(formula: Formula, tolerances: Tolerances) -> Job {
     Job {
         method: Some(Method::adaptive(formula, tolerances)),
@@ -30,7 +30,7 @@ pub fn adaptive(formula: Formula, tolerances: Tolerances) -> Job {
     }
 }
 
-/// The same, with kinks of force laws located or passed.
+/// The same with kinks of force laws located or passed.
 pub fn with_kinks(formula: Formula, tolerances: Tolerances, locate: bool) -> Job {
     Job {
         locate: Some(locate),

@@ -15,7 +15,7 @@ pub const CASES: &[Case] = &[Case {
     run: energy_over_a_million_steps,
 }];
 
-/// Coefficients of 1, z, z² … of the stability polynomials: to the order of the method those of eᶻ, then the method's own.
+/// Coefficients of 1, z, z² … of the stability polynomials: up to the order of the method those of eᶻ, then the method's own.
 const POLYNOMIALS: [(Formula, &[f64]); 4] = [
     (Formula::Heun, &[1.0, 1.0, 0.5]),
     (Formula::Rk4, &[1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0]),
@@ -39,8 +39,7 @@ const POLYNOMIALS: [(Formula, &[f64]); 4] = [
     ),
 ];
 
-/// |R(iy)|² − 1: what cancels in exact arithmetic, the powers below the method's order, is left out, so that the rest is
-/// not lost in it.
+/// |R(iy)|² − 1. The powers below the method's order cancel in exact arithmetic and are left out, so that the rest is not lost in rounding.
 fn growth(coefficients: &[f64], y: f64) -> f64 {
     let count = coefficients.len();
     let mut sum = 0.0;
@@ -74,14 +73,14 @@ fn energy_over_a_million_steps(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let run = bench.succeed(&scene, &job(formula))?;
         let seen = (energy(run.last()?) / 0.5).ln();
         let expected = steps * growth(polynomial, h).ln_1p();
-        // A step rounds each of two numbers to ε/2 of the state, and so the energy by no more than 2 ε of it; the phase of the samples,
-        // and the roundings of h, change nothing of the energy of a circle.
+        // A step rounds each of two numbers to ε/2 of the state, and so changes the energy by at most 2 ε of it. The phase of the samples
+        // and the rounding of h do not change the energy of a circle.
         bench.at_most(
-            format!("ln E/E₀ away from {expected:.3e}"),
+            format!("deviation of ln E/E₀ from {expected:.3e}"),
             (seen - expected).abs(),
             2.0 * steps * f64::EPSILON,
             "",
-            "2 ε for each step: what two roundings of the state can do, all in one direction",
+            "2 ε for each step: the effect of two roundings of the state, all in one direction",
         );
     }
 

@@ -1,11 +1,11 @@
-//! Hard cases: small scenes, each with the law that it must obey, and the bound within which theory says that it can.
+//! Hard cases: small scenes, each with the law that it must obey, and a theoretical bound for the error.
 //!
-//! A [`Case`] measures, a [`Check`] is what came out of it: a number and its bound, with the reason of the bound in words. Bounds
-//! come from theory (order of the method × tolerance × growth of errors, c·κ·ε of the arithmetic), never from what came
-//! out. Scenes are YAML (`scenes/`), or made by a function where they are many; an [`Engine`] runs them as a user's
-//! model is run: generated, compiled, simulated. What needs no motion is evaluated on the graph of the equations.
+//! A [`Case`] measures; a [`Check`] is one result: a number and its bound, with the reason of the bound in words. Bounds follow from theory
+//! (order of the method × tolerance × growth of errors, c·κ·ε of the arithmetic), never from measured results. Scenes are YAML files
+//! (`scenes/`), or are made by a function if there are many. An [`Engine`] runs them in the same way as a user's model: generated,
+//! compiled, simulated. Cases without motion are evaluated on the graph of the equations.
 //!
-//! One file per group, in the order of the table that `bryant stability` prints.
+//! Each group has a file, in the order of the table that `bryant stability` prints.
 
 pub mod balance;
 pub mod bench;

@@ -1,4 +1,4 @@
-//! Ratios of masses, moments that vanish, joints that coincide: S is far from a multiple of 1, and may be singular.
+//! Ratios of masses, vanishing moments of inertia, coincident joints: S is far from a multiple of the unit matrix, and may be singular.
 
 mod singular;
 
@@ -13,15 +13,15 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::MassAndShape,
         name: "mass ratios along a chain",
-        law: "S v̇ = r, whatever the masses: the errors are those of a nearby S and r, by the residual of d'Alembert's principle \
-              body by body in double-double.",
+        law: "S v̇ = r holds for any masses. The computed v̇ solves this equation for slightly changed S and r. The change is measured by \
+              the residual of d'Alembert's principle, body by body, in double-double.",
         run: mass_ratios,
     },
     Case {
         group: Group::MassAndShape,
         name: "needles, plates, points and joints that coincide",
-        law: "S v̇ = r, whatever the shapes: the errors are those of a nearby S and r, by the residual of d'Alembert's principle \
-              body by body in double-double.",
+        law: "S v̇ = r holds for any shapes. The computed v̇ solves this equation for slightly changed S and r. The change is measured by \
+              the residual of d'Alembert's principle, body by body, in double-double.",
         run: shapes,
     },
     singular::REFUSED,
@@ -63,10 +63,10 @@ fn mass_ratios(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// An element by the seed, its place, and the length of the chain.
+/// Makes an element from the random generator, its index, and the length of the chain.
 type Maker<'a> = &'a dyn Fn(&mut Random, usize, usize) -> Link;
 
-/// Chains of these elements in all coordinates, free and fixed, with a load and without.
+/// Chains of these elements in all coordinates, free and fixed, with and without a load.
 fn over(bench: &mut Bench<'_>, counts: &[usize], make: Maker<'_>) -> Result<(), Trouble> {
     let mut survey = Survey::default();
     for kind in Kind::ALL {
@@ -87,7 +87,7 @@ fn over(bench: &mut Bench<'_>, counts: &[usize], make: Maker<'_>) -> Result<(), 
     Ok(())
 }
 
-/// Element k of 1 kg of a shape; what the shape does not say is general.
+/// Makes element k with 1 kg and a shape; all other properties are general.
 type Shape = fn(&mut Random, usize) -> Link;
 
 const SHAPES: [(&str, Shape); 14] = [
@@ -102,7 +102,7 @@ const SHAPES: [(&str, Shape); 14] = [
     (
         "needles without moment about an axis beside the joint",
         |random, k| Link {
-            // a root that floats would turn about that axis
+            // the root of a floating system would rotate about that axis
             inertia: [0.01, 0.01, if k == 0 { 0.005 } else { 0.0 }],
             ..general(random, 1.0)
         },
@@ -171,7 +171,7 @@ const SHAPES: [(&str, Shape); 14] = [
         ..general(random, 1.0)
     }),
     ("centre of gravity in the joint outboard", |random, _| {
-        // the same joint on each
+        // all have the same joint
         let at = [0.1, -0.2, 0.3];
         Link {
             cg: at,

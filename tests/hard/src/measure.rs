@@ -1,15 +1,15 @@
-//! What several cases measure alike.
+//! Measurements that several cases share.
 
 use crate::bench::{Run, Trouble};
 use bryant_runtime::Tolerances;
 
-/// The largest value, at least 0; NaN if one is.
+/// The largest value, at least 0; NaN if one value is NaN.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     let larger = |m: f64, x: f64| if x <= m { m } else { x };
     values.into_iter().fold(0.0, larger)
 }
 
-/// Steps, rejected ones too.
+/// Number of steps, including rejected ones.
 ///
 /// # Errors
 /// The run failed.
@@ -18,13 +18,13 @@ pub fn steps(run: &Run) -> Result<f64, Trouble> {
     Ok((report.steps + report.rejected) as f64)
 }
 
-/// By how much a step under control of its error may change a speed v \[m/s\] where an oscillation of frequency ω \[1/s\] makes speed
-/// of an error of position: r v + a_v + ω a_x.
+/// The largest change of a speed v \[m/s\] in a step with error control, for an oscillation of frequency ω \[1/s\] that converts errors of
+/// position to errors of speed: r v + a_v + ω a_x.
 pub fn error_of_speed(of: &Tolerances, speed: f64, omega: f64) -> f64 {
     of.relative * speed + of.velocities + omega * of.positions
 }
 
-/// The same of a rate \[rad/s\] and an angle: r θ' + a_ω + ω a_θ.
+/// The same for a rate \[rad/s\] and an angle: r θ' + a_ω + ω a_θ.
 pub fn error_of_rate(of: &Tolerances, rate: f64, omega: f64) -> f64 {
     of.relative * rate + of.angular_velocities + omega * of.angles
 }

@@ -1,8 +1,8 @@
-//! Random scenes in which a ball, a belt or a wheel flies freely until it meets something, or meets nothing.
+//! Random scenes in which a ball, a belt or a wheel moves freely until it meets something, or meets nothing.
 //!
-//! Everything flies freely for a second, so a method of order 2 or more would take it in one step, and shows nothing at its end of what it
-//! went over. Whether anything is met follows from the straight line or the parabola. Where it is met by more than a hundredth of its
-//! size, the end of the run must differ from that of free flight; where it is not met, it must be that end.
+//! Everything moves freely for a second, so a method of order 2 or more could take a single step, whose end does not show what lies
+//! between. The straight line or the parabola tells whether something is met. If it is met by more than a hundredth of its size, the end of
+//! the run must differ from that of free flight; if nothing is met, both ends must agree.
 
 mod shapes;
 
@@ -19,14 +19,15 @@ use std::f64::consts::TAU;
 pub(crate) const CASES: &[HardCase] = &[HardCase {
     group: Group::NonSmoothness,
     name: "a thousand scenes in which something is met in flight, or not",
-    law: "Balls, ellipsoids, plates with edges and corners, belts and stops, 1 mm to 1 m large, at 0.1 to 500 m/s: what is met turns the motion, and \
-          what is not met leaves it as it is. Whether anything is met follows from the free flight in closed form.",
+    law: "Bodies fly at balls, ellipsoids, plates with edges and corners, belts and stops of 1 mm to 1 m, at 0.1 to 500 m/s. A meeting \
+          turns the motion; without a meeting the motion stays as it is. The free flight in closed form tells which of the two must \
+          happen.",
     run: meetings,
 }];
 
 /// Length of a run \[s\].
 pub const DURATION: f64 = 1.0;
-/// Methods of single runs, one after the other.
+/// Methods of single runs, in turn.
 pub const FORMULAS: [Formula; 5] = [
     Formula::Dopri5,
     Formula::Tsit5,
@@ -38,7 +39,7 @@ pub const FORMULAS: [Formula; 5] = [
 pub const EVERY: [f64; 3] = [1.0, 0.1, 1e-3];
 /// Tolerance of all runs.
 pub const TOLERANCE: f64 = 1e-6;
-/// Scenes of each shape.
+/// Number of scenes of each shape.
 const SCENES: usize = 170;
 
 /// Whether something is met.
@@ -48,24 +49,24 @@ pub enum Met {
     Yes,
     /// Not at all.
     No,
-    /// By too little to be seen, or nobody can tell.
+    /// By too little to be seen, or not known.
     Hardly,
 }
 
 /// A scene of a shape.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The parameters of the shape, in its order.
+    /// The parameters of the shape, in their order.
     pub parameters: Vec<f64>,
     /// The outputs at the end, if nothing is met.
     pub free: Vec<f64>,
-    /// What a difference is measured by.
+    /// The scale of differences.
     pub scale: f64,
-    /// Whether anything is met.
+    /// Whether something is met.
     pub met: Met,
 }
 
-/// Stiffness of a mass of 1 that turns it within a tenth of a size.
+/// A stiffness that turns a mass of 1 within a tenth of a size.
 fn stiffness(speed: f64, size: f64) -> f64 {
     (speed / (0.1 * size)).powi(2)
 }
@@ -78,17 +79,17 @@ fn met(depth: f64, size: f64) -> Met {
     }
 }
 
-/// Evenly in its logarithm.
+/// A random number, uniform in its logarithm.
 fn of_size(random: &mut Random, low: f64, high: f64) -> f64 {
     low * (high / low).powf(random.uniform(0.0, 1.0))
 }
 
-/// A size of the family \[m\].
+/// A random size \[m\].
 fn size(random: &mut Random) -> f64 {
     of_size(random, 1e-3, 1.0)
 }
 
-/// A speed of the family \[m/s\].
+/// A random speed \[m/s\].
 fn speed(random: &mut Random) -> f64 {
     of_size(random, 0.1, 500.0)
 }
@@ -99,16 +100,16 @@ fn direction(random: &mut Random) -> [f64; 2] {
 }
 
 impl Case {
-    /// What is wrong with the outputs at the end of a run, if anything is.
+    /// The error in the outputs at the end of a run, if there is one.
     pub fn judge(&self, end: &[f64]) -> Option<String> {
         let pairs = self.free.iter().zip(end);
         let away = pairs.map(|(free, end)| (free - end).abs());
-        // a number that is none stays
+        // NaN is kept
         let away = away.fold(0.0, |most: f64, x| if x <= most { most } else { x }) / self.scale;
         let wrong = match self.met {
-            // a hundredth of a size deep it is turned by a tenth or more
+            // at a depth of a hundredth of its size it is turned by a tenth or more
             Met::Yes => away < 1e-3,
-            // rounding of places of hundreds of metres
+            // rounding of positions of hundreds of metres
             Met::No => away > 1e-6,
             Met::Hardly => false,
         };
@@ -120,15 +121,15 @@ impl Case {
 /// A shape and its scenes.
 #[derive(Clone, Debug)]
 pub struct Shape {
-    /// What it is.
+    /// Its name.
     pub name: &'static str,
     /// Its model.
     pub scene: Scene,
-    /// Its scenes, of which each meets something, or does not.
+    /// Its scenes; each meets something, or meets nothing.
     pub cases: Vec<Case>,
 }
 
-/// All shapes, with so many scenes each.
+/// All shapes, with this number of scenes each.
 pub fn shapes(scenes: usize) -> Vec<Shape> {
     let mut random = Random::new(20);
     let all = shapes::all().into_iter();
@@ -168,18 +169,18 @@ fn meetings(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             met += usize::from(case.met == Met::Yes);
         }
         bench.at_most(
-            format!("scenes of {SCENES} with another end than that of their flight"),
+            format!("scenes of {SCENES} whose end is wrong"),
             wrong as f64,
             0.0,
             "",
-            "what is met turns the motion by a tenth or more, what is not met by nothing",
+            "a meeting changes the motion by a tenth or more, a miss by nothing",
         );
         bench.at_least(
             format!("scenes of {SCENES} that meet something"),
             met as f64,
             (SCENES / 5) as f64,
             "",
-            "otherwise the family would say nothing",
+            "otherwise the family of scenes would prove nothing",
         );
     }
     Ok(())

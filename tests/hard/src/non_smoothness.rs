@@ -1,8 +1,7 @@
 //! Friction that holds, contacts that close and open.
 //!
-//! As with stiff scenes, N steps under control of their error change a speed v by at most N · tolerance · (1 + v) · ω, ω the
-//! frequency of the stiffest spring that acts. Where a motion is at rest and damped, errors of steps die out again: what is
-//! left is a few steps' tolerance.
+//! As for stiff scenes, N steps with error control change a speed v by at most N · tolerance · (1 + v) · ω, with ω the frequency of the
+//! stiffest acting spring. If a motion is at rest and damped, errors of steps decay: the tolerance of a few steps remains.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -17,68 +16,71 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::NonSmoothness,
         name: "a block that sticks on a slope for 100 s",
-        law: "Bristles are deflected by z_b tan α/μ and hold: nothing moves any more (docs/forces/friction.md). Friction by speed lets \
-              the block creep with v_s tan α/μ, no more and no less.",
+        law: "With friction that holds, the bristles are deflected by z_b tan α/μ, and then nothing moves any more \
+              (docs/forces/friction.md). With friction by speed the block creeps with exactly v_s tan α/μ.",
         run: sticks,
     },
     Case {
         group: Group::NonSmoothness,
         name: "joints that friction holds for 20 s",
-        law: "Under a force Q below the friction M of their joints, bristles are deflected by z_b Q/M and hold: nothing moves any more \
-              (docs/forces/joint.md). Friction by speed lets a joint creep with v Q/M, no more and no less.",
+        law: "The force Q is below the friction M of the joint. With friction that holds, the bristles are deflected by z_b Q/M, and then \
+              nothing moves any more (docs/forces/joint.md). With friction by speed the joint creeps with exactly v Q/M.",
         run: brakes,
     },
     Case {
         group: Group::NonSmoothness,
         name: "a sliding block stops without chatter",
-        law: "Coulomb: it stops after v²/(2 μ g), springs back by less than the bristles were deflected, and lies still.",
+        law: "By Coulomb's law the block stops after v²/(2 μ g). It springs back by less than the deflection of the bristles, and lies \
+              still.",
         run: stops,
     },
     Case {
         group: Group::NonSmoothness,
         name: "grazing contact",
-        law: "A ball thrown at a ceiling misses it, just touches it, or dips in by a nanometre: parabola, half an oscillation, parabola.",
+        law: "A ball is thrown at a ceiling and misses it, just touches it, or penetrates it by a nanometre. It moves along a parabola, in \
+              half an oscillation while it touches, and along a parabola again.",
         run: grazes,
     },
     Case {
         group: Group::NonSmoothness,
         name: "bouncing until rest",
-        law: "Bounces get lower and closer without end; the ball comes to rest at the depth m g/k, after a finite number of steps.",
+        law: "The bounces get lower and follow each other faster and faster. The ball comes to rest at the depth m g/k, after a finite \
+              number of steps.",
         run: bounces_until_rest,
     },
     Case {
         group: Group::NonSmoothness,
         name: "ten contacts at once",
-        law: "Ten feet that touch in the same instant carry like one of ten times the stiffness, and nothing turns.",
+        law: "Ten feet that touch at the same instant carry like one foot of ten times the stiffness, and nothing turns.",
         run: ten_contacts,
     },
     Case {
         group: Group::NonSmoothness,
         name: "a box at rest for a million steps",
-        law: "Nothing moves: what rounding stirs up is all the energy there is.",
+        law: "Nothing moves. The only kinetic energy comes from rounding.",
         run: box_at_rest,
     },
     Case {
         group: Group::NonSmoothness,
         name: "over the corner of a plane that ends",
-        law: "The force fades towards the edges, and the edges push by what the stored energy loses (docs/forces/contact.md): the kinetic \
-              energy before and after is the same.",
+        law: "The force fades towards the edges, and the edges push outwards by as much as the stored energy falls \
+              (docs/forces/contact.md). So the kinetic energy before and after is the same.",
         run: over_the_corner,
     },
     Case {
         group: Group::NonSmoothness,
         name: "initial penetration",
-        law: "From rest at the depth δ the ball leaves after a quarter of an oscillation with δ √(k/m).",
+        law: "The ball starts at rest at the depth δ. It leaves after a quarter of an oscillation with the speed δ √(k/m).",
         run: buried,
     },
 ];
 
-/// Friction, and the thresholds of its two laws (`scenes/incline.yaml`).
+/// The coefficient of friction, and the thresholds of its two laws (`scenes/incline.yaml`).
 const MU: f64 = 0.4;
 const BRISTLE: f64 = 1e-4;
 const CREEP: f64 = 1e-2;
 
-/// Way downhill of one of the blocks at every sample.
+/// Downhill displacement of one of the blocks at every sample.
 fn way(run: &Run, block: &str, slope: f64) -> Result<Vec<f64>, Trouble> {
     let (sin, cos) = slope.sin_cos();
     let x = run.state(&format!("{block}.x"))?;
@@ -112,12 +114,12 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             (held[last] - held[first]).abs(),
             10.0 * limit.positions + rounding,
             "m",
-            "x − z is kept by every step but for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
+            "every step keeps x − z except for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
         );
         let deflection = run.header.auxiliaries.first().cloned().unwrap_or_default();
         let deflection = run.state(&deflection)?[last].abs();
         bench.at_most(
-            "deflection of the bristles away from z_b tan α/μ",
+            "deviation of the bristles' deflection from z_b tan α/μ",
             (deflection - BRISTLE * slope.tan() / MU).abs(),
             10.0 * limit.positions + rounding,
             "m",
@@ -127,7 +129,7 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let speed = CREEP * slope.tan() / MU;
         let duration = run.times[last] - run.times[first];
         bench.at_most(
-            "friction by speed: creep away from v_s tan α/μ",
+            "friction by speed: deviation of the creep from v_s tan α/μ",
             ((crept[last] - crept[first]) / duration - speed).abs(),
             10.0 * tolerance * (1.0 + speed),
             "m/s",
@@ -158,22 +160,22 @@ fn brakes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 (held[last] - held[first]).abs(),
                 10.0 * limit.positions + rounding,
                 "m or rad",
-                "θ − z is kept by every step but for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
+                "every step keeps θ − z except for rounding, and the deflection z is at rest: ten steps' tolerance, steps × ε",
             );
             let bristle = run.state(&format!("joint {joint}: bristle"))?[last];
             bench.at_most(
-                format!("{joint}: deflection of the bristles away from z_b Q/M"),
+                format!("{joint}: deviation of the bristles' deflection from z_b Q/M"),
                 (bristle.abs() - BRISTLE * share).abs(),
                 10.0 * limit.positions + rounding + BRISTLE * held[last].powi(2),
                 "m or rad",
-                "ten steps' tolerance, steps × ε, and what the arm has turned by makes of its torque",
+                "ten steps' tolerance, steps × ε, and the effect of the arm's rotation on its torque",
             );
         }
         let crept = run.state("creeps/cage.position")?;
         let duration = run.times[last] - run.times[first];
         let speed = CREEP * cage;
         bench.at_most(
-            "friction by speed: creep away from v Q/M",
+            "friction by speed: deviation of the creep from v Q/M",
             ((crept[last] - crept[first]) / duration - speed).abs(),
             10.0 * tolerance * (1.0 + speed),
             "m/s",
@@ -201,11 +203,11 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let v = run.state("holds.vx")?;
         let end = x[x.len() - 1];
         bench.at_most(
-            "stopping distance away from v²/(2 μ g)",
+            "deviation of the stopping distance from v²/(2 μ g)",
             (end - x[0] - speed * speed / (2.0 * MU * 9.81)).abs(),
             2.0 * BRISTLE,
             "m",
-            "while the bristles bend and while they spring back, z_b each",
+            "z_b while the bristles bend, and z_b while they spring back",
         );
         bench.at_most(
             "way back",
@@ -221,7 +223,7 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             damping,
             0.9,
             "",
-            "so that they swing back once and no more",
+            "so that they swing back only once",
         );
         let still = 10.0 * tolerance;
         let turns = v
@@ -232,7 +234,7 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             turns.count() as f64,
             2.0,
             "",
-            "back once, and at rest",
+            "it springs back once and then rests",
         );
         bench.at_most(
             "way in the last half second",
@@ -261,7 +263,7 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 ..with_kinks(formula, Tolerances::uniform(tolerance), locate)
             };
             let run = bench.succeed(&scene, &job)?;
-            // Without the ceiling the ball would be above it for 2 v₀/g; against it δ'' = −g − ω² δ brings it back sooner.
+            // Without the ceiling the ball would be above it for 2 v₀/g; with it, δ'' = −g − ω² δ brings it back sooner.
             let ahead = |excess: f64| {
                 let entry = (2.0 * gravity * excess.max(0.0)).sqrt();
                 2.0 * entry / gravity - 2.0 / omega * (entry * omega / gravity).atan()
@@ -272,7 +274,7 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             let found = z[z.len() - 1];
             let contact = if excess > 0.0 { omega } else { 1.0 };
             let error = steps(&run)? * tolerance * (1.0 + speed) * contact;
-            // an error of the height moves the entry, and with it the time above
+            // an error of the height changes the time of entry, and so the time above
             let height = error / contact * (1.0 + speed / gravity);
             let shift =
                 [excess - height, excess + height].map(|e| (ahead(e) - ahead(excess)).abs());
@@ -281,7 +283,7 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 (found - exact).abs(),
                 2.0 * error + speed * largest(shift),
                 "m",
-                "steps × tolerance × (1 + v), times ω while it touches, and what an error of the height at touch makes of the time above",
+                "steps × tolerance × (1 + v), times ω during contact, and the effect of an error of the height at touch on the time above",
             );
         }
     }
@@ -305,7 +307,7 @@ fn bounces_until_rest(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         // of the ball on the plate
         let omega = 1e3;
         bench.at_most(
-            "way from where it rests",
+            "distance from the position of rest",
             (last[1] - 0.1 + depth).abs(),
             10.0 * (limit.positions + tolerance / omega),
             "m",
@@ -346,7 +348,7 @@ fn ten_contacts(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "steps of both × tolerance × (1 + v) ω, for 2 s",
         );
         let angles = ten.state("beam/body.phi")?.into_iter().map(f64::abs);
-        // Feet at ±x carry alike but for rounding: moments of ε k δ x, and the feet drive the angle back.
+        // Feet at ±x carry the same load up to rounding: moments of ε k δ x, and the feet return the angle.
         let moment = f64::EPSILON * 1e6 * 0.02;
         let stiffness: f64 = (0..10)
             .map(|i| 1e5 * (0.2 * f64::from(i) - 0.9).powi(2))
@@ -405,11 +407,11 @@ fn over_the_corner(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "it comes without touching, touches, and leaves",
             first == 0.0 && last == 0.0 && most > 10.0,
             format!("{first:.0} N, at most {most:.0} N, {last:.0} N"),
-            "the kinetic energy at both ends is all there is",
+            "at both ends all energy is kinetic",
         );
         let energy = run.energy()?;
         let speed = steps(&run)? * tolerance * (1.0 + 3.0) * omega;
-        // T = ½ v·M v changes by M v·δv; the momentum is that of 2 kg at 1 m/s, as much again of the turning
+        // T = ½ v·M v changes by M v·δv; the momentum is that of 2 kg at 1 m/s, and the same for the rotation
         bench.at_most(
             "change of the kinetic energy",
             (energy.end - energy.start).abs(),

@@ -14,50 +14,50 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::Orientation,
         name: "driven exactly through ±90°",
-        law: "A body that turns steadily about y passes the poles of its second Bryant angle every half turn: p(t) = p(0) turned by ω t, \
-              whatever the orientation is written in.",
+        law: "A body that turns steadily about y passes the poles of its second Bryant angle every half turn. In angles and in quaternions \
+              its points follow p(t), which is p(0) turned by ω t.",
         run: through_the_poles,
     },
     Case {
         group: Group::Orientation,
         name: "a tumbling tree in angles and in quaternions",
-        law: "Both describe the same motion.",
+        law: "Bryant angles and quaternions describe the same motion.",
         run: angles_and_quaternions,
     },
     Case {
         group: Group::Orientation,
         name: "a tumbling tree for 100 000 steps",
-        law: "In free flight energy, momentum and angular momentum are kept.",
+        law: "In free flight energy, momentum and angular momentum are conserved.",
         run: tumbles,
     },
     Case {
         group: Group::Orientation,
         name: "Dzhanibekov's flips",
-        law: "A body thrown about its middle axis turns over and over; in its own axes ω follows Jacobi's elliptic functions (Landau & \
-              Lifshitz I, § 37).",
+        law: "A body that is thrown about its middle principal axis turns over again and again. In its own axes ω follows Jacobi's \
+              elliptic functions (Landau & Lifshitz I, § 37).",
         run: flips,
     },
     Case {
         group: Group::Orientation,
         name: "spin at 10 000 rad/s",
-        law: "The axis of a free symmetric top goes round its angular momentum L at the rate L/J₁.",
+        law: "The axis of a free symmetric top precesses about its angular momentum L at the rate L/J₁.",
         run: spins,
     },
     Case {
         group: Group::Orientation,
         name: "a quaternion after a million steps",
-        law: "It is put back to length 1 after every step.",
+        law: "The quaternion is scaled back to length 1 after every step.",
         run: stays_a_unit,
     },
     Case {
         group: Group::Orientation,
         name: "a change of chart in the middle of a contact",
-        law: "Which chart the angles are in is nothing that a force may feel.",
+        law: "Forces do not depend on the chart of the angles.",
         run: chart_in_contact,
     },
 ];
 
-/// A free body with its centre of gravity in its origin; `rest` follows.
+/// A free body with its centre of gravity at its origin, and the rest of the text.
 fn body(name: &str, coordinates: &str, inertia: [f64; 3], rate: [f64; 3], rest: &str) -> Scene {
     let text = format!(
         "model: {name}
@@ -73,7 +73,7 @@ systems:
     Scene::new(name, text)
 }
 
-/// Where a point of the body is, and something longer than its lever.
+/// The position of a point of the body, and a length above its lever arm.
 const POINT: [f64; 3] = [0.1, 0.2, 0.3];
 const LONGEST: f64 = 0.4;
 
@@ -128,7 +128,7 @@ fn through_the_poles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 largest(errors),
                 1e-10,
                 "m",
-                "the demand; some thousand steps × tolerance × ω T are as much",
+                "the demand; about a thousand steps × tolerance × ω T give the same",
             );
         }
     }
@@ -158,7 +158,7 @@ fn angles_and_quaternions(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         apart(&quaternions, &angles),
         1e-10,
         "m",
-        "the demand; a thousand steps × tolerance × growth are as much",
+        "the demand; a thousand steps × tolerance × growth give the same",
     );
     Ok(())
 }
@@ -185,9 +185,15 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         };
         let run = bench.succeed(&scene, &job)?;
         let taken = steps(&run)?;
-        bench.at_least("steps", taken, count, "", "as many as the case is about");
+        bench.at_least(
+            "steps",
+            taken,
+            count,
+            "",
+            "as many as the name of the case says",
+        );
         let energy = run.energy()?;
-        // of v, relative to v, and E ~ v²
+        // the error of v relative to v, and E ~ v²
         bench.at_most(
             "change of the energy over the energy",
             (energy.end / energy.start - 1.0).abs(),
@@ -200,7 +206,7 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             energy.momentum_gap.unwrap_or(f64::NAN),
             taken * 2.0 * tolerance * 10.0,
             "",
-            "steps × tolerance × (1 + 1/v), ten elements' worth of lever",
+            "steps × tolerance × (1 + 1/v), with the lever arm of ten elements",
         );
     }
     Ok(())
@@ -223,7 +229,7 @@ fn jacobi(u: f64, m: f64) -> [f64; 3] {
         phi = 0.5 * (phi + (ratio * phi.sin()).asin());
     }
     let (sin, cos) = phi.sin_cos();
-    // 1 − m sn², without a difference of what is nearly equal
+    // 1 − m sn², without a difference of almost equal numbers
     [sin, cos, ((1.0 - m) + m * cos * cos).sqrt()]
 }
 
@@ -236,10 +242,10 @@ fn quarter(m: f64) -> f64 {
     0.5 * std::f64::consts::PI / a
 }
 
-/// Moments of inertia of what flips, and its motion in its own axes.
+/// Moments of inertia of the flipping body, and its motion in its own axes.
 const MOMENTS: [f64; 3] = [0.01, 0.02, 0.03];
 
-/// ω in the body's axes at a time, started at (a, 0, b), and the time between two flips.
+/// ω in the body's axes at a time after the start at (a, 0, b), and the time between two flips.
 fn euler(a: f64, b: f64, t: f64) -> ([f64; 3], f64) {
     let [i, j, k] = MOMENTS;
     let energy = i * a * a + k * b * b;
@@ -248,7 +254,7 @@ fn euler(a: f64, b: f64, t: f64) -> ([f64; 3], f64) {
     let m = (j - i) * (energy * k - momentum) / ((k - j) * (momentum - energy * i));
     let [sn, cn, dn] = jacobi(rate * t, m);
     let middle = ((energy * k - momentum) / (j * (k - j))).sqrt();
-    // with a and b positive ω₂ grows from 0 where (J₃ − J₁) ω₃ ω₁ > 0
+    // for positive a and b, ω₂ grows from 0 where (J₃ − J₁) ω₃ ω₁ > 0
     ([a * cn, middle * sn, b * dn], 2.0 * quarter(m) / rate)
 }
 
@@ -264,9 +270,9 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         duration / 1000.0
     );
     let scene = body("dzhanibekov", "quaternion", MOMENTS, [a, 0.0, b], &rest);
-    // What an error of the start becomes, in whichever direction; one of ω₂ does no more than shift the motion. It shifts the flips,
-    // further with each: errors grow linearly with the flips that are left, (1 + 2 + … + n)/n on average. At the start they grow most, for
-    // the closer to the middle axis, the less they change the period.
+    // The growth of an error of the start, in any direction; an error of ω₂ only shifts the motion. It shifts the flips, by more with each
+    // flip: errors grow linearly with the number of remaining flips, (1 + 2 + … + n)/n on average. They grow most at the start, because the
+    // period changes less the closer the motion is to the middle axis.
     let nudge = 1e-7;
     let growth = largest((0..=1000).flat_map(|i| {
         let t = duration * f64::from(i) / 1000.0;
@@ -306,7 +312,7 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             f64::from(turned),
             49.0,
             "",
-            "50 times their period, the last of which may just begin",
+            "50 times their period; the last one may just begin",
         );
         bench.at_most(
             "error of ω in the body's axes",
@@ -322,13 +328,13 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// By how much a step may change ω in the body's axes: by the errors of its three components, and as the quaternion errs by a_θ in
-/// each of four, by 2 a_θ, which is a turn of 4 a_θ.
+/// The largest change of ω in the body's axes in a step: the errors of its three components, and, as the quaternion errs by a_θ in each of
+/// four numbers, by 2 a_θ in total, a rotation by 4 a_θ.
 fn of_a_step(of: &Tolerances, rate: f64) -> f64 {
     of.relative * rate + 3f64.sqrt() * of.angular_velocities + 4.0 * rate * of.angles
 }
 
-/// A vector of absolute axes in those of a body: Aᵀ v.
+/// A vector in absolute axes, converted to the axes of a body: Aᵀ v.
 fn turned_back([w, x, y, z]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
     let rows = [
         [
@@ -360,13 +366,13 @@ fn spins(bench: &mut Bench<'_>) -> Result<(), Trouble> {
   - { name: pz, of: top/body, at: [0, 0, 1], what: position, component: z }
 run: { duration: 0.1 s, every: 1 ms }
 ";
-    // L = (J₁ ω₁, 0, J₃ ω₃), at an angle to the axis, which is z at first
+    // L = (J₁ ω₁, 0, J₃ ω₃) is at an angle to the axis of the top, which is z at first
     let momentum: [f64; 2] = [across * wobble, along * spin];
     let size = momentum[0].hypot(momentum[1]);
     let [sin, cos] = momentum.map(|l| l / size);
     let rate = size / across;
     let exact = |t: f64| {
-        // z turned about L by L/J₁ t: the part along L stays, the rest goes round
+        // z rotated about L by L/J₁ t: its part along L stays, the rest rotates
         let (s, c) = (rate * t).sin_cos();
         let beside = [-sin * cos, 0.0, sin * sin];
         let third = [0.0, -sin, 0.0];
@@ -385,7 +391,7 @@ run: { duration: 0.1 s, every: 1 ms }
             bench.variant(format!("{coordinates}, {}", name(formula, tolerance)));
             let tolerances = Tolerances::of(tolerance);
             let run = bench.succeed(&scene, &adaptive(formula, tolerances))?;
-            // of angles and quaternions, and of three components or angles of which none is faster than the wobble but one
+            // errors of angles and quaternions, and of three components or angles, of which at most one is faster than the wobble
             let turned = 4.0 * tolerances.angles;
             let rates = spin + 2.0 * wobble;
             let rate_error = tolerances.relative * rates + 3.0 * tolerances.angular_velocities;
@@ -400,8 +406,9 @@ run: { duration: 0.1 s, every: 1 ms }
                 largest(errors),
                 steps(&run)? * (turned + momentum_error * (2.0 + 0.5 * sin * rate * duration)),
                 "",
-                "steps × (δθ + δL/L (2 + sin α · L/J₁ · T/2)): a step turns the body by δθ ≤ 4 a_θ and L by δL/L ≤ δω/ω + 2 δθ; the axis goes on about \
-                 the turned L, too fast or too slow by δL/J₁ for half of T on average, on a cone of the half angle α",
+                "steps × (δθ + δL/L (2 + sin α · L/J₁ · T/2)): a step rotates the body by δθ ≤ 4 a_θ and L by δL/L ≤ δω/ω + 2 \
+                 δθ; the axis continues about the rotated L, too fast or too slow by δL/J₁ for half of T on average, on a cone \
+                 of the half angle α",
             );
         }
     }
@@ -426,7 +433,7 @@ fn stays_a_unit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             (square.sqrt() - 1.0).abs()
         });
         bench.at_most(
-            "length away from 1",
+            "deviation of the length from 1",
             largest(norms),
             4.0 * f64::EPSILON,
             "",
@@ -466,7 +473,7 @@ run: { duration: 1 s, every: 5 ms }
     };
     let quaternions = bench.succeed(&of("quaternion"), &job)?;
     let angles = bench.succeed(&of("bryant"), &job)?;
-    // sin φ₂ = 2 (x z + w y) above 0.9 while the floor presses
+    // sin φ₂ = 2 (x z + w y) is above 0.9 while the floor pushes
     let force = quaternions.output("force")?;
     let pressed = quaternions.states.iter().zip(&force).filter(|(y, force)| {
         let sine: f64 = 2.0 * (y[4] * y[6] + y[3] * y[5]);
@@ -479,7 +486,7 @@ run: { duration: 1 s, every: 5 ms }
         "",
         "the chart changes there",
     );
-    // Height and speed have the frequency √(k/m) in the contact; where nothing holds, an error of speed goes on for all of the run.
+    // Height and speed oscillate with √(k/m) in the contact; without contact, an error of speed acts for the whole run.
     let (omega, rate, duration) = (2e3f64.sqrt(), 12.0, 1.0);
     let count = steps(&quaternions)? + steps(&angles)?;
     let turning = of_a_step(&tolerances, rate) + omega * 4.0 * tolerances.angles;
@@ -490,8 +497,8 @@ run: { duration: 1 s, every: 5 ms }
         apart(&quaternions, &angles),
         error * 2e3,
         "m, N",
-        "steps of both × (r v + a_v + √(k/m) a_x, of turning and of moving) × (1/√(k/m) + T): an error of speed moves things linearly in time \
-         at most; as a force times k",
+        "steps of both × (r v + a_v + √(k/m) a_x, of turning and of moving) × (1/√(k/m) + T): an error of speed causes a \
+         displacement that is at most linear in time; for a force, times k",
     );
     Ok(())
 }

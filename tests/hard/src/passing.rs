@@ -1,4 +1,4 @@
-//! What begins and ends within a step: nothing of it shows at the ends of the step.
+//! Events that begin and end within a step: the ends of the step do not show them.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
@@ -14,26 +14,28 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::NonSmoothness,
         name: "a ball that flies at another, at 0.1 to 500 m/s",
-        law: "Equal masses in an elastic impact exchange their speeds. While nothing acts, the error is 0 and steps grow: a ball must not fly \
-              through the other within one.",
+        law: "Equal masses in an elastic impact exchange their speeds. While no force acts, the error is 0 and steps grow. No ball may fly \
+              through the other one within a step.",
         run: bullets,
     },
     Case {
         group: Group::NonSmoothness,
         name: "a threshold that is passed for a moment",
-        law: "A switch fires when its quantity passes a threshold, however soon it comes back; what it switches moves the swing by 0.1 rad.",
+        law: "A switch fires when its quantity passes a threshold, however soon the quantity comes back. The switched force then moves the \
+              swing by 0.1 rad.",
         run: thresholds,
     },
     Case {
         group: Group::NonSmoothness,
         name: "a switch that is flown past, at 0.5 to 500 m/s",
-        law: "A distance falls and rises in straight lines, and its switch fires when it is below 1 mm to 0.5 m. Free flight makes no error, so a step may be \
-              as long as all of it. From the switch on 100 N move a mass of 1 kg by 50 t² m.",
+        law: "A distance falls and rises in straight lines, and a switch fires when it is below a threshold of 1 mm to 0.5 m. Free flight \
+              makes no error, so a step could be as long as the whole flight. From the switch on a force of 100 N moves a mass of 1 kg by \
+              50 t² m.",
         run: flown_past,
     },
 ];
 
-/// The methods that choose their steps, and how fine.
+/// The methods that choose their steps, with their tolerances.
 const METHODS: [(Formula, f64); 5] = [
     (Formula::Dopri5, 1e-7),
     (Formula::Tsit5, 1e-4),
@@ -42,7 +44,7 @@ const METHODS: [(Formula, f64); 5] = [
     (Formula::Rodas5, 1e-7),
 ];
 
-/// Scenes of each method.
+/// Number of scenes of each method.
 const SCENES: usize = 40;
 
 fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {
@@ -58,7 +60,7 @@ fn bullets(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         for _ in 0..SCENES {
             let speed = log_uniform(&mut random, 0.1, 500.0);
             let size = log_uniform(&mut random, 1e-3, 0.3);
-            // a mass of 1/2 is turned within a tenth of the size
+            // a mass of 1/2 turns within a tenth of the size
             let stiffness = 0.5 * (speed / (0.1 * size)).powi(2);
             let job = Job {
                 parameters: vec![
@@ -66,7 +68,7 @@ fn bullets(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                     ("size".into(), size),
                     ("stiffness".into(), stiffness),
                 ],
-                // somewhere behind the impact, and no two runs alike
+                // the end is some time after the impact, and differs in every run
                 duration: Some(random.uniform(1.5, 20.0) / speed),
                 every: Some(1.0 / speed),
                 ..adaptive(formula, Tolerances::of(tolerance))
@@ -80,7 +82,7 @@ fn bullets(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             missed as f64,
             0.0,
             "",
-            "the target has all of the speed, or none where the ball flew through it",
+            "the target gets all of the speed, or none if the ball flew through it",
         );
     }
     Ok(())
@@ -93,7 +95,7 @@ fn thresholds(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench.variant(name(formula, tolerance));
         let mut missed = 0;
         for _ in 0..SCENES {
-            // angles are held to a tenth of the tolerance in each of a hundred steps or so
+            // angles are kept to a tenth of the tolerance in each of about a hundred steps
             let over = log_uniform(&mut random, 100.0 * tolerance, 3e-2);
             let phase = random.uniform(0.3, 2.0 * PI - 0.3);
             let job = Job {
@@ -114,7 +116,7 @@ fn thresholds(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             missed as f64,
             0.0,
             "",
-            "the swing is elsewhere without the push, by up to 0.1 rad",
+            "without the push the swing differs by up to 0.1 rad",
         );
     }
     Ok(())
@@ -144,7 +146,7 @@ fn flown_past(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         for _ in 0..SCENES {
             let speed = log_uniform(&mut random, 0.5, 500.0);
             let at = random.uniform(0.1, 0.9);
-            // idle at both ends of the run
+            // the law is idle at both ends of the run
             let near = log_uniform(&mut random, 1e-3, 0.5f64.min(0.09 * speed));
             let aside = 0.95 * near * random.uniform(0.0, 1.0);
             let parameters = [
@@ -168,7 +170,7 @@ fn flown_past(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             missed as f64,
             0.0,
             "",
-            "without the push the ball stays within half a metre, with it it moves by 0.5 to 50 m",
+            "without the push the ball stays within half a metre, with the push it moves by 0.5 to 50 m",
         );
     }
     Ok(())

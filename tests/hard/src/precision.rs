@@ -1,5 +1,5 @@
-//! What must not matter: units, the origin, directions, the order and the root of a tree, its neighbours, the direction of time; and
-//! single precision, which must matter as much as its digits say.
+//! Changes that must not matter: units, the origin, directions, the order and the root of a tree, its neighbours, the direction of time;
+//! and single precision, which must matter only as much as its digits say.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -15,42 +15,44 @@ pub const CASES: &[Case] = &[
     Case {
         group: Group::ScaleAndPrecision,
         name: "grams and millimetres",
-        law: "A scene told in other units, or in numbers a thousand times larger, moves as before.",
+        law: "A scene that is written in other units, or with numbers a thousand times larger, moves as before.",
         run: units,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "an origin 1000 km away",
-        law: "Only distances act: a scene moved as a whole moves as before, but for the rounding of its larger coordinates.",
+        law: "Forces depend on distances alone. So a scene that is displaced as a whole moves as before, except for the rounding of its \
+              larger coordinates.",
         run: far_away,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "single precision",
-        law: "Errors are those of 24 bits: larger than those of 53 by 2²⁹, and no larger.",
+        law: "The errors are those of 24 bits: 2²⁹ times the errors of 53 bits, and no larger.",
         run: single_precision,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "order, root and direction of a tree",
-        law: "The elements of a tree may be told in any order and from any root, and the scene be turned in space: the motion is the same.",
+        law: "The motion stays the same if the elements of a tree are written in another order or from another root, or if the scene is \
+              turned in space.",
         run: order_root_direction,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "time reversed",
-        law: "Without losses, velocities turned round lead back to the start.",
+        law: "Without losses, a motion with reversed velocities leads back to the start.",
         run: time_reversed,
     },
     Case {
         group: Group::ScaleAndPrecision,
         name: "two systems in one scene",
-        law: "Systems that nothing couples move as they do alone.",
+        law: "Two systems without a force between them move as each does alone.",
         run: two_systems,
     },
 ];
 
-/// Units to tell a scene in: of length and mass, with the factors that numbers in them have; "" for none.
+/// Units of length and mass for the text of a scene, with the factors of their numbers; "" for no unit.
 #[derive(Clone, Copy)]
 struct Units {
     length: f64,
@@ -67,20 +69,20 @@ impl Units {
         }
     }
 
-    /// Half a metre, as the units have it.
+    /// A length in metres, written in the unit.
     fn m(self, value: f64) -> String {
         self.text(value, 1, 0, "mm")
     }
 }
 
-/// Two links that fall onto a rough plate, turning; moved by `away` \[m\] along both axes.
+/// Two links that fall onto a rough plate while they rotate; moved by `away` \[m\] along both axes.
 fn links(name: &str, units: Units, away: f64) -> Scene {
     let m = |value| units.m(value);
     let kg = |value| units.text(value, 0, 1, "g");
     let speed = |value| units.text(value, 1, 0, "mm/s");
     let inertia = |value| units.text(value, 2, 1, "g*mm^2");
     let field = |value| units.text(value, 1, 0, "mm/s^2");
-    // Units of forces have names in the one case, and none in the other.
+    // Units of forces have names in one case, and none in the other.
     let newton = |value: f64| match units.named {
         true => format!("{value:e} N"),
         false => units.text(value, 1, 1, ""),
@@ -167,11 +169,11 @@ const SI: Units = Units {
     named: false,
 };
 
-/// Frequency of the lighter link on its contact \[1/s\], and a speed that none exceeds \[m/s\], of [`links`].
+/// Frequency of the lighter link on its contact \[1/s\], and an upper bound of the speeds \[m/s\], in [`links`].
 const OMEGA: f64 = 316.0;
 const SPEED: f64 = 10.0;
 
-/// The largest difference of the coordinates `names` at any sample; those of the second are `factor` times as large, and `moved`.
+/// The largest difference of the coordinates `names` at any sample; those of the second run are larger by `factor`, and shifted by `moved`.
 fn apart(a: &Run, b: &Run, names: &[(&str, f64, f64)]) -> Result<f64, Trouble> {
     let mut worst = 0.0;
     for (name, factor, moved) in names {
@@ -213,7 +215,7 @@ fn units(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             apart(&si, &other, &names)?,
             steps(&si)? * f64::EPSILON * SPEED * OMEGA,
             "m, rad",
-            "steps × ε v ω: every number is rounded once more, and each step rounds",
+            "steps × ε v ω: every number is rounded once more, and so is each step",
         );
     }
     Ok(())
@@ -235,7 +237,7 @@ fn far_away(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench.succeed(&here, &fixed(Formula::Rk4, step))?,
         bench.succeed(&there, &fixed(Formula::Rk4, step))?,
     ];
-    // A rounded height is a wrong force for a step, and that a wrong speed for the rest of the run.
+    // A rounded height is a wrong force for one step, and this is a wrong speed for the rest of the run.
     let duration = 0.5;
     bench.at_most(
         "difference of any coordinate",
@@ -290,7 +292,7 @@ fn single_precision(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// How much an error of the start grows until the end, at most: by trying, with errors a million times those of the methods.
+/// The largest growth of an error of the start until the end, found by runs with errors a million times those of the methods.
 fn growth(
     bench: &Bench<'_>,
     (tree, scene): (&Tree, &Scene),
@@ -311,10 +313,10 @@ fn growth(
     Ok(worst)
 }
 
-/// No turn.
+/// No rotation.
 const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// The largest distance of the centres of gravity of the elements, those of the second turned by a matrix first.
+/// The largest distance between the centres of gravity of the elements, after those of the second run are rotated by a matrix.
 fn positions_apart(a: &Run, b: &Run, tree: &Tree, turned: [[f64; 3]; 3]) -> Result<f64, Trouble> {
     let mut worst = 0.0;
     for element in &tree.elements {
@@ -373,10 +375,10 @@ fn order_root_direction(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// Angles and rates of a double pendulum at its start, by their names.
+/// The names of the angles and rates of a double pendulum at its start.
 const START: [&str; 4] = ["upper_angle", "lower_angle", "upper_rate", "lower_rate"];
 
-/// A double pendulum that may start as it likes.
+/// A double pendulum with an arbitrary start.
 fn pendulum() -> Scene {
     let text = "model: pendulum-there-and-back
 dimension: 2
@@ -421,7 +423,7 @@ fn time_reversed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let there = from(start)?;
         let turned = end(&there, -1.0)?;
         let back_run = from(turned)?;
-        // what an error at the turn becomes
+        // the growth of an error at the turning point
         let nudge = 1e-6;
         let mut growth: f64 = 1.0;
         for i in 0..4 {

@@ -1,11 +1,11 @@
-//! Numbers at random, the same for the same seed.
+//! Random numbers, the same for the same seed.
 
 /// A small generator of numbers (SplitMix64: Steele, Lea & Flood 2014).
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
-    /// A stream of its own per seed.
+    /// A generator with a stream of its own for each seed.
     pub fn new(seed: u64) -> Self {
         Random(seed)
     }
@@ -29,17 +29,17 @@ impl Random {
         [0, 1, 2].map(|_| self.uniform(-size, size))
     }
 
-    /// Uniform in 0 … below − 1.
+    /// A uniform integer from 0 to below − 1.
     pub fn below(&mut self, below: usize) -> usize {
         (self.bits() % below as u64) as usize
     }
 
-    /// True in one of `of` draws.
+    /// True with the probability 1/`of`.
     pub fn one_in(&mut self, of: usize) -> bool {
         self.below(of) == 0
     }
 
-    /// One of these, which are some.
+    /// One of these values, of which there is at least one.
     pub fn one_of<'a, T>(&mut self, of: &'a [T]) -> &'a T {
         &of[self.below(of.len())]
     }

@@ -1,9 +1,9 @@
-//! How much rounding does to a value: expressions evaluated with every operation rounded at random.
+//! The effect of rounding on a value: expressions are evaluated with random rounding of every operation.
 //!
 //! x ∘ y → (x ∘ y)(1 + ρ),   ρ uniform in \[−unit, unit\]
 //!
-//! The scatter of a few such evaluations is κ·ε, with the condition κ of the very expression, not a guess at it: inputs and
-//! constants are disturbed as well as what is computed from them (Monte Carlo arithmetic, Parker 1997).
+//! The scatter of a few such evaluations is κ·ε with the condition κ of this expression itself, not an estimate of it: inputs and constants
+//! are disturbed as well as the results of operations (Monte Carlo arithmetic, Parker 1997).
 
 use bryant_generator::expression::evaluate::{Evaluator, Functions, Inputs, Scalar};
 use bryant_generator::expression::{Function, Graph, NodeId};
@@ -11,7 +11,7 @@ use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 thread_local! {
-    /// Unit and state of the generator of disturbances.
+    /// Unit of the disturbances and state of their generator.
     static DISTURBANCE: Cell<(f64, u64)> = const { Cell::new((0.0, 0)) };
 }
 
@@ -77,13 +77,13 @@ impl Scalar for Rough {
     }
 }
 
-/// Expressions made ready for values and their scatter.
+/// Expressions prepared for values and their scatter.
 pub struct Rounded {
     exact: Evaluator<f64>,
     rough: Evaluator<Rough>,
 }
 
-/// Rough evaluations behind a scatter.
+/// Number of disturbed evaluations for a scatter.
 const SAMPLES: usize = 8;
 
 impl Rounded {
@@ -95,7 +95,7 @@ impl Rounded {
         }
     }
 
-    /// The values, and how far each strays where every operation errs by up to `unit`.
+    /// The values, and their largest deviations if every operation errs by up to `unit`.
     pub fn evaluate(
         &mut self,
         inputs: &Inputs<'_, f64>,

@@ -1,4 +1,4 @@
-//! What is simulated: a model as a user writes it.
+//! A scene to be simulated: a model as a user writes it.
 
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_generator::model::{Model, read_str};
@@ -8,9 +8,9 @@ use std::path::Path;
 /// A model as text.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Scene {
-    /// Stands for the file in messages.
+    /// The name of its file in messages.
     pub name: String,
-    /// YAML.
+    /// Its YAML text.
     pub text: String,
 }
 
@@ -23,7 +23,7 @@ impl Scene {
         }
     }
 
-    /// The model, or what is wrong with it. A hard case is one file: it includes nothing.
+    /// The model, or its problems. A hard case is one file and includes nothing.
     ///
     /// # Errors
     /// Every problem found, with its place.

@@ -1,9 +1,9 @@
 //! Stops, contacts and belts far stiffer than the rest of the scene.
 //!
-//! A step under control of its error errs by no more than a_x in a coordinate and r v + a_v in a velocity v, with the relative tolerance r
-//! and the absolute ones a. While a spring of frequency ω acts, (v, ω x) turns in a circle: an error of x is worth ω times that of v, and
-//! neither grows any more. Where nothing is lost, errors of the speed v = √(v² + ω² x²) add up, and N steps change it by at most
-//! N (r v + a_v + ω a_x), whatever lies between.
+//! A step with error control errs by at most a_x in a coordinate and r v + a_v in a velocity v, with the relative tolerance r and the
+//! absolute tolerances a. While a spring of frequency ω acts, (v, ω x) moves on a circle: an error of x is worth ω times as much of v, and
+//! neither grows. Without losses, errors of the speed v = √(v² + ω² x²) add up, and N steps change it by at most N (r v + a_v + ω a_x),
+//! whatever happens in between.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
@@ -18,30 +18,31 @@ pub const CASES: &[Case] = &[
         group: Group::Stiffness,
         name: "pressed against a stop of 1e6 N·m/rad on 1e-3 kg·m²",
         law: "The wheel comes to rest at the depth M/k. An explicit method cannot take steps longer than about 3/ω = 0.1 ms there, and \
-              must find that out by itself; one for stiff problems may.",
+              must find this out by itself. A method for stiff problems can take longer steps.",
         run: pressed,
     },
     Case {
         group: Group::Stiffness,
         name: "thrown between stops of 1e6 N·m/rad",
-        law: "Without damping the wheel keeps its energy: (J θ'² + k d²)/2, d the depth in a stop.",
+        law: "Without damping the energy (J θ'² + k d²)/2 of the wheel is constant; d is the depth in a stop.",
         run: thrown,
     },
     Case {
         group: Group::Stiffness,
         name: "a ball on a plate of 1e9 N/m",
-        law: "Nothing is lost: each jump reaches the height of the first.",
+        law: "No energy is lost: each jump reaches the height of the first.",
         run: hard_ball,
     },
     Case {
         group: Group::Stiffness,
         name: "a belt that snaps taut at 10 m/s",
-        law: "From slack to slack is half an oscillation: tension v √(k m) at most, π √(m/k) long, and the mass leaves as fast as it came.",
+        law: "The belt is taut for half an oscillation, the time π √(m/k). Its largest tension is v √(k m), and the mass leaves as fast as \
+              it came.",
         run: snapping_belt,
     },
 ];
 
-/// Methods with control of their error that are not for stiff problems.
+/// Methods with error control that are not made for stiff problems.
 const EXPLICIT: [Formula; 5] = [
     Formula::Heun,
     Formula::Merson,
@@ -70,12 +71,12 @@ fn pressed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             let taken = steps(&run).unwrap_or(f64::NAN);
             let left = errors_left(&tolerances, omega, omega / taken, fastest);
             bench.at_most(
-                "way from the place of rest",
+                "distance from the position of rest",
                 largest(away),
                 left + 2.0 / 1e6,
                 "rad",
-                "Σ ((1 + k z) a_θ + k z (r θ' + a_ω)/ω) exp(−k z): what is left of the errors k steps ago, z = ω h of the steps taken, and the way \
-                 to go",
+                "Σ ((1 + k z) a_θ + k z (r θ' + a_ω)/ω) exp(−k z): the remaining errors of the steps k steps ago, z = ω h of the \
+                 steps, and the remaining way",
             );
         }
     }
@@ -93,8 +94,8 @@ fn pressed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// What is left of the errors of steps of z/ω in a critically damped mode, which goes from (x, v) to (x (1 + ω t) + v t) exp(−ω t):
-/// with q = exp(−z), Σ qᵏ = 1/(1 − q) and Σ k qᵏ = q/(1 − q)².
+/// The remaining errors of steps of z/ω in a critically damped mode, which goes from (x, v) to (x (1 + ω t) + v t) exp(−ω t): with q =
+/// exp(−z), Σ qᵏ = 1/(1 − q) and Σ k qᵏ = q/(1 − q)².
 fn errors_left(of: &Tolerances, omega: f64, z: f64, rate: f64) -> f64 {
     let q = (-z).exp();
     let decaying = 1.0 / (1.0 - q);
@@ -122,7 +123,7 @@ fn thrown(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 grown.ln().max(0.0) / steps(&run)?,
                 2.0 * tolerance,
                 "",
-                "each step may err by tolerance × (1 + θ'), always to the same side; one beyond its limit of stability would double its error",
+                "each step may err by tolerance × (1 + θ'), always in the same direction; a step above its limit of stability would double the error",
             );
             if tolerance < 1e-6 {
                 let away = speeds.iter().map(|speed| (speed - rate).abs());
@@ -131,7 +132,7 @@ fn thrown(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                     largest(away),
                     steps(&run)? * error_of_rate(&tolerances, rate, omega),
                     "rad/s",
-                    "steps × (r θ' + a_ω + ω a_θ): nothing makes them grow where energy is kept",
+                    "steps × (r θ' + a_ω + ω a_θ): they do not grow if energy is conserved",
                 );
             }
         }
@@ -143,7 +144,7 @@ fn hard_ball(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let scene = scene!("hard-ball");
     let (gravity, stiffness): (f64, f64) = (10.0, 1e9);
     let omega = stiffness.sqrt();
-    // T + V from where it touches
+    // T + V from the first touch
     let energy = |state: &[f64]| {
         let height = state[1] - 0.1;
         let speed = state[4];
@@ -171,7 +172,7 @@ fn hard_ball(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             largest(away),
             steps(&run)? * error_of_speed(&tolerances, speed, omega),
             "m/s",
-            "steps × (r v + a_v + ω a_x): nothing makes them grow where energy is kept",
+            "steps × (r v + a_v + ω a_x): they do not grow if energy is conserved",
         );
     }
     Ok(())
@@ -194,10 +195,10 @@ fn snapping_belt(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let tolerances = Tolerances::uniform(tolerance);
         let asked = with_kinks(formula, tolerances, locate);
         let run = bench.succeed(&scene, &asked)?;
-        // An error of speed in the slack becomes one of where the belt is when it goes taut.
+        // An error of speed during slack changes the time at which the belt becomes taut.
         let flown = error_of_speed(&tolerances, speed, 0.0) * omega * taut;
         let error = steps(&run)? * (error_of_speed(&tolerances, speed, omega) + flown);
-        let because = "steps × ((r v + a_v) (1 + ω t) + ω a_x), t the time in the slack; an oscillation turns errors and does not let them grow";
+        let because = "steps × ((r v + a_v) (1 + ω t) + ω a_x), t the time of slack; an oscillation rotates errors and does not amplify them";
         let exact = |t: f64| match t {
             t if t <= taut => (speed * t, speed, 0.0),
             t if t <= taut + half => {
@@ -218,7 +219,7 @@ fn snapping_belt(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "m/s",
             because,
         );
-        // an error of speed moves what oscillates by 1/ω of it
+        // an error of speed changes the oscillation by 1/ω of it
         bench.at_most(
             "error of the tension",
             away("tension", |exact| exact.2)?,
@@ -258,7 +259,7 @@ mod tests {
                 sum += (2e-3 * (1.0 + passed) + slip / omega * passed) * (-passed).exp();
             }
             let closed = errors_left(&of, omega, z, rate);
-            // 200 terms, each rounded a few times; what is left out is below exp(−100)
+            // 200 terms, each rounded a few times; the neglected terms are below exp(−100)
             assert!(
                 (closed / sum - 1.0).abs() < 1000.0 * f64::EPSILON,
                 "{closed} {sum}"

@@ -7,13 +7,13 @@ use crate::error::{backward, forward};
 use crate::evaluate::Accelerations;
 use crate::random::Random;
 
-/// Elements up to which a system is solved in double-double too.
+/// Up to this number of elements a system is also solved in double-double.
 const SOLVED: usize = 20;
 
-/// States at which a chain is looked at.
+/// Number of states of each chain.
 const STATES: usize = 3;
 
-/// What the worst of a family were, each over its n·ε.
+/// The worst errors of a family, each over its n·ε.
 #[derive(Clone, Debug, Default)]
 pub struct Survey {
     plain: f64,
@@ -22,13 +22,13 @@ pub struct Survey {
     chains: usize,
 }
 
-/// The larger; a NaN wins and stays.
+/// The larger value; NaN is kept.
 fn worst(a: f64, b: f64) -> f64 {
     if a.is_nan() || b <= a { a } else { b }
 }
 
 impl Survey {
-    /// Takes a chain in random states.
+    /// Measures a chain in random states.
     ///
     /// # Errors
     /// The chain is refused, or singular in double-double.
@@ -61,23 +61,23 @@ impl Survey {
         Ok(())
     }
 
-    /// Notes the checks.
+    /// Records the checks.
     pub fn note(self, bench: &mut Bench<'_>) {
         let states = format!("{} chains in {STATES} random states", self.chains);
-        let because = |what: &str| format!("100 n ε, {what}; the worst of {states}");
+        let because = |what: &str| format!("100 n ε{what}; the worst of {states}");
         bench.at_most(
             "backward error over n ε",
             self.plain,
             100.0,
             "",
-            because("asked for"),
+            because(", required"),
         );
         bench.at_most(
             "backward error over n ε, S scaled to a diagonal of ones",
             self.scaled,
             100.0,
             "",
-            because("the same asked of each element by its own size (Demmel 1989)"),
+            because(", required for each element relative to its own size (Demmel 1989)"),
         );
         if self.forward > 0.0 || self.forward.is_nan() {
             bench.at_most(
@@ -86,7 +86,7 @@ impl Survey {
                 200.0,
                 "",
                 because(
-                    "twice, of S and of r, to first order (Higham 2002, theorem 7.2), against the solution in double-double",
+                    " for each of S and r, to first order (Higham 2002, theorem 7.2), against the solution in double-double",
                 ),
             );
         }

@@ -1,13 +1,13 @@
-//! Dense symmetric positive definite matrices: factors, solutions, condition. Over any scalar; nothing for speed.
+//! Dense symmetric positive definite matrices: factors, solutions, condition. Over any scalar; not optimised for speed.
 
 use bryant_runtime::Real;
 
-/// S = L D Lᵀ of a matrix scaled to a diagonal of ones, s_ij/√(s_ii s_jj): by van der Sluis (1969) no other diagonal scaling
-/// makes its condition much smaller, and by Demmel (1989) it is this condition that errors of a factorisation are subject to,
-/// whatever the units and sizes of the unknowns.
+/// S = L D Lᵀ of a matrix scaled to a unit diagonal, s_ij/√(s_ii s_jj). By van der Sluis (1969) no other diagonal scaling makes its
+/// condition much smaller, and by Demmel (1989) this condition determines the errors of a factorisation, whatever the units and sizes of
+/// the unknowns.
 #[derive(Clone, Debug)]
 pub struct Factors<S> {
-    /// √s_ii, each the nearest double.
+    /// √s_ii, each rounded to a double.
     scale: Vec<f64>,
     /// L below the diagonal, D on it, by rows.
     rows: Vec<Vec<S>>,
@@ -16,7 +16,7 @@ pub struct Factors<S> {
 }
 
 impl<S: Real> Factors<S> {
-    /// Factors of a matrix given by rows; `None` where a pivot is not positive.
+    /// Factors of a matrix given by rows; `None` if a pivot is not positive.
     pub fn of(matrix: &[Vec<S>]) -> Option<Factors<S>> {
         let scale: Vec<f64> = (matrix.iter().enumerate())
             .map(|(i, row)| row[i].to_f64().sqrt())
@@ -62,7 +62,7 @@ impl<S: Real> Factors<S> {
         self.norm
     }
 
-    /// The smallest of D, of a largest of at most 1.
+    /// The smallest entry of D; the largest is at most 1.
     pub fn smallest_pivot(&self) -> f64 {
         let pivots = self.rows.iter().enumerate().map(|(i, row)| row[i].to_f64());
         pivots.fold(1.0, f64::min)
@@ -98,8 +98,8 @@ impl<S: Real> Factors<S> {
         }
     }
 
-    /// A lower estimate, seldom below a third, of κ∞ of the scaled matrix (Hager 1984; Higham 2002, algorithm 15.1): the norm
-    /// of S⁻¹ seen from a few solutions.
+    /// A lower estimate of κ∞ of the scaled matrix (Hager 1984; Higham 2002, algorithm 15.1), rarely below a third of it: the norm of S⁻¹
+    /// from a few solutions.
     pub fn condition(&self) -> f64 {
         let size = self.scale.len();
         let mut x = vec![S::from_f64(1.0 / size as f64); size];
@@ -132,8 +132,8 @@ mod tests {
     use super::*;
     use bryant_runtime::DoubleDouble;
 
-    /// Hilbert's matrix of 6: the sum of the absolute values of a row of its inverse is at most 1.19e7 (Todd 1961:
-    /// κ∞ = 29 070 279), and its factors need not be scaled to be solved.
+    /// Hilbert's matrix of order 6: the sum of the absolute values of a row of its inverse is at most 1.19e7 (Todd 1961: κ∞ = 29 070 279),
+    /// and its factors can be solved without scaling.
     #[test]
     fn hilbert_matrix_is_solved_in_double_double() {
         let one = <DoubleDouble as Real>::from_f64(1.0);
@@ -155,7 +155,7 @@ mod tests {
         }
     }
 
-    /// 1 and r beside the diagonal: ‖S‖∞ = 1 + r, ‖S⁻¹‖∞ = 1/(1 − r), whatever the units.
+    /// 1 on and r beside the diagonal: ‖S‖∞ = 1 + r, ‖S⁻¹‖∞ = 1/(1 − r), whatever the units.
     #[test]
     fn condition_does_not_depend_on_units() {
         let r = 0.999;

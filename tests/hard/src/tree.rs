@@ -1,4 +1,4 @@
-//! Trees in space that can be told in several ways.
+//! Trees in space that can be described in several ways.
 
 use crate::scene::Scene;
 use std::fmt::Write as _;
@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 /// A free tree of rigid elements, at its start, under gravity.
 #[derive(Clone, Debug)]
 pub struct Tree {
-    /// Those that carry come first, unless it is told otherwise.
+    /// An element comes after its carrier, unless the order is permuted.
     pub elements: Vec<Element>,
-    /// Of the root's local origin \[m\].
+    /// Position of the root's local origin \[m\].
     pub position: [f64; 3],
     /// \[m/s\]
     pub velocity: [f64; 3],
@@ -47,7 +47,7 @@ pub fn rotation(angles: [f64; 3]) -> Matrix {
     ]
 }
 
-/// The angles of a rotation whose second is not ±90°.
+/// The angles of a rotation whose second angle is not ±90°.
 fn angles(r: &Matrix) -> [f64; 3] {
     [
         (-r[1][2]).atan2(r[2][2]),
@@ -77,7 +77,7 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 impl Tree {
-    /// Five elements, a branch at the first and one at the second.
+    /// Five elements, with a branch at the first and one at the second.
     pub fn example() -> Tree {
         let element = |name, on, mass, cg, inertia, angles, rate| Element {
             name,
@@ -142,7 +142,7 @@ impl Tree {
         }
     }
 
-    /// With the elements in another order.
+    /// The tree with its elements in another order.
     pub fn permuted(&self) -> Tree {
         let count = self.elements.len();
         let place = |index: usize| count - 1 - index;
@@ -154,10 +154,10 @@ impl Tree {
         other
     }
 
-    /// Told from another root: the local frame of each element on the way there begins in the joint to its new carrier.
+    /// The tree with another root: the local frame of each element on the path to it then begins in the joint to its new carrier.
     pub fn rooted_at(&self, root: usize) -> Tree {
         let mut other = self.clone();
-        // the local origin of the new root, and its velocity, from the old root down
+        // the local origin of the new root and its velocity, from the old root down
         let mut way = vec![root];
         while let Some((carrier, _)) = self.elements[way[way.len() - 1]].on {
             way.push(carrier);
@@ -171,11 +171,11 @@ impl Tree {
             other.position = add(other.position, arm);
             other.velocity = add(other.velocity, cross(carrier.rate, arm));
         }
-        // each carrier on the way comes to hang on what it carried, by the joint between them
+        // each carrier on the path is now carried by the element that it carried, through the joint between them
         for pair in way.windows(2) {
             let [carried, carrier] = [pair[0], pair[1]];
             let joint = self.elements[carried].on.unwrap_or_default().1;
-            // in the new local frame of what now carries, this joint is: its old origin
+            // the position of this joint in the new local frame of the new carrier: its old origin
             let moved = if carried == root {
                 [0.0; 3]
             } else {
@@ -196,7 +196,7 @@ impl Tree {
         other
     }
 
-    /// By how much the local origin of an element on the way was moved, in its own frame.
+    /// The shift of the local origin of an element on the path, in its own frame.
     fn shift_of(&self, before: &Tree, element: usize, way: &[usize]) -> [f64; 3] {
         let place = way.iter().position(|e| *e == element).unwrap_or(0);
         match place {
@@ -205,7 +205,7 @@ impl Tree {
         }
     }
 
-    /// Turned as a whole, gravity with it.
+    /// The tree rotated as a whole, including gravity.
     pub fn turned(&self, r: &Matrix) -> Tree {
         let mut other = self.clone();
         other.position = times(r, self.position);
@@ -221,7 +221,7 @@ impl Tree {
         other
     }
 
-    /// The tree alone, with the absolute position of every centre of gravity ("hub x").
+    /// The tree alone, with the absolute position of every centre of gravity as outputs ("hub x").
     pub fn scene(&self, name: &str) -> Scene {
         let mut outputs = String::new();
         self.outputs("tree", "", &mut outputs);
@@ -234,7 +234,7 @@ impl Tree {
         Scene::new(name, text)
     }
 
-    /// Two trees that do not touch; outputs of the second begin with "other".
+    /// Two trees that do not touch; the outputs of the second begin with "other".
     pub fn scene_of_two(name: &str, a: &Tree, b: &Tree) -> Scene {
         let mut outputs = String::new();
         a.outputs("tree", "", &mut outputs);
@@ -269,7 +269,7 @@ impl Tree {
                 three(element.inertia)
             );
         }
-        // each start may be nudged by two parameters
+        // two parameters can change each start slightly
         let angles = self.elements.iter().map(|e| {
             let [x, y, z] = e.angles;
             format!("{0}: [{x:e} rad + turn_{0}, {y:e}, {z:e}]", e.name)
@@ -289,7 +289,7 @@ impl Tree {
         text
     }
 
-    /// By how much the start of each element is turned, and turns faster ("turn_hub", "spin_hub").
+    /// Parameters for the additional rotation and angular velocity of each element at the start ("turn_hub", "spin_hub").
     fn parameters(&self) -> String {
         let mut text = "parameters:\n".to_owned();
         for element in &self.elements {
@@ -304,7 +304,7 @@ impl Tree {
         text
     }
 
-    /// The line that lets gravity act on it.
+    /// The line for the gravity of the tree.
     pub fn field(&self, name: &str) -> String {
         let [x, y, z] = self.gravity;
         format!(

@@ -1,4 +1,4 @@
-/// A belt, with a literal of all that results.
+/// A belt force that returns all results in one literal.
 pub fn belt<T: Real>(input: &Input<T>) -> Output<T> {
     let zero = T::from_f64(0.0);
     let input::Parameters { stiffness, damping, length } = input.parameters;

@@ -1,6 +1,6 @@
 //! Torques about the three relative rotations.
 
-// what is imported already may be imported again
+// importing an already imported name again is allowed
 use bryant_runtime::Real;
 
 /// Elastic about x and y, viscous about all.

@@ -1,6 +1,6 @@
-//! A force at one point of a body as a force at another and a moment.
+//! A force at one point of a body, converted to a force at another point and a moment.
 
-/// F = (30, −20, 10) N at the tip; what is given several times over is compared.
+/// F = (30, −20, 10) N at the tip; inputs that are given in several forms are compared.
 pub fn push<T: Real>(input: &Input<T>) -> Output<T> {
     let num = T::from_f64;
     let (origin, tip, head) = (&input.points.origin, &input.points.tip, &input.bodies.head);
@@ -8,7 +8,7 @@ pub fn push<T: Real>(input: &Input<T>) -> Output<T> {
     let local = [0.05, -0.02, 0.1].map(num);
     let arm = head.rotation.map(|row| dot(row, local));
 
-    // 0 unless a position, a velocity, a rotation or an angular velocity is not what its name says
+    // this is 0 if the position, velocity, rotation and angular velocity have the meaning of their names
     let turning = cross(head.angular_velocity, arm);
     let mut apart = num(0.0);
     for i in 0..3 {

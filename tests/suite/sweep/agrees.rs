@@ -1,19 +1,18 @@
-//! What a study reads off a run is what anybody reads off the table of `bryant run` with the same parameters, computed here by the
-//! definitions.
+//! The responses of a study agree with those computed here, by their definitions, from the table of `bryant run` with the same parameters.
 
 use crate::called::call;
 use crate::directory;
 use crate::folder::Table;
 use std::path::Path;
 
-/// What studies aim at where nothing else is said.
+/// The default accuracy of studies.
 const ACCURACY: f64 = 1e-3;
 /// Time between samples of the study and of the table \[s\].
 const EVERY: f64 = 1e-4;
 /// Standard gravity \[m/s²\].
 const GRAVITY: f64 = 9.806_65;
 
-/// The table of a run with parameters, more accurate than a study by far.
+/// The table of a run with parameters, much more accurate than a study.
 fn run(at: &Path, lap_slack: f64, friction: f64) -> Table {
     let set = [
         format!("lap_slack={lap_slack}"),
@@ -53,7 +52,7 @@ fn hic15(samples: &[f64]) -> f64 {
     most
 }
 
-/// For how long the samples, in straight lines between, are above a level \[s\].
+/// The time during which the samples, connected by straight lines, are above a level \[s\].
 fn above(samples: &[f64], level: f64) -> f64 {
     let part = |pair: &[f64]| {
         let (low, high) = (pair[0].min(pair[1]), pair[0].max(pair[1]));
@@ -66,7 +65,7 @@ fn above(samples: &[f64], level: f64) -> f64 {
     EVERY * samples.windows(2).map(part).sum::<f64>()
 }
 
-/// The largest level that is exceeded for 3 ms in all, by bisection.
+/// The largest level that is exceeded for 3 ms in total, by bisection.
 fn clip(samples: &[f64]) -> f64 {
     let (mut low, mut high) = (0.0, largest(samples));
     for _ in 0..60 {
@@ -114,7 +113,7 @@ fn responses_and_series_are_those_of_a_run() {
         };
         is("lap [N]", largest(&lap), ACCURACY);
         is("late [m]", excursion[500], ACCURACY);
-        // HIC goes with the power 2.5 of what is accurate
+        // HIC is a power 2.5 of the acceleration, whose accuracy is given
         is("injury", hic15(&head), 2.5 * ACCURACY);
         is("three [m/s^2]", clip(&head), ACCURACY);
 
@@ -166,7 +165,7 @@ fn errors_are_what_was_aimed_at_and_estimates_tell_of_them() {
         }
     }
     assert!(errors.iter().all(|error| *error < ACCURACY), "{errors:?}");
-    // one run and its twin cannot promise more
+    // one run and its twin cannot guarantee more
     let told = errors
         .iter()
         .zip(&estimates)

@@ -9,12 +9,12 @@ use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::Command;
 
-/// Runs the command where no file can have more bytes than so many times 512: as on a full disk, but for the name of the error.
+/// Runs the command with files limited to this many blocks of 512 bytes: like a full disk, except for the name of the error.
 #[track_caller]
 fn limited(at: &Path, blocks: u32, arguments: &[&str], code: i32) -> String {
     let ready = bryant(at);
     let mut command = Command::new("sh");
-    // The signal of the limit is ignored, so that writing fails as it does on a full disk.
+    // the signal of the limit is ignored, so that writing fails as on a full disk
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
     command.arg("-c").arg(script).arg(ready.get_program());
     command.args(arguments).current_dir(at);
@@ -28,7 +28,7 @@ fn a_full_disk_loses_nothing() {
     call(at, &["sweep", "seat.yaml", "--out", "whole"], 0);
     let whole = files(&at.join("whole"));
     let sizes = |name: &str| whole[name].len();
-    // one limit below a block, one between blocks and tables
+    // one limit is below a block, one between blocks and tables
     assert!(512 < sizes("blocks/00000000.part") && sizes("blocks/00000000.part") < 16 * 512);
     assert!(16 * 512 < sizes("results.csv"));
 
@@ -53,7 +53,7 @@ fn a_full_disk_loses_nothing() {
         "something was written, or lost"
     );
 
-    // blocks can be written, the series that are kept cannot
+    // blocks can be written, but the series that are kept cannot
     let said = limited(at, 16, &["sweep", "seat.yaml", "--out", "results"], 1);
     assert!(
         said.contains("cannot write") && said.contains("series"),
@@ -109,7 +109,7 @@ fn a_folder_that_cannot_be_written_keeps_what_it_has() {
     let mut command = bryant(at);
     command.args(arguments);
     if std::fs::write(at.join("results/blocks/.probe"), "").is_ok() {
-        // Whoever may write anywhere becomes somebody who may not.
+        // a user who may write everywhere becomes one who may not
         std::fs::remove_file(at.join("results/blocks/.probe")).unwrap();
         command.uid(65_534).gid(65_534);
     }

@@ -36,12 +36,12 @@ pub fn assert_same(one: &Path, other: &Path) {
 /// A CSV file: its headings, and its rows as they are written.
 pub struct Table {
     headings: Vec<String>,
-    /// Row by row.
+    /// The cells, row by row.
     pub rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    /// Of a text.
+    /// The table of a CSV text.
     pub fn of(text: &str) -> Table {
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let fields = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
@@ -51,7 +51,7 @@ impl Table {
         }
     }
 
-    /// Of a file.
+    /// The table of a file.
     pub fn read(path: &Path) -> Table {
         Table::of(&std::fs::read_to_string(path).unwrap())
     }
@@ -61,7 +61,7 @@ impl Table {
         found.unwrap_or_else(|| panic!("no {heading} in {:?}", self.headings))
     }
 
-    /// What is written in a column.
+    /// The cells of a column.
     pub fn words(&self, heading: &str) -> Vec<&str> {
         let column = self.column(heading);
         self.rows.iter().map(|row| row[column].as_str()).collect()

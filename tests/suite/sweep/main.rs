@@ -3,7 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `folder` | a folder of results as bytes, and as a table |
-//! | `same` | threads, lanes, shards and violent ends leave no trace in any file |
+//! | `same` | threads, lanes, shards and killed processes do not change any file |
 //! | `own` | models that are not bundled |
 //! | `reasons` | why rows have no result |
 //! | `steps` | fixed steps and single precision |

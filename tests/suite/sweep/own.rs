@@ -1,10 +1,10 @@
-//! Models that are not bundled: no compiler is needed to run them, nor the model to merge.
+//! Models that are not bundled: running them needs no compiler, and merging needs no model.
 
 use crate::called::{bryant, call, expect};
 use crate::folder::{Table, assert_same};
 use std::path::Path;
 
-/// A ball under gravity, its height a parameter: z(T) = z₀ + v₀ T − g T²/2 in closed form.
+/// A ball under gravity whose initial height is a parameter: z(T) = z₀ + v₀ T − g T²/2 in closed form.
 const BALL: &str = "\
 model: ball
 dimension: 2
@@ -31,7 +31,7 @@ keep: { runs: [40] }
 tables: [csv, parquet]
 ";
 
-/// A ball that a force lifts from a while after it has been at a height on: what it remembers decides where it ends.
+/// A ball that a force lifts, starting some time after the ball was at a height: memory decides where it ends.
 const LIFTED: &str = "\
 model: lifted
 dimension: 2
@@ -65,7 +65,7 @@ responses: [{ of: z, what: final }, { of: high, what: final }]
 tables: [csv]
 ";
 
-/// Runs where there is no compiler.
+/// Runs without a compiler.
 #[track_caller]
 fn without_compiler(at: &Path, arguments: &[&str]) -> (String, String) {
     let mut command = bryant(at);
@@ -93,7 +93,7 @@ fn a_model_of_ones_own_needs_no_compiler() {
     );
     without_compiler(at, &["sweep", study, "--out", "shared", "--shard", "0/2"]);
 
-    // A block is lost; the study goes on from there.
+    // a block is lost; the study continues from there
     std::fs::remove_file(at.join("shared/blocks/00000002.part")).unwrap();
     let (_, said) = call(at, &["merge", "shared", "--shards", "2"], 2);
     assert!(said.contains("1 of 4 blocks are missing: 2"), "{said}");
@@ -118,7 +118,7 @@ fn a_model_of_ones_own_needs_no_compiler() {
         ],
         0,
     );
-    // To merge, neither study nor model need be there.
+    // merging needs neither study nor model
     std::fs::remove_dir_all(at.join("models")).unwrap();
     std::fs::remove_dir_all(at.join("studies")).unwrap();
     std::fs::remove_file(at.join("shared/results.csv")).unwrap();
@@ -133,7 +133,7 @@ fn a_model_of_ones_own_needs_no_compiler() {
     let peak = table.numbers("peak of height [m]");
     for row in 0..64 {
         let g = gravity[row];
-        // a parabola, which every method integrates but for rounding; its peak lies between samples, 0.5 ms apart
+        // a parabola, which every method integrates exactly up to rounding; its peak lies between samples, 0.5 ms apart
         let exact = 4.0 * 0.5 - g * 0.5 * 0.5 / 2.0;
         assert!((last[row] - exact).abs() < 1e-12, "{} {exact}", last[row]);
         let exact = if 4.0 / g < 0.5 {

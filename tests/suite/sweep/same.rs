@@ -46,7 +46,7 @@ fn threads_lanes_and_shards_leave_no_trace() {
         assert_same(&at.join("one"), &at.join(&folder));
     }
 
-    // in any order, with threads and lanes of their own
+    // in any order, with other threads and lanes
     for (shard, more) in [("2/3", "1"), ("0/3", "3"), ("1/3", "2")] {
         sweep("shared", &["--shard", shard, "--threads", more]);
         assert!(!at.join("shared/results.csv").exists());
@@ -54,7 +54,7 @@ fn threads_lanes_and_shards_leave_no_trace() {
     call(at, &["merge", "shared"], 0);
     assert_same(&at.join("one"), &at.join("shared"));
 
-    // and again: nothing changes, nothing is run
+    // once more: nothing changes, and nothing is run
     let (_, said) = call(at, &["sweep", "seat.yaml", "--out", "shared"], 0);
     assert!(
         said.contains("0 runs in") && said.contains("160 were there"),
@@ -65,7 +65,7 @@ fn threads_lanes_and_shards_leave_no_trace() {
 }
 
 #[test]
-fn what_a_processor_without_fused_multiply_adds_computes_is_not_mixed_in() {
+fn results_without_fused_multiply_adds_are_not_mixed_in() {
     let directory = directory();
     let at = directory.path();
     let few = crate::SEAT
@@ -85,7 +85,7 @@ fn what_a_processor_without_fused_multiply_adds_computes_is_not_mixed_in() {
     assert!(said.contains("differs: the arithmetic"), "{said}");
 }
 
-/// Numbers from a seed, the same in every run of the test [Steele, Lea, Flood 2014: SplitMix64].
+/// Pseudo-random numbers from a seed, the same in every run of the test [Steele, Lea, Flood 2014: SplitMix64].
 struct Chance(u64);
 
 impl Chance {
@@ -98,9 +98,9 @@ impl Chance {
     }
 }
 
-/// How often a study is killed before it may end.
+/// Number of times that a study is killed before it can end.
 const KILLS: usize = 12;
-/// Blocks of the study.
+/// Number of blocks of the study.
 const BLOCKS: usize = 64;
 
 fn blocks(folder: &Path) -> usize {
@@ -126,7 +126,7 @@ fn killed_again_and_again_a_study_loses_nothing() {
         &["sweep", "long.yaml", "--out", "whole", "--threads", "2"],
         0,
     );
-    // All that are killed have less than half of the time together, however fast this machine is.
+    // all killed processes together have less than half of the time, however fast this machine is
     let longest = begin.elapsed() / (2 * KILLS as u32);
 
     let mut chance = Chance(6);
@@ -138,7 +138,7 @@ fn killed_again_and_again_a_study_loses_nothing() {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        // Every other one while it begins, the others when they have stored something.
+        // every other one is killed while it begins, the others after they have stored something
         let before = blocks(&folder);
         let deadline = Instant::now() + Duration::from_secs(20);
         while kill % 2 == 1 && blocks(&folder) == before && Instant::now() < deadline {
@@ -147,7 +147,7 @@ fn killed_again_and_again_a_study_loses_nothing() {
         std::thread::sleep(longest * chance.below(1000) as u32 / 1000);
         child.kill().unwrap();
         let ended = child.wait().unwrap();
-        // killed, not done: it had no code to end with
+        // killed, not done: it has no exit code
         assert_eq!(
             ended.code(),
             None,

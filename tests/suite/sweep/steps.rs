@@ -6,7 +6,7 @@ use crate::folder::{Table, assert_same};
 use bryant_runtime::Width;
 use std::path::Path;
 
-/// Sixteen runs of the seat whose `run` ends in these settings.
+/// Sixteen runs of the seat; `settings` are the last settings of their `run`.
 fn write(at: &Path, name: &str, settings: &str) {
     let few = crate::SEAT
         .replace("runs: 160", "runs: 16")
@@ -15,7 +15,7 @@ fn write(at: &Path, name: &str, settings: &str) {
     std::fs::write(at.join(name), few).unwrap();
 }
 
-/// No response of a table is off by more than this share of it.
+/// Checks that no response of a table deviates by more than this share.
 fn near(found: &Table, expected: &Table, bound: f64) {
     for response in ["lap [N]", "injury", "three [m/s^2]", "late [m]"] {
         let pairs = found
@@ -30,7 +30,7 @@ fn near(found: &Table, expected: &Table, bound: f64) {
 }
 
 #[test]
-fn fixed_steps_are_the_same_in_all_lanes_and_near_the_accurate_run() {
+fn fixed_steps_agree_in_all_lanes_and_with_an_accurate_run() {
     let directory = directory();
     let at = directory.path();
     write(at, "sharp.yaml", "accuracy: 1e-6");
@@ -45,7 +45,7 @@ fn fixed_steps_are_the_same_in_all_lanes_and_near_the_accurate_run() {
         call(at, &["sweep", "steps.yaml", "--out", method], 0);
         let table = Table::read(&at.join(method).join("results.csv"));
         assert!(table.words("status").iter().all(|status| *status == "done"));
-        // 60 ms in steps of 0.05 ms, some of them cut by switches or on the way to a kink of the pulse
+        // 60 ms in steps of 0.05 ms, some of them shortened by switches or on the way to a kink of the pulse
         let steps = table.numbers("steps");
         assert!(
             steps.iter().all(|steps| (1200.0..1300.0).contains(steps)),
@@ -53,7 +53,7 @@ fn fixed_steps_are_the_same_in_all_lanes_and_near_the_accurate_run() {
         );
         let told = table.numbers("error estimate");
         assert!(told.iter().all(|told| *told < 1e-2), "{told:?}");
-        // kinks fall anywhere in the steps of a run and of its twin: in one row both may err alike, not in all
+        // kinks are anywhere in the steps of a run and of its twin: in one row both may have the same error, but not in all
         let most = told.iter().fold(0.0, |most: f64, told| most.max(*told));
         near(&table, &sharp, most);
         let fused = |width: &Width| width.there() && width.fuses();
@@ -68,7 +68,7 @@ fn fixed_steps_are_the_same_in_all_lanes_and_near_the_accurate_run() {
             assert_same(&at.join(method), &at.join(&folder));
         }
     }
-    // rk4 is what steps are taken by where nothing is said
+    // rk4 is the default method of fixed steps
     write(at, "steps.yaml", "step: 0.05 ms");
     call(at, &["sweep", "steps.yaml", "--out", "said-nothing"], 0);
     let [said, nothing] = ["rk4", "said-nothing"]
@@ -79,7 +79,7 @@ fn fixed_steps_are_the_same_in_all_lanes_and_near_the_accurate_run() {
 }
 
 #[test]
-fn singles_keep_what_is_asked_of_them_and_are_not_mixed_with_doubles() {
+fn single_precision_keeps_its_accuracy_and_is_not_mixed_in() {
     let directory = directory();
     let at = directory.path();
     write(at, "sharp.yaml", "accuracy: 1e-6");

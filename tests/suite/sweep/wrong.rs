@@ -1,10 +1,10 @@
-//! Studies, folders and options that make no sense: exit code 2, and a message that says where and what to do.
+//! Invalid studies, folders and options: exit code 2, and a message with the place and a remedy.
 
 use crate::called::{bryant, call, expect};
 use crate::directory;
 use crate::folder::files;
 
-/// A change of the study, and what is said of it.
+/// A change of the study, and the expected words of the message.
 #[track_caller]
 fn refused(from: &str, to: &str, says: &[&str]) {
     let directory = directory();
@@ -93,7 +93,7 @@ fn steps_and_precision_that_make_no_sense_are_refused() {
     refused(
         "sampling: 0.1 ms",
         "accuracy: 1e-5, precision: single",
-        &["cannot be had in single precision", "1.2e-4", "help:"],
+        &["is not possible in single precision", "1.2e-4", "help:"],
     );
 }
 
@@ -205,7 +205,7 @@ fn results_of_another_study_are_not_mixed() {
         "something was written"
     );
 
-    // what is missing of an unfinished folder
+    // the missing blocks of an unfinished folder
     let (_, said) = call(at, &["merge", "results", "--shards", "10"], 2);
     assert!(said.contains("9 of 10 blocks are missing: 1–9"), "{said}");
     assert!(
@@ -213,7 +213,7 @@ fn results_of_another_study_are_not_mixed() {
         "{said}"
     );
 
-    // a process that was ended before it had kept the study
+    // a process that ended before it had kept the study
     std::fs::remove_file(at.join("results/study/facts.json")).unwrap();
     let (_, said) = call(at, &["merge", "results"], 2);
     assert!(

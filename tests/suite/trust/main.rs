@@ -1,9 +1,11 @@
-//! What a run may be trusted for: numbers that no law can have are refused, what is not is finite, each law is what its page says, and a
-//! run is doubted where there is a reason, and nowhere else.
+//! Trust in runs: values that no law can have are refused, all other values give finite results, each law is that of its page, and a run is
+//! doubted only if there is a reason.
 
 #[path = "../called.rs"]
 mod called;
+mod combined;
 mod doubts;
+mod mounts;
 mod pages;
 mod refusals;
 
@@ -14,7 +16,7 @@ use bryant_runtime::program::Job;
 use std::io;
 use std::path::Path;
 
-/// A model of a text, or what is wrong with it, one sentence each.
+/// The model of a text, or its problems, one sentence each.
 fn read(text: &str) -> Result<Model, Vec<String>> {
     let nothing = |_: &Path| Err(io::ErrorKind::NotFound.into());
     match read_str("scene.yaml", text, &nothing) {
@@ -23,7 +25,7 @@ fn read(text: &str) -> Result<Model, Vec<String>> {
     }
 }
 
-/// The model of a text that is sound, and its equations.
+/// The model of a valid text, and its equations.
 fn sound(text: &str) -> (Model, Engine) {
     let model = read(text).unwrap_or_else(|problems| panic!("{problems:#?}\n{text}"));
     let engine = equations::of(&model).unwrap_or_else(|error| panic!("{error}\n{text}"));

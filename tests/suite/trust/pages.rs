@@ -1,7 +1,7 @@
-//! Each law as its page in `docs/forces` states it, in plain vector algebra, against the equations at random states.
+//! Each law as its page in `docs/forces` states it, in plain vector algebra, compared with the equations at random states.
 //!
-//! A body of mass m whose centre of gravity is its joint and whose moments of inertia are all J feels F = m a and M = J ω̇: what acts on it can be
-//! read from its accelerations.
+//! A body of mass m whose centre of gravity is its joint and whose moments of inertia are all J fulfils F = m a and M = J ω̇: its
+//! accelerations show the force and moment on it.
 
 use super::read;
 use bryant::evaluation::{State, at, functions};
@@ -62,7 +62,7 @@ fn sat(x: f64) -> f64 {
     x.clamp(-1.0, 1.0)
 }
 
-/// A value of straight pieces, the last of which go on.
+/// A value of a piecewise linear curve, extended along its last pieces.
 fn curve(points: &[[f64; 2]], x: f64) -> f64 {
     let mut k = 0;
     while k + 2 < points.len() && x > points[k + 1][0] {
@@ -72,7 +72,7 @@ fn curve(points: &[[f64; 2]], x: f64) -> f64 {
     y0 + (x - x0) * (y1 - y0) / (x1 - x0)
 }
 
-/// Where the body is and how it moves.
+/// The position and the motion of the body.
 struct Moving {
     position: Vector,
     rotation: Matrix,
@@ -169,7 +169,7 @@ impl Scene {
         Scene { model, equations }
     }
 
-    /// A state of the body and of laws; memory by a part of its name, 0 where nothing is said.
+    /// A state of the body and of laws; memory by a part of its name, 0 by default.
     fn state(&self, body: &Moving, t: f64, z: &[f64], memory: &[(&str, f64)]) -> State {
         let remembered = |name: &str| {
             let found = memory.iter().find(|(part, _)| name.contains(part));
@@ -206,7 +206,7 @@ impl Scene {
         )
     }
 
-    /// What acts on the body.
+    /// The wrench on the body.
     fn acts(&self, body: &Moving, t: f64, z: &[f64], memory: &[(&str, f64)]) -> Wrench {
         let state = self.state(body, t, z, memory);
         let found =
@@ -219,7 +219,7 @@ impl Scene {
     }
 }
 
-/// The same but for some hundred roundings of forces of this size.
+/// Checks for equality up to some hundred roundings of forces of this size.
 #[track_caller]
 fn same(what: &str, ours: Wrench, page: Wrench, size: f64) {
     let bound = 1e3 * f64::EPSILON * size.max(1.0);
@@ -230,12 +230,12 @@ fn same(what: &str, ours: Wrench, page: Wrench, size: f64) {
     );
 }
 
-/// f, θ₀, d, M, v, and the stop: from, to, k, d, a; of the joints here.
+/// f, θ₀, d, M, v, and the stop (from, to, k, d, a) of the joints here.
 const ELASTIC: [[f64; 2]; 3] = [[-1.0, -3.0], [0.0, 0.0], [1.0, 2.0]];
 const LAW: &str = "elastic: { points: [[-1, -3], [0, 0], [1, 2]], extrapolate: linear }, neutral: 0.2, damping: 0.3, friction: 0.7, friction_speed: 0.5, stop: { from: -0.4, to: 0.6, stiffness: 11, damping: 0.9, damping_angle: 0.1 }, lock: { by: now, stiffness: 5, damping: 0.6 }";
 const NOW: &str = "switches: [{ switch: now, when: { time: 0 } }]\n";
 
-/// Back from a stop at a depth δ: k δ + d min(δ/a, 1) δ', never negative.
+/// The torque of a stop at a depth δ: k δ + d min(δ/a, 1) δ', never negative.
 fn stop(depth: f64, rate: f64) -> f64 {
     match depth > 0.0 {
         true => (11.0 * depth + 0.9 * (depth / 0.1).min(1.0) * rate).max(0.0),
@@ -336,7 +336,7 @@ fn joints_with_memory_motors_and_drives() {
             let (rate, x) = (dot(n, body.omega), angle - 0.2);
             let z = random.uniform(-0.06, 0.06);
             let share = z / 0.05 + rate / 0.5;
-            // such that the line is often between the curves
+            // chosen such that the line is often between the curves
             let (f, u) = (curve(&ELASTIC, x), curve(&UNLOADING, x));
             let near = |u: f64, w: f64| x - (u + w * (f - u)) / 20.0;
             let p = [
@@ -397,7 +397,7 @@ fn flexion_and_torsion() {
             let (sine, cosine) = (norm(across), dot(e_p, e_c));
             let (beta, n) = (sine.atan2(cosine), unit(across));
             let rate = dot(n, body.omega);
-            // how the long axis swings
+            // the rate of the long axis
             let w = cross(e_c, cross(body.omega, e_c));
             let along = -curve(&ELASTIC, beta) - stop(beta - 0.6, rate);
             let against = 0.3 + 0.7 / norm(w).max(0.5);
@@ -408,7 +408,7 @@ fn flexion_and_torsion() {
             let ours = flexion.acts(&body, 1.0, &[], &[]);
             same("flexion", ours, page, 30.0 * norm(page.moment) / sine);
 
-            // what is left when the bending is undone: the shortest turn from e_p to e_c, backwards
+            // the rotation that is left after the bending is undone: the shortest rotation from e_p to e_c, backwards
             let back = |v: Vector| {
                 let turned = minus(v, cross(n, times(sine, v)));
                 plus(turned, times(1.0 - cosine, cross(n, cross(n, v))))
@@ -432,7 +432,7 @@ fn flexion_and_torsion() {
 }
 
 #[test]
-fn a_bent_arm_that_spins_about_its_own_axis_is_not_braked_by_flexion() {
+fn flexion_does_not_brake_the_spin_of_a_bent_arm() {
     let scene = Scene::new(
         "joint: one/body, flexion: { damping: 0.5, friction: 1 }",
         "",
@@ -467,7 +467,7 @@ fn pressure(elastic: f64, depth: f64, rate: f64) -> f64 {
     }
 }
 
-/// Penetration, its rate, the deepest point, its sliding velocity, and the normal, of an ellipsoid at `centre` over the plane through 0.
+/// Penetration, its rate, the deepest point, its sliding velocity, and the normal, for an ellipsoid at `centre` over the plane through 0.
 fn touch(body: &Moving, centre: Vector, axes: Vector) -> (f64, f64, Vector, Vector, Vector) {
     let n = unit(NORMAL);
     let in_axes: Vector = std::array::from_fn(|i| dot(column(&body.rotation, i), n));
@@ -590,7 +590,7 @@ fn planes_that_end() {
             push = minus(push, times(stored * slope, tangents[i]));
         }
         faded += usize::from(shares.iter().any(|x| *x > 0.0 && *x < 1.0) && force > 0.0);
-        // of a sphere all of it goes through the centre
+        // for a sphere the whole force goes through the centre
         let page = Wrench {
             force: push,
             moment: [0.0; 3],
@@ -618,11 +618,11 @@ fn contacts_of_two_balls() {
         let centre = body.point([0.03, 0.0, 0.0]);
         let apart = minus(centre, [0.1, 0.0, 0.0]);
         let (n, depth) = (unit(apart), 0.5 - norm(apart));
-        // beyond the radii it is no contact any more
+        // beyond the radii there is no contact any more
         if depth > 0.3 {
             continue;
         }
-        // where forces act: in the middle of what overlaps
+        // the point of attack: in the middle of the overlap
         let point = minus(centre, times(0.2 - 0.5 * depth, n));
         let v = body.velocity_at(point);
         let slip = minus(v, times(dot(v, n), n));
@@ -692,7 +692,7 @@ fn belts() {
         let s = length - 0.8;
         let damped = |strain: f64| elastic(strain) + 60.0 * (s / 0.05).min(1.0) * rate;
         check("damped", &plain, tension(0.8, &damped), &[]);
-        // at the start the body is at 0, unturned
+        // at the start the body is at 0, not rotated
         let start = norm(minus([1.0, 0.0, 0.0], [0.1, -0.05, 0.02]));
         check("slack", &slack, tension(start + 0.03, &elastic), &[]);
         check("limited", &limited, tension(0.8, &elastic).min(700.0), &[]);
@@ -709,15 +709,15 @@ fn belts() {
     assert!(taut > STATES / 4);
 }
 
-/// A belt from the frame over a ring on the body to another place of the frame: c s' = max(T₊ − R T₋, 0) − max(T₋ − R T₊, 0), R = e^(μ θ), and s leaves L₀ of the segment
-/// before.
+/// A belt from the frame over a ring on the body to another point of the frame: c s' = max(T₊ − R T₋, 0) − max(T₋ − R T₊, 0), R = e^(μ θ),
+/// and s is subtracted from L₀ of the segment before.
 #[test]
 fn rings() {
     let scene = Scene::new(
         "belt: b, from: { on: frame, at: [-1, 0, 0.3] }, through: [{ ring: r, on: one/body, at: [0.1, -0.05, 0.02], friction: 0.3 }], to: { on: frame, at: [1, 0.2, 0] }, force: { points: [[0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }, length: 1.7, damping: 60",
         "",
     );
-    // at the start the body is at 0, unturned, and both segments have the same strain
+    // at the start the body is at 0, not rotated, and both segments have the same strain
     let (ring, from, to) = ([0.1, -0.05, 0.02], [-1.0, 0.0, 0.3], [1.0, 0.2, 0.0]);
     let starts = [norm(minus(ring, from)), norm(minus(to, ring))];
     let lengths = starts.map(|length| 1.7 * length / (starts[0] + starts[1]));
@@ -745,7 +745,7 @@ fn rings() {
             }
         };
         let [first, second] = [elastic(before.0), elastic(behind.0)];
-        // the angle between the directions of travel
+        // the angle between the directions of the webbing
         let cosine = dot(times(-1.0, before.2), behind.2);
         let ratio = (0.3 * cosine.clamp(-1.0, 1.0).acos()).exp();
         let expected =
@@ -761,7 +761,8 @@ fn rings() {
         if expected == 0.0 {
             assert_eq!(found, 0.0);
         }
-        // d acts on L₀ ε' with the L₀ of the whole belt, growing with the stretch up to 1 mm; the rate of strain is that of the length, and of L₀
+        // d acts on L₀ ε' with the L₀ of the whole belt, and grows with the stretch up to 1 mm; the rate of strain includes those of the
+        // length and of L₀
         let tension = |(strain, rate, _): (f64, f64, Vector), own: f64, feeds: f64| {
             if strain <= 0.0 {
                 return 0.0;
@@ -786,7 +787,7 @@ fn rings() {
     assert!(slipped > STATES / 8 && stuck > 5, "{slipped} {stuck}");
 }
 
-/// An airbag that is a sphere, against a sphere: ΔV and A are those of the lens of the two, by spherical caps here.
+/// A spherical airbag against a sphere: ΔV and A are those of the lens of both, computed here by spherical caps.
 #[test]
 fn airbags() {
     let (radius, other, surrounding) = (0.3, 0.2, 101_325.0);
@@ -803,7 +804,7 @@ fn airbags() {
         let centre = body.point([0.03, 0.0, 0.0]);
         let apart = minus(centre, [0.1, 0.0, 0.0]);
         let (n, distance) = (unit(apart), norm(apart));
-        // up to the equator of the smaller one
+        // up to the equator of the smaller sphere
         let equator = (radius * radius - other * other).sqrt();
         if distance < equator {
             continue;
@@ -838,7 +839,7 @@ fn airbags() {
         let out = 0.6 * 0.002 * pressure / (constant * temperature).sqrt() * psi;
         let enthalpy = -gamma / (gamma - 1.0) * constant * out * temperature;
         let is_full = (gamma - 1.0) * energy > surrounding * volume;
-        // where the force acts: half way between the deepest points
+        // the point of attack: half way between the deepest points
         let point = minus(centre, times(other - 0.5 * depth, n));
         let shrinks = if depth > 0.0 {
             -area * dot(body.velocity_at(point), n)
@@ -850,7 +851,7 @@ fn airbags() {
             false => enthalpy / gamma,
         };
         let found = scene.rates(&body, 0.0, &[mass, energy], &[]);
-        // powers of numbers near 1 and differences of them
+        // powers of numbers near 1, and their differences
         let near = |ours: f64, page: f64, size: f64| (ours - page).abs() < 1e-9 * size;
         assert!(
             near(found[0], -out, out.max(1e-3)),
@@ -905,7 +906,7 @@ fn springs() {
         let span = minus([1.0, 0.0, 0.0], from);
         let (length, along) = (norm(span), unit(span));
         let rate = -dot(along, body.velocity_at(from));
-        // at the start the body is at 0, unturned
+        // at the start the body is at 0, not rotated
         let start = norm(minus([1.0, 0.0, 0.0], [0.1, -0.05, 0.02]));
         for (what, scene, force) in [
             ("line", &line, 700.0 * (length - 0.8) + 60.0 * rate),
@@ -922,6 +923,101 @@ fn springs() {
         }
     }
     assert!(pushes > STATES / 4);
+}
+
+/// Rx(a) Ry(b) Rz(c)
+fn turned([a, b, c]: Vector) -> Matrix {
+    let (x, y, z) = (a.sin_cos(), b.sin_cos(), c.sin_cos());
+    [
+        [y.1 * z.1, -y.1 * z.0, y.0],
+        [
+            x.1 * z.0 + x.0 * y.0 * z.1,
+            x.1 * z.1 - x.0 * y.0 * z.0,
+            -x.0 * y.1,
+        ],
+        [
+            x.0 * z.0 - x.1 * y.0 * z.1,
+            x.0 * z.1 + x.1 * y.0 * z.0,
+            x.1 * y.1,
+        ],
+    ]
+}
+
+/// a b
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    let columns: [Vector; 3] = std::array::from_fn(|j| apply(a, column(b, j)));
+    std::array::from_fn(|i| columns.map(|column| column[i]))
+}
+
+#[test]
+fn bushings() {
+    const LAWS: &str = "along: { x: { elastic: { points: [[-1, -900], [0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }, damping: 30 }, y: { stiffness: 700 }, z: { stiffness: 200, damping: 60 } }, about: { x: { stiffness: 3, damping: 0.4 }, y: { elastic: { points: [[-1, -3], [0, 0], [1, 2]], extrapolate: linear } }, z: { stiffness: 5, damping: 0.7 } }";
+    const POINTS: [[f64; 2]; 4] = [[-1.0, -900.0], [0.0, 0.0], [0.1, 500.0], [1.0, 2000.0]];
+    let own = "{ on: one/body, at: [0.1, -0.05, 0.02], axes: [0.3, -0.2, 0.5] }";
+    let other = "{ on: frame, at: [0.2, 0.1, -0.1], axes: [-0.4, 0.1, 0.2] }";
+    let first = Scene::new(&format!("bushing: b, from: {own}, to: {other}, {LAWS}"), "");
+    let second = Scene::new(&format!("bushing: b, from: {other}, to: {own}, {LAWS}"), "");
+    let mut random = Random::new(11);
+    for _ in 0..STATES {
+        let body = Moving::random(&mut random, [0.0; 3], 0.5);
+        let mine = (
+            product(&body.rotation, &turned([0.3, -0.2, 0.5])),
+            body.point([0.1, -0.05, 0.02]),
+        );
+        let fixed = (turned([-0.4, 0.1, 0.2]), [0.2, 0.1, -0.1]);
+        for (what, scene, is_first) in [("first", &first, true), ("second", &second, false)] {
+            let ((a1, p1), (a2, p2)) = if is_first {
+                (mine, fixed)
+            } else {
+                (fixed, mine)
+            };
+            // of the second body less the first, at p₂
+            let sign = if is_first { -1.0 } else { 1.0 };
+            let (velocity, omega) = (times(sign, body.velocity_at(p2)), times(sign, body.omega));
+            let in_first = |v: Vector| [0, 1, 2].map(|i| dot(column(&a1, i), v));
+            let (d, rate) = (in_first(minus(p2, p1)), in_first(velocity));
+            let resists = [
+                curve(&POINTS, d[0]) + 30.0 * rate[0],
+                700.0 * d[1],
+                200.0 * d[2] + 60.0 * rate[2],
+            ];
+            let force = apply(&a1, resists);
+
+            let (x, z) = (column(&a1, 0), column(&a2, 2));
+            let s = dot(x, z);
+            let c2 = 1.0 - s * s;
+            let entry = |i: usize, j: usize| dot(column(&a1, i), column(&a2, j));
+            // A₁ᵀ A₂ = Rx Ry Rz
+            let angles = [
+                (-entry(1, 2)).atan2(entry(2, 2)),
+                s.asin(),
+                (-entry(0, 1)).atan2(entry(0, 0)),
+            ];
+            let n = [
+                times(1.0 / c2, minus(x, times(s, z))),
+                times(1.0 / c2.sqrt(), cross(z, x)),
+                times(1.0 / c2, minus(z, times(s, x))),
+            ];
+            let turning = n.map(|n| dot(n, omega));
+            let torques = [
+                3.0 * angles[0] + 0.4 * turning[0],
+                curve(&ELASTIC, angles[1]),
+                5.0 * angles[2] + 0.7 * turning[2],
+            ];
+            let moment = (0..3).fold([0.0; 3], |sum, i| plus(sum, times(torques[i], n[i])));
+            // on the first body; on the second the opposite
+            let on_first = Wrench::at(&body, p2, force).and(Wrench {
+                force: [0.0; 3],
+                moment,
+            });
+            let page = Wrench {
+                force: times(-sign, on_first.force),
+                moment: times(-sign, on_first.moment),
+            };
+            let size = norm(page.force) + 4e3 + 30.0 * norm(moment) / (c2 * c2);
+            same(what, scene.acts(&body, 0.4, &[], &[]), page, size);
+        }
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The whole fall of one state, and the rules that steps can be taken by.
+//! The whole fall from one state, and the formulas of its steps.
 
 use crate::{Result, time};
 use bryant_runtime::integrate::{march, march_adams, march_dop853};
@@ -6,7 +6,7 @@ use bryant_runtime::simulate::simulate_from;
 use bryant_runtime::{Formula, Method, Model, Real, Settings};
 use std::ops::ControlFlow;
 
-/// How a step is taken.
+/// The formula of a step.
 #[derive(Clone, Copy)]
 pub enum Rule {
     /// Runge–Kutta 4.
@@ -27,7 +27,7 @@ impl Rule {
         }
     }
 
-    /// Steps of one length from time 0, and nothing else.
+    /// Steps of one length from time 0, without any checks.
     #[inline(always)]
     pub fn march<T: Real, M: Model<T>>(self, model: &M, h: T, steps: u32, y: &mut M::State) {
         let t = T::from_f64(0.0);
@@ -39,7 +39,7 @@ impl Rule {
     }
 }
 
-/// Times of runs from one state \[ns\], and where they end: by the time loop with its checks, where it has the rule.
+/// Times of runs from one state \[ns\], and their end; if the time loop has the formula, the run uses it with its checks.
 pub fn fall<M: Model<f64>>(
     mechanism: &M,
     start: M::State,

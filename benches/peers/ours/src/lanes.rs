@@ -6,13 +6,13 @@ use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth};
 use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector};
 use std::marker::PhantomData;
 
-/// From states to the times of batches \[ns per state\] and the derivatives of the velocities.
+/// Gives the times of batches \[ns per state\] and the derivatives of the velocities at states.
 pub struct Accelerations<'a, M> {
     pub states: &'a [Vec<f64>],
     pub of: PhantomData<M>,
 }
 
-/// From states to the times of runs \[ns per run\] and where the first one ends. Every lane begins a little off the others.
+/// Gives the times of runs \[ns per run\] and the end of the first one. The lanes have slightly different starts.
 pub struct Fall<'a, M> {
     pub start: &'a [f64],
     pub rule: Rule,
@@ -21,7 +21,7 @@ pub struct Fall<'a, M> {
     pub of: PhantomData<M>,
 }
 
-/// ẏ in its place.
+/// Computes ẏ in place.
 struct Rate<'a, M, S> {
     model: &'a M,
     y: &'a S,
@@ -37,7 +37,7 @@ impl<T: Real, M: Model<T>> Task for Rate<'_, (M, PhantomData<T>), M::State> {
     }
 }
 
-/// The model with the scalar that it is over.
+/// The model over a scalar, with that scalar.
 type Over<T, M> = (<M as Model<f64>>::With<T>, PhantomData<T>);
 
 fn over<T: Real, M: Model<f64>>() -> Over<T, M> {
@@ -45,7 +45,7 @@ fn over<T: Real, M: Model<f64>>() -> Over<T, M> {
     (M::With::<T>::new(parameters), PhantomData)
 }
 
-/// States in lanes; the last register is filled up with the first state.
+/// States in lanes; the last register is filled with copies of the first state.
 fn registers<T: Several<One = f64>, S: Vector<T>>(states: &[Vec<f64>]) -> Vec<S> {
     let register = |states: &[Vec<f64>]| {
         let mut y = S::splat(T::from_f64(0.0));
@@ -67,7 +67,7 @@ impl<M: Model<f64>> OfAnyWidth for Accelerations<'_, M> {
         let model = over::<T, M>();
         let y: Vec<<M::With<T> as Model<T>>::State> = registers(self.states);
         let mut rates = y.clone();
-        // so many states are done in a batch, those that fill up the last register among them
+        // the number of states in a batch includes the copies that fill the last register
         let times = time::batches(y.len() * T::LANES, || {
             for (y, rate) in y.iter().zip(&mut rates) {
                 let model = &model;

@@ -1,4 +1,4 @@
-//! Accelerations of the models of the comparison, and the whole fall of dummy15, as this project computes and times them.
+//! Accelerations of the models of the comparison, and the whole fall of dummy15, computed and timed by this project.
 //!
 //! | arguments | standard input | standard output |
 //! |---|---|---|
@@ -9,9 +9,9 @@
 //! | `fall DURATION STEP COLUMN METHOD` | one state of dummy15 | nanoseconds of each run, a line; then the state at the end |
 //!
 //! A column is `f64`, or a width of registers: `1` (one state, with fused multiply-adds), `4`, `8`, or `widest`. In lanes the derivative of
-//! the whole state is timed, q̇ included. A method is `rk4`, `dop853` or `adams`, by steps of one length.
+//! the whole state is timed, including q̇. A method is `rk4`, `dop853` or `adams`, with steps of one length.
 //!
-//! SI units; q and v as in the model's own table of coordinates. The other engines' programs keep to the same format.
+//! SI units; q and v are in the order of the model's own table of coordinates. The programs of the other engines use the same format.
 
 mod fall;
 mod lanes;
@@ -66,7 +66,7 @@ mod models {
     }
 }
 
-/// Calls a macro with the module of the model of a name.
+/// Calls a macro with the module of the named model.
 macro_rules! with_model {
     ($name:expr, $call:ident $(, $argument:expr)*) => {
         match $name {
@@ -90,7 +90,7 @@ macro_rules! with_model {
     };
 }
 
-/// A column of the table: from states to the times of batches and the accelerations.
+/// A column of the table: takes states, gives the times of batches and the accelerations.
 macro_rules! one_by_one {
     ($($module:ident)::+, $states:expr) => {{
         use $($module)::+ as module;
@@ -110,7 +110,7 @@ macro_rules! one_by_one {
     }};
 }
 
-/// The same with as many states at once as a register has lanes.
+/// The same for as many states at once as a register has lanes.
 macro_rules! abreast {
     ($($module:ident)::+, $width:expr, $states:expr) => {{
         let task = lanes::Accelerations {
@@ -214,7 +214,7 @@ fn read() -> Result<Vec<Vec<f64>>> {
     Ok(rows)
 }
 
-/// The entries of a row from one on.
+/// The entries of a row, starting at an index.
 fn array<const N: usize>(row: &[f64], from: usize) -> Result<[f64; N]> {
     row.get(from..from + N)
         .and_then(|part| part.try_into().ok())

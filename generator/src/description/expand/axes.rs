@@ -1,12 +1,13 @@
 //! Mirror images of joints with coordinates of their own.
 //!
 //! A mirror M reverses one axis. The image of a sliding along d is one along M d; the image of a turn about n is one by the same angle about −M n, for
-//! n is axial; so a screw gets the other hand, its pitch changes sign. With these axes the image has the coordinates of its element: the same
+//! n is axial; what does both gets the other hand, and the numbers that say its hand change sign. With these axes the image has the coordinates of its element: the same
 //! start, the same laws.
 
 use super::{Expander, Node, mirror::negated};
 use crate::description::tree::{Entry, Kind};
 use crate::diagnostic::quoted;
+use crate::joint::{Coordinate, SPELLINGS};
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
@@ -84,11 +85,13 @@ impl Expander<'_> {
             return all;
         }
         let mut image = freedom.clone();
-        image.change("slider", |axis| self.mirrored_axis(axis, false));
-        for key in ["hinge", "screw"] {
-            image.change(key, |axis| self.mirrored_axis(axis, true));
+        for spelling in SPELLINGS {
+            let turns = spelling.coordinates == [Coordinate::Angle];
+            image.change(spelling.key.name, |axis| self.mirrored_axis(axis, turns));
+            for key in spelling.handed {
+                image.change(key, negated);
+            }
         }
-        image.change("pitch", negated);
         if let Some(follows) = image.get_mut("follows")
             && let Some(leader) = follows.get("joint").cloned()
         {

@@ -5,7 +5,7 @@
 //! those of the two others; and an orientation Rx(φ₁) Ry(φ₂) Rz(φ₃) between such frames the signs of the two other angles. The [axes of
 //! joints](super::axes) are of both kinds.
 
-use super::{Expander, Node, kind_and_name};
+use super::{Expander, Node, law_and_name};
 use crate::description::tree::{Entry, Kind};
 use crate::diagnostic::quoted;
 use crate::joint::written::has_axes;
@@ -70,7 +70,12 @@ fn capital(word: &str) -> String {
 }
 
 /// Whether two forces of a kind differ in nothing but their names, or in which of two ends or ellipsoids is which.
-fn is_the_same(force: &Node, image: &Node, kind: &str) -> bool {
+fn is_the_same(
+    force: &Node,
+    image: &Node,
+    kind: &str,
+    exchangeable: Option<[&'static str; 2]>,
+) -> bool {
     let swapped = |node: &Node, [a, b]: [&str; 2]| {
         let mut node = node.clone();
         let (first, second) = (node.remove(a), node.remove(b));
@@ -93,9 +98,7 @@ fn is_the_same(force: &Node, image: &Node, kind: &str) -> bool {
             (a, b) => a.is_none() && b.is_none(),
         })
     };
-    same(image)
-        || kind == "contact" && same(&swapped(image, ["ellipsoid", "with"]))
-        || matches!(kind, "belt" | "spring") && same(&swapped(image, ["from", "to"]))
+    same(image) || exchangeable.is_some_and(|keys| same(&swapped(image, keys)))
 }
 
 impl Expander<'_> {
@@ -239,80 +242,89 @@ impl Expander<'_> {
         if !force.take_flag("mirror") {
             return None;
         }
-        let (kind, name) = kind_and_name(force)?;
+        let (law, _) = law_and_name(force)?;
         let mut image = force.clone();
-        if kind == "joint" {
-            let place = force.get("joint")?.span;
-            let Some(path) = self.known.images.get(name) else {
-                self.problem(
-                    place,
-                    format!("the element {} has no mirror image", quoted(name)),
-                    "write `mirror: true` in the element as well, or write the force of the other side out",
-                );
-                return None;
-            };
-            let (path, own) = (path.clone(), self.known.jointed.contains(name));
-            image.change("joint", |n| n.with_text(path));
-            if !own {
-                self.mirror_joint(&mut image);
-            }
-            return Some(image);
-        }
+        (law.image)(self, force, &mut image)?;
+        Some(image)
+    }
+
+    /// Gives the image of a force of this kind its name.
+    pub(crate) fn image_of_named(
+        &mut self,
+        force: &Node,
+        image: &mut Node,
+        kind: &str,
+    ) -> Option<()> {
+        let name = force.word(kind)?;
         let other = self.image_name(force.get(kind)?, kind)?;
         self.known
             .images
             .insert(format!("{kind} {name}"), format!("{kind} {other}"));
         image.change(kind, |n| n.with_text(other));
-        for key in ["ellipsoid", "plane", "with"] {
-            image.change(key, |n| match n.text() {
-                Some(name) => match self.known.images.get(&format!("surface {name}")) {
-                    Some(image) => n.with_text(image),
-                    None => n.clone(),
-                },
-                None => self.mirrored_surface(n),
-            });
+        Some(())
+    }
+
+    /// Reports the image of a force of this kind that is the same force once more.
+    pub(crate) fn differs(
+        &self,
+        force: &Node,
+        image: &Node,
+        kind: &str,
+        exchangeable: Option<[&'static str; 2]>,
+    ) -> Option<()> {
+        if !is_the_same(force, image, kind, exchangeable) {
+            return Some(());
         }
-        for key in ["from", "to"] {
-            image.change(key, |end| self.mirrored_surface(end));
-        }
-        for key in ["through", "against"] {
-            if let Some(list) = image.get_mut(key)
-                && let Kind::List(items) = &mut list.kind
-            {
-                for item in items {
-                    *item = match item.text() {
-                        Some(name) => match self.known.images.get(&format!("surface {name}")) {
-                            Some(image) => item.with_text(image),
-                            None => item.clone(),
-                        },
-                        None => self.mirrored_surface(item),
-                    };
-                }
-            }
-        }
-        if kind == "load" {
-            image.change("on", |n| self.body(n));
-            image.change("at", |n| self.polar(n));
-            image.change("force", |n| {
-                self.reversed(n, |axis, mirror| axis == mirror, negated_function_of(self))
-            });
-            image.change("moment", |n| {
-                self.reversed(n, |axis, mirror| axis != mirror, negated_function_of(self))
-            });
-        }
-        if is_the_same(force, &image, kind) {
-            let place = force.get(kind)?.span;
+        let name = force.get(kind)?;
+        self.problem(
+            name.span,
+            format!(
+                "the mirror image of {} is the same {kind} once more, and would double it",
+                quoted(name.text()?)
+            ),
+            "remove `mirror: true`; or name a body or a surface that has an image",
+        );
+        None
+    }
+
+    /// Makes the image of a law in a joint, which is in the joint of the image of its element.
+    pub(crate) fn mirrored_joint_force(&self, force: &Node, image: &mut Node) -> Option<()> {
+        let name = force.word("joint")?;
+        let Some(path) = self.known.images.get(name) else {
             self.problem(
-                place,
-                format!(
-                    "the mirror image of {} is the same {kind} once more, and would double it",
-                    quoted(name)
-                ),
-                "remove `mirror: true`; or name a body or a surface that has an image",
+                force.get("joint")?.span,
+                format!("the element {} has no mirror image", quoted(name)),
+                "write `mirror: true` in the element as well, or write the force of the other side out",
             );
             return None;
+        };
+        image.change("joint", |n| n.with_text(path));
+        if !self.known.jointed.contains(name) {
+            self.mirror_joint(image);
         }
-        Some(image)
+        Some(())
+    }
+
+    /// The image of a surface, by the name of its image or in place.
+    pub(crate) fn mirrored_by_name(&self, surface: &Node) -> Node {
+        match surface.text() {
+            Some(name) => match self.known.images.get(&format!("surface {name}")) {
+                Some(image) => surface.with_text(image),
+                None => surface.clone(),
+            },
+            None => self.mirrored_surface(surface),
+        }
+    }
+
+    /// Mirrors each surface or point of a list.
+    pub(crate) fn mirrored_list(&self, image: &mut Node, key: &str) {
+        if let Some(list) = image.get_mut(key)
+            && let Kind::List(items) = &mut list.kind
+        {
+            for item in items {
+                *item = self.mirrored_by_name(item);
+            }
+        }
     }
 
     /// The image of an output that asks for one: the same of the image of what it looks at.
@@ -399,15 +411,20 @@ impl Expander<'_> {
         }
     }
 
-    /// A law of the angle θ as one of −θ, with the opposite torque.
-    fn mirror_law(&self, law: &mut Node) {
+    /// Whether a mirror image has the other direction of this axis.
+    pub(crate) fn reverses(&self, axis: usize) -> bool {
+        axis == self.words.axis
+    }
+
+    /// A law of the coordinate θ as one of −θ, with the opposite force.
+    pub(crate) fn mirror_law(&self, law: &mut Node) {
         for key in ["elastic", "unloading"] {
             law.change(key, |n| self.odd_image(n));
         }
         law.change("neutral", negated);
-        law.change("motor", negated_function_of(self));
+        law.change("motor", self.negated_function());
         if let Some(drive) = law.get_mut("drive") {
-            drive.change("to", negated_function_of(self));
+            drive.change("to", self.negated_function());
         }
         if let Some(stop) = law.get_mut("stop") {
             let ends = [("from", stop.remove("to")), ("to", stop.remove("from"))];
@@ -474,7 +491,7 @@ impl Expander<'_> {
     }
 
     /// A surface or an attachment on the image of its body, mirrored in that body's own frame.
-    fn mirrored_surface(&self, surface: &Node) -> Node {
+    pub(crate) fn mirrored_surface(&self, surface: &Node) -> Node {
         let mut image = surface.clone();
         image.change("on", |n| self.body(n));
         for key in ["at", "center", "normal", "along"] {
@@ -485,7 +502,7 @@ impl Expander<'_> {
     }
 
     /// The image of a body; the body itself where it has none.
-    fn body(&self, path: &Node) -> Node {
+    pub(crate) fn body(&self, path: &Node) -> Node {
         let image = path.text().and_then(|text| self.known.images.get(text));
         image.map_or_else(|| path.clone(), |image| path.with_text(image))
     }
@@ -510,7 +527,7 @@ impl Expander<'_> {
     }
 
     /// A polar vector.
-    pub(super) fn polar(&self, vector: &Node) -> Node {
+    pub(crate) fn polar(&self, vector: &Node) -> Node {
         match vector.kind {
             Kind::List(_) => self.reversed(vector, |axis, mirror| axis == mirror, negated),
             _ => vector.clone(),
@@ -522,8 +539,37 @@ impl Expander<'_> {
         self.reversed(vector, |axis, mirror| axis != mirror, negated)
     }
 
+    /// Negates a number or a function of time.
+    pub(crate) fn negated_function(&self) -> impl Fn(&Node) -> Node + '_ {
+        |function| {
+            let is_curve = match &function.kind {
+                Kind::Scalar { text, .. } => self.known.curves.contains_key(text.trim()),
+                Kind::Map(_) => function.get("param").is_none(),
+                Kind::List(_) => false,
+            };
+            if !is_curve {
+                return negated(function);
+            }
+            let mut image = match function.get("curve") {
+                Some(_) => function.clone(),
+                None => Node {
+                    span: function.span,
+                    kind: Kind::Map(vec![Entry {
+                        key: "curve".to_owned(),
+                        span: function.span,
+                        value: function.clone(),
+                    }]),
+                },
+            };
+            let one = Node::plain("1", function.span);
+            let times = negated(image.get("times").unwrap_or(&one));
+            image.set("times", times);
+            image
+        }
+    }
+
     /// A vector, some components negated: of an axis, given the axis of the mirror.
-    fn reversed(
+    pub(crate) fn reversed(
         &self,
         vector: &Node,
         which: impl Fn(usize, usize) -> bool,
@@ -550,35 +596,6 @@ impl Expander<'_> {
             span: vector.span,
             kind: Kind::List(items.iter().enumerate().map(component).collect()),
         }
-    }
-}
-
-/// Negates a number or a function of time.
-fn negated_function_of<'e>(file: &'e Expander<'_>) -> impl Fn(&Node) -> Node + 'e {
-    |function| {
-        let is_curve = match &function.kind {
-            Kind::Scalar { text, .. } => file.known.curves.contains_key(text.trim()),
-            Kind::Map(_) => function.get("param").is_none(),
-            Kind::List(_) => false,
-        };
-        if !is_curve {
-            return negated(function);
-        }
-        let mut image = match function.get("curve") {
-            Some(_) => function.clone(),
-            None => Node {
-                span: function.span,
-                kind: Kind::Map(vec![Entry {
-                    key: "curve".to_owned(),
-                    span: function.span,
-                    value: function.clone(),
-                }]),
-            },
-        };
-        let one = Node::plain("1", function.span);
-        let times = negated(image.get("times").unwrap_or(&one));
-        image.set("times", times);
-        image
     }
 }
 

@@ -15,7 +15,9 @@ mod surface;
 
 use super::place::At;
 use super::shape::Problems;
-use super::tree::{Entry, Kind, MAX_ENTRIES, Node, Source, Span};
+pub(crate) use super::tree::Node;
+use super::tree::{Entry, Kind, MAX_ENTRIES, Source, Span};
+use crate::law::{LAWS, Registered};
 use mirror::Words;
 use std::collections::{HashMap, HashSet};
 use surface::Surfaces;
@@ -33,7 +35,7 @@ pub struct Known {
 }
 
 /// One file while its short forms are written out.
-struct Expander<'a> {
+pub struct Expander<'a> {
     source: &'a Source,
     problems: &'a Problems,
     known: &'a mut Known,
@@ -199,7 +201,7 @@ impl Node {
     }
 
     /// Changes the value of a key, where there is one.
-    fn change(&mut self, key: &str, change: impl FnOnce(&Node) -> Node) {
+    pub(crate) fn change(&mut self, key: &str, change: impl FnOnce(&Node) -> Node) {
         if let Some(value) = self.get_mut(key) {
             *value = change(value);
         }
@@ -234,9 +236,13 @@ impl Node {
     }
 }
 
-/// The kind of a force and its name: the first key that says so.
+/// The law of a force and its name: the first key that says so.
+fn law_and_name(force: &Node) -> Option<(&'static Registered, &str)> {
+    LAWS.iter()
+        .find_map(|law| Some((law, force.word(law.key)?)))
+}
+
+/// The kind of a force and its name.
 fn kind_and_name(force: &Node) -> Option<(&'static str, &str)> {
-    super::force::KINDS
-        .into_iter()
-        .find_map(|kind| Some((kind, force.word(kind)?)))
+    law_and_name(force).map(|(law, name)| (law.key, name))
 }

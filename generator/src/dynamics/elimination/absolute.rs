@@ -1,4 +1,4 @@
-//! An element whose moments are taken about the absolute axes E. With a' = a − β and e_c = h_c − Q_c (β_c + a₀_c):
+//! Eliminates an element with moments about the absolute axes E. With a' = a − β and e_c = h_c − Q_c (β_c + a₀_c):
 //!
 //! | | |
 //! |---|---|
@@ -7,8 +7,9 @@
 //! | Q = ΣQ_c + H J'⁻¹ Hᵀ,   a₀ = −β | h = f₀ − H J'⁻¹ t₀ |
 //! | α = −J'⁻¹ (Hᵀ a' + t₀) | μ = m + Σ μ_c |
 //!
-//! Where a child has a₀ = −β too, Q_c meets no velocity at all; β costs one moment, w × β. E are the absolute axes in space,
-//! e_y in the plane. In space H has no trace: D(w) has none, nor has the product of a symmetric matrix with a skew one.
+//! If a child has a₀ = −β, too, Q_c is multiplied by no velocity term; β costs one moment, w × β. E are the absolute axes in
+//! space, and e_y in the plane. In space H has no trace, because D(w) has none and the product of a symmetric and a skew
+//! matrix has none.
 
 use super::{ArticulatedBody, BodyWithChildren, Child};
 use crate::dynamics::augmented::{AugmentedBody, with_points};
@@ -17,11 +18,11 @@ use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::Dimension;
 
-/// What the way outwards needs.
+/// The quantities that the pass outwards needs.
 pub(super) struct Absolute<'g> {
     /// J' = L D Lᵀ
     factors: Ldl<'g>,
-    /// Z = D⁻¹ L⁻¹ Hᵀ, one row per freedom of rotation.
+    /// Z = D⁻¹ L⁻¹ Hᵀ, one row for each rotational degree of freedom.
     z: Vec<Vec3<'g>>,
     /// D⁻¹ L⁻¹ t₀
     z_bias: Vec<Expr<'g>>,
@@ -100,7 +101,7 @@ impl<'g> BodyWithChildren<'g, '_> {
         (absolute, response)
     }
 
-    /// The body with the masses μ of its children as points at their joints, about the origin.
+    /// The body with the masses μ of its children as points at their joints, about `origin`.
     fn body(&self, name: &str) -> AugmentedBody<'g> {
         let children = self.children.iter();
         let points: Vec<_> = children
@@ -153,7 +154,7 @@ impl<'g> Absolute<'g> {
     }
 }
 
-/// Axes of the freedoms of rotation, those of the absolute frame that the dimension has, with their indices.
+/// The axes of the rotational degrees of freedom: the absolute axes that the dimension has, with their indices.
 fn rotations<'g>(graph: &'g Graph, dimension: Dimension) -> Vec<(usize, Vec3<'g>)> {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let axis = |i: usize| {

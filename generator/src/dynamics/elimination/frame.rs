@@ -1,8 +1,8 @@
-//! Axes of computation that suit an element better than those it was described in: A R with constant R.
+//! Computation axes for an element that give fewer operations than the axes of its description: A R with a constant R.
 //!
-//! With quaternions R costs no product of matrices: A(q) R(r) = A(q ∘ r). Of the 24 orders and signs that the axes may have
-//! that r is taken whose product is cheapest; it is scaled such that its largest component is 1, and the scale goes where the
-//! rotation doubles its products anyway.
+//! With quaternions R costs no product of matrices, because A(q) R(r) = A(q ∘ r). The axes may have 24 orders and signs. The
+//! search takes the r whose product is cheapest, and scales it such that its largest component is 1. The scale is absorbed
+//! where the rotation doubles its products.
 
 use super::Body;
 use crate::dynamics::kinematics::constant_rotation;
@@ -14,20 +14,20 @@ use crate::expression::{Expr, Graph, Symbol};
 use crate::model::Element;
 use std::array::from_fn;
 
-/// The constants of one body alone, whose geometry is known in numbers.
+/// The constants of a single body whose geometry is known in numbers.
 pub(super) struct Own<'g> {
     /// m \[kg\]
     pub mass: Expr<'g>,
-    /// g from the origin, local frame \[m\].
+    /// g, the centre of gravity from the origin, in the local frame \[m\].
     pub center: [f64; 3],
     /// Principal moments about the centre of gravity \[kg m²\].
     pub principal: Vec3<'g>,
-    /// Their axes, local frame.
+    /// The principal axes, in the local frame.
     pub principal_axes: [[f64; 3]; 3],
 }
 
 impl<'g> Own<'g> {
-    /// The constants, if centre of gravity and principal axes are numbers; mass and moments may be parameters.
+    /// The constants, if centre of gravity and principal axes are numbers. Mass and moments may be parameters.
     pub fn of(graph: &'g Graph, element: &Element, origin: Vec3<'g>) -> Option<Self> {
         let axes = constant_rotation(graph, &element.axes);
         let mut principal_axes = [[0.0; 3]; 3];
@@ -45,7 +45,7 @@ impl<'g> Own<'g> {
     /// The inertia about the centre of gravity in constant axes of the local frame.
     pub fn inertia(&self, axes: [[f64; 3]; 3]) -> [[Expr<'g>; 3]; 3] {
         let graph = self.mass.graph();
-        // By principal axis, then by axis.
+        // First index: principal axis; second index: axis.
         let cosines = self.principal_axes.map(|p| Frame::new(axes).components(p));
         from_fn(|i| {
             from_fn(|j| {
@@ -57,13 +57,13 @@ impl<'g> Own<'g> {
     }
 }
 
-/// The components, where all are numbers.
+/// The components, if all are numbers.
 pub(super) fn values(vector: Vec3<'_>) -> Option<[f64; 3]> {
     let [x, y, z] = vector.0.map(|component| component.as_constant());
     Some([x?, y?, z?])
 }
 
-/// Zero for what is rounding beside a scale.
+/// The value, or 0 if it is only rounding relative to a scale.
 pub(super) fn cleaned(value: f64, scale: f64) -> f64 {
     if value.abs() <= 16.0 * f64::EPSILON * scale {
         0.0
@@ -72,7 +72,7 @@ pub(super) fn cleaned(value: f64, scale: f64) -> f64 {
     }
 }
 
-/// Zero for a number that is rounding beside another number.
+/// The number, or 0 if it is only rounding relative to another number.
 pub(super) fn clean<'g>(value: Expr<'g>, scale: Expr<'g>) -> Expr<'g> {
     match (value.as_constant(), scale.as_constant()) {
         (Some(v), Some(s)) => value.graph().constant(cleaned(v, s)),
@@ -80,7 +80,8 @@ pub(super) fn clean<'g>(value: Expr<'g>, scale: Expr<'g>) -> Expr<'g> {
     }
 }
 
-/// Orthonormal right-handed axes, the first along `first`, the second towards `towards` or else where it has a zero.
+/// Orthonormal right-handed axes: the first along `first`, the second towards `towards` or, without that, with a zero
+/// component.
 pub(super) fn along(first: [f64; 3], towards: Option<[f64; 3]>) -> [[f64; 3]; 3] {
     let unit = |v: [f64; 3]| {
         let norm = v.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -88,7 +89,7 @@ pub(super) fn along(first: [f64; 3], towards: Option<[f64; 3]>) -> [[f64; 3]; 3]
     };
     let x = unit(first);
     let towards = towards.unwrap_or_else(|| {
-        // across the coordinate axis that is least along the first
+        // perpendicular to the coordinate axis along which `first` is smallest
         let least = (0..3)
             .min_by(|&i, &j| x[i].abs().total_cmp(&x[j].abs()))
             .unwrap_or(0);
@@ -110,19 +111,19 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// These axes, orthonormal and right-handed.
+    /// A frame of these axes, which are orthonormal and right-handed.
     pub fn new(axes: [[f64; 3]; 3]) -> Self {
         Frame { axes }
     }
 
-    /// A vector of the local frame in these axes.
+    /// A vector of the local frame, in these axes.
     pub fn components(&self, v: [f64; 3]) -> [f64; 3] {
         let size = v.iter().fold(0.0f64, |m, c| m.max(c.abs()));
         self.axes
             .map(|axis| cleaned(axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2], size))
     }
 
-    /// The axes, `length` long, in absolute axes, as columns.
+    /// The axes with the length `length`, in absolute axes, as columns.
     pub fn turned<'g>(&self, body: &Body<'g, '_>, length: f64) -> Mat3<'g> {
         let graph = body.graph;
         let identity = self.axes == [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -158,7 +159,7 @@ impl Frame {
         }))
     }
 
-    /// For each axis the column that it is and its sign, and the unit quaternion of the columns.
+    /// For each axis, the column that it is and its sign; and the unit quaternion of the columns.
     fn cheapest(&self) -> (Order, [f64; 4]) {
         let mut best: Option<(usize, Order, [f64; 4])> = None;
         for order in orders() {
@@ -179,7 +180,7 @@ impl Frame {
     }
 }
 
-/// Where each axis goes, and whether with a minus.
+/// For each axis, the column that it becomes, and whether with a minus.
 type Order = [(usize, bool); 3];
 
 /// The 24 rotations of a cube.
@@ -205,7 +206,7 @@ fn orders() -> impl Iterator<Item = Order> {
 fn quaternion(columns: [[f64; 3]; 3]) -> [f64; 4] {
     let a = |i: usize, j: usize| columns[j][i];
     let (xx, yy, zz) = (a(0, 0), a(1, 1), a(2, 2));
-    // Four times the squares; the largest is at least 1.
+    // Four times the squares of the components; the largest is at least 1.
     let squares = [
         1.0 + xx + yy + zz,
         1.0 + xx - yy - zz,

@@ -1,12 +1,14 @@
-//! An element with one joint outboard of it, in axes along the link: E₁ = u = A s, E₂ towards the centre of gravity, E₃, each
-//! of the length ℓ of s. What the joint outboard answers does not feel a turn about u, so the row of that turn is one of the
-//! body alone: with its mass m, its first moment (b₁, b₂, 0) and its inertia J about the joint in these axes,
+//! Eliminates an element with one joint outboard of it, in axes along the link: E₁ = u = A s, E₂ towards the centre of gravity,
+//! and E₃, each of the length ℓ of s. A rotation about u does not move the joint outboard, so the row of that rotation involves
+//! only the body itself. With its mass m, its first moment (b₁, b₂, 0) and its inertia J about the joint in these axes, this row
+//! is
 //!
 //! J₁₁ α₁ + J₁₂ α₂ + J₁₃ α₃ + b₂ a₃ + t₁ = 0,   t = ω × Jω
 //!
-//! takes α₁ out with numbers, and leaves 2×2. Two shifts of the mass that the joint outboard is given, Q' = Q + (μ' − μ)·1 and
-//! Q″ = Q + (μ″ − μ)·1, take in what else would be terms of the body: with ℓ μ' = −(b₁ + b₂ J₁₂/J₁₁) a appears in the second row
-//! by Q' alone; with ℓ μ″ = −b₁, the body's first moment being across u, in the third along e₂ by Q″ alone, and γ(u) everywhere:
+//! It eliminates α₁ with constants and leaves a 2×2 system. Two shifts of the mass of the joint outboard, Q' = Q + (μ' − μ)·1
+//! and Q″ = Q + (μ″ − μ)·1, absorb further terms of the body. With ℓ μ' = −(b₁ + b₂ J₁₂/J₁₁), a appears in the second row only
+//! through Q'. With ℓ μ″ = −b₁ the first moment of the body is perpendicular to u; then the third row along e₂, and γ(u)
+//! everywhere, appear only through Q″:
 //!
 //! | | |
 //! |---|---|
@@ -22,25 +24,25 @@ use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::Dimension;
 
-/// μ' and μ″ up to so many times the mass of the body are taken: rounding of Q' is theirs.
+/// μ' and μ″ are used up to so many times the mass of the body, because their rounding becomes that of Q'.
 const LARGEST_SHIFT: f64 = 8.0;
 
-/// J₁₁ from so small a part of J on: what is smaller is rounding.
+/// The smallest J₁₁ as a part of J; smaller values are rounding.
 const SMALLEST_SPIN: f64 = 1e-9;
 
-/// What the way outwards needs.
+/// The quantities that the pass outwards needs.
 pub(super) struct Link<'g> {
     graph: &'g Graph,
     constants: Constants<'g>,
     /// E₁, E₂, E₃ as columns.
     axes: Mat3<'g>,
-    /// β of the joint.
+    /// β of the joint, its velocity-product acceleration.
     beta: Vec3<'g>,
     /// D₂₃/D₂₂
     lower: Expr<'g>,
-    /// By row of D: D⁻¹L⁻¹ y.
+    /// D⁻¹L⁻¹ y, for each row of D.
     z: [Vec3<'g>; 2],
-    /// By row of D: D⁻¹L⁻¹ T.
+    /// D⁻¹L⁻¹ T, for each row of D.
     z_bias: [Expr<'g>; 2],
     /// t₁
     spin: Expr<'g>,
@@ -72,8 +74,8 @@ pub(super) struct Axes<'g> {
 }
 
 impl<'g> Axes<'g> {
-    /// The axes of an element, if `at` is the only joint outboard of it and its geometry known in numbers. `defaults` are
-    /// those of the parameters that mass and moments may depend on.
+    /// The axes of an element, if `at` is its only joint outboard and its geometry is known in numbers. `defaults` are the
+    /// default values of the parameters, on which mass and moments may depend.
     pub(super) fn of(body: &Body<'g, '_>, at: &[Vec3<'g>], defaults: &[f64]) -> Option<Self> {
         let [at] = at else { return None };
         if body.dimension == Dimension::Plane {
@@ -88,14 +90,14 @@ impl<'g> Axes<'g> {
         })
     }
 
-    /// u of the joint outboard.
+    /// u of the joint outboard, in absolute axes.
     pub(super) fn offset(&self) -> Vec3<'g> {
         self.absolute.column(0)
     }
 }
 
 impl<'g> BodyWithChildren<'g, '_> {
-    /// Eliminates an element that bears no load.
+    /// Eliminates an element on which no force acts.
     pub(super) fn link(
         &self,
         axes: Axes<'g>,
@@ -203,7 +205,7 @@ impl<'g> BodyWithChildren<'g, '_> {
 }
 
 impl<'g> Link<'g> {
-    /// α, and a − β of the joint outboard, from a − β of the joint.
+    /// α, and a − β of the joint outboard, given a − β of the joint.
     pub(super) fn angular_acceleration(&self, joint: Vec3<'g>) -> (Vec3<'g>, Vec3<'g>) {
         let Constants {
             length,
@@ -217,7 +219,7 @@ impl<'g> Link<'g> {
         let third = -(self.z[1].dot(joint) + self.z_bias[1]);
         let second = -(self.z[0].dot(joint) + self.z_bias[0]) - self.lower * third;
         let outboard = joint + third * e2 - second * e3;
-        // From here on by length.
+        // From here on lengths are divided out.
         let inverse = self.graph.constant(1.0 / length);
         let (second, third) = (inverse * second, inverse * third);
         let by_spin = inverse / j[0][0];
@@ -276,7 +278,7 @@ impl<'g> Constants<'g> {
         })
     }
 
-    /// ω × Jω of the body with μ″ outboard, from ℓω.
+    /// ω × Jω of the body with μ″ at the joint outboard, given ℓω.
     fn gyroscopic(&self, rates: Vec3<'g>) -> Vec3<'g> {
         let number = |value: f64| self.mass.graph().constant(value);
         let square = self.length * self.length;
@@ -284,7 +286,7 @@ impl<'g> Constants<'g> {
         for i in [1, 2] {
             j[i][i] = j[i][i] + number(square) * self.outboard_of_velocity;
         }
-        // What is the same about all axes does nothing: that about the axis with most zeros beside it goes.
+        // A part that is equal about all axes has no effect, so the diagonal entry of the row with most zeros is subtracted.
         let zeros = |i: &usize| j[*i].iter().filter(|entry| entry.is_zero()).count();
         let same = (0..3)
             .rev()
@@ -299,7 +301,7 @@ impl<'g> Constants<'g> {
     }
 }
 
-/// Values that depend on parameters alone, with their defaults.
+/// Values that depend on parameters alone, at the default values of the parameters.
 fn at_defaults<const N: usize>(values: [Expr<'_>; N], defaults: &[f64]) -> [f64; N] {
     if let Some(numbers) = values
         .iter()

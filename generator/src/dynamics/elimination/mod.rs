@@ -1,25 +1,25 @@
-//! Accelerations without ever assembling S.   \[after Featherstone 2008, ch. 7, for ball joints\]
+//! Accelerations by the articulated-body algorithm, without S, for ball joints.   \[after Featherstone 2008, ch. 7\]
 //!
-//! A ball joint passes a force but no moment: what is outboard of joint k answers an acceleration a of that joint with the
-//! force
+//! A ball joint passes a force but no moment. So for the acceleration a of joint k, the bodies outboard of it need the force
 //!
 //! f = μ a − Q (a + a₀) + h
 //!
-//! μ a constant, Q symmetric 3×3, a₀ and h what is there at rest of the joint ([`ArticulatedBody`]). Only Q is carried from joint to
-//! joint, as six numbers, so that it cannot lose its symmetry; μ goes into the constants of the body inboard, as the mass of a
-//! point at the joint. Which μ and a₀ are convenient, each element chooses:
+//! at the joint. μ is a constant and Q a symmetric 3×3 matrix; a₀ and h are the bias when the joint rests ([`ArticulatedBody`]). Only Q is
+//! passed from joint to joint, as six numbers, so that it stays symmetric. μ becomes part of the constants of the body inboard, as
+//! the mass of a point at the joint. Each element chooses the μ and a₀ that suit it:
 //!
 //! | element | strategy |
 //! |---|---|
-//! | any | [`absolute`]: its moments about the absolute axes, 3×3 |
-//! | one joint outboard, no load | [`link`]: in axes along the link, 2×2; its spin about the link is a constant of the body |
-//! | none outboard, no load | [`tip`]: Q is a constant of the body, and nothing is factorised |
+//! | any | [`absolute`]: moments about the absolute axes, 3×3 |
+//! | one joint outboard, no force | [`link`]: axes along the link, 2×2; the row of the spin about the link has constants of the body only |
+//! | none outboard, no force | [`tip`]: Q is a constant of the body, and nothing is factorised |
 //!
-//! Leaves to root, each element turns the answers of its children into its own. Root to leaves: a of the root from f = 0, or
-//! given; then α of each element from a, and a_c = a + α × u_c + γ(u_c). The velocities' part of a is summed up beforehand,
-//! β_c = β + γ(u_c), and begun anew behind each link; only a − β is passed on. The root of a system that floats is taken at
-//! the joint of one of its children, where u_c = 0; the reference joint follows last. A field common to the whole system is an
-//! acceleration of the absolute frame the other way: it enters once, at the root. Bryant angles follow from φ̈ = W⁻¹ (α − ε).
+//! From the leaves to the root, each element combines the articulated inertias of its children into its own. From the root to the leaves, a
+//! of the root is given or follows from f = 0; then each element gets α from a, and its children a_c = a + α × u_c + γ(u_c). The velocity
+//! part of a is summed beforehand, β_c = β + γ(u_c), and begins again behind each link; only a − β is passed on. The root of a floating
+//! system is taken at the joint of one of its children, where u_c = 0; the reference joint follows last. A field that is common to the
+//! whole system is the opposite acceleration of the absolute frame, so it enters once, at the root. Bryant angles follow from
+//! φ̈ = W⁻¹ (α − ε).
 
 mod absolute;
 mod frame;
@@ -28,7 +28,7 @@ mod tip;
 
 use super::augmented::AugmentedTree;
 use super::factorization::Ldl;
-use super::force::{Load, Loads};
+use super::force::{Loads, Wrench};
 use super::kinematics::{
     ElementMotion, Motion, identifier, inverse_rates, path, reference_acceleration,
 };
@@ -45,7 +45,7 @@ use absolute::Absolute;
 use link::Link;
 use tip::Tip;
 
-/// v̇ of all systems.
+/// v̇ of all systems, by row.
 pub fn accelerations<'g>(
     systems: &[Spatial<'g, '_>],
     loads: &Loads<'g>,
@@ -65,7 +65,8 @@ pub fn accelerations<'g>(
     accelerations
 }
 
-/// Sets the rows of a system with joint axes, in absolute axes or in the frames of links, whichever takes fewer operations.
+/// Sets the rows of a system that has joints other than balls, in absolute axes or in the frames of links, whichever takes fewer
+/// operations.
 fn with_axes<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, accelerations: &mut [Expr<'g>]) {
     let mut rates = match spatial.is_coupled() {
         true => {
@@ -90,7 +91,7 @@ fn with_axes<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, accelerations: &m
     }
 }
 
-/// Articulated inertia and bias force of what a joint carries: f = μ a − Q (a + a₀) + h.
+/// Articulated inertia and bias force of the bodies that a joint carries: f = μ a − Q (a + a₀) + h.
 #[derive(Clone, Copy)]
 struct ArticulatedBody<'g> {
     /// μ \[kg\]
@@ -103,7 +104,7 @@ struct ArticulatedBody<'g> {
     force: Vec3<'g>,
 }
 
-/// How an element is eliminated, with what the pass inwards leaves for the pass outwards.
+/// The strategy of elimination of an element, with the quantities that the pass inwards leaves for the pass outwards.
 enum Strategy<'g> {
     Absolute(Absolute<'g>),
     Link(Box<Link<'g>>),
@@ -119,28 +120,28 @@ struct Body<'g, 'a> {
     id: ElementId,
     element: &'a Element,
     motion: &'a ElementMotion<'g>,
-    /// False where ω × Jω is to be left out.
+    /// Whether ω × Jω is included.
     gyroscopic: bool,
 }
 
 /// One element with its children.
 struct BodyWithChildren<'g, 'a> {
     body: Body<'g, 'a>,
-    load: &'a Load<'g>,
-    /// Where moments are taken about and a is felt, local frame: the joint, but for the root of a system that floats.
+    load: &'a Wrench<'g>,
+    /// The point for moments and for a, in the local frame: the joint, except for the root of a floating system.
     origin: Vec3<'g>,
-    /// β of the origin.
+    /// β of the origin: its velocity-product acceleration.
     beta: Vec3<'g>,
     children: Vec<Child<'g>>,
 }
 
-/// A child as its parent sees it.
+/// A child in the elimination of its parent.
 struct Child<'g> {
-    /// Path, for the reader.
+    /// Its path, for the reader.
     label: String,
-    /// s − origin, local frame.
+    /// s − origin, in the local frame of the parent.
     at: Vec3<'g>,
-    /// u, from the origin.
+    /// u from the origin, in absolute axes.
     offset: Vec3<'g>,
     /// β of its joint.
     beta: Vec3<'g>,
@@ -158,11 +159,11 @@ struct Elimination<'g, 'a> {
     loads: &'a Loads<'g>,
     /// The child of a floating root at whose joint the root is taken.
     center: Option<usize>,
-    /// By element: u of its joint from the origin of its parent.
+    /// For each element, u of its joint from the origin of its parent.
     offsets: Vec<Vec3<'g>>,
-    /// By element: β of its joint.
+    /// For each element, β of its joint.
     betas: Vec<Vec3<'g>>,
-    /// By element: the axes along it, where it is to be eliminated as a link.
+    /// For each element, the axes along it, if it is eliminated as a link.
     links: Vec<Option<link::Axes<'g>>>,
 }
 
@@ -183,7 +184,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
             .flatten();
         let at = |k: usize| vector(graph, &elements[k].at);
         let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
-        let idle = idle(elements, &loads.elements[system]);
+        let idle = idle(elements, &loads.wrenches.elements[system]);
         let body = |k: usize| {
             let id = ElementId { system, element: k };
             Body {
@@ -259,7 +260,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
             Some(center) if k == 0 => vector(graph, &elements[center].at),
             _ => Vec3::zero(graph),
         };
-        // Children come after their parents: from the last element back, those of k are done when k is met.
+        // Children come after their parents. So with the last element first, those of k are done when k is reached.
         let mut done: Vec<Option<(Strategy<'g>, ArticulatedBody<'g>)>> =
             elements.iter().map(|_| None).collect();
         for (k, element) in elements.iter().enumerate().rev() {
@@ -284,7 +285,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
                     motion: self.motion.element(id),
                     gyroscopic: self.tree.bodies[k].gyroscopic,
                 },
-                load: &self.loads.elements[system][k],
+                load: &self.loads.wrenches.elements[system][k],
                 origin: origin(k),
                 beta: self.betas[k],
                 children: children.collect(),
@@ -324,11 +325,11 @@ impl<'g, 'a> Elimination<'g, 'a> {
             loads,
             ..
         } = *self;
-        let field = loads.fields[system];
+        let field = loads.wrenches.fields[system];
         let elements = &model.systems[system].elements;
         let reference = format!("system {}: reference joint", model.systems[system].name);
 
-        // a − β, in a frame in which the common field is at rest; β of the root is 0
+        // a − β, in a frame in which the common field vanishes; β of the root is 0
         graph.section(reference.as_str());
         let mut joint = vec![
             reference_acceleration(graph, &model.systems[system], motion) - field;
@@ -387,7 +388,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
         }
     }
 
-    /// a of the root where nothing holds it: f = 0.
+    /// a of the root of a floating system: f = 0.
     fn floating(&self, root: &ArticulatedBody<'g>) -> Vec3<'g> {
         let graph = self.graph;
         let directions = self.layout.directions;
@@ -415,7 +416,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
 }
 
 impl<'g> Strategy<'g> {
-    /// α from a − β of the joint; of a link also a − β of the joint outboard.
+    /// α, given a − β of the joint; for a link also a − β of the joint outboard.
     fn outwards(
         &self,
         graph: &'g Graph,
@@ -436,7 +437,7 @@ impl<'g> Strategy<'g> {
     }
 }
 
-/// The child at whose joint a floating root is best taken: the one that leaves most zeros in the offsets of the others.
+/// The child at whose joint a floating root is best taken: the one that gives most zeros in the offsets of the others.
 fn center(graph: &Graph, elements: &[Element], children: &[usize]) -> Option<usize> {
     let at = |k: usize| vector(graph, &elements[k].at);
     let numbers = |&center: &usize| {
@@ -447,9 +448,9 @@ fn center(graph: &Graph, elements: &[Element], children: &[usize]) -> Option<usi
     children.iter().copied().min_by_key(numbers)
 }
 
-/// By element: nothing acts on it, nor on what is outboard of it.
-fn idle(elements: &[Element], loads: &[Load<'_>]) -> Vec<bool> {
-    let mut idle: Vec<bool> = loads.iter().map(Load::is_zero).collect();
+/// For each element, whether no force acts on it and on the elements outboard of it.
+fn idle(elements: &[Element], loads: &[Wrench<'_>]) -> Vec<bool> {
+    let mut idle: Vec<bool> = loads.iter().map(Wrench::is_zero).collect();
     for (k, element) in elements.iter().enumerate().rev() {
         if let (Some(parent), false) = (element.parent, idle[k]) {
             idle[parent] = false;

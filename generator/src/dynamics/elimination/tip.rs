@@ -1,12 +1,12 @@
-//! An element that carries nothing. Free, it would turn as Euler's equations say, α_e = −I⁻¹(ω × Iω), and its joint would
-//! move with −a_e, a_e = α_e × g + γ(g), while its centre of gravity rests. What a joint does beyond that it does to a
-//! body at rest: with J = I + m (g²·1 − g gᵀ) and b = m g,
+//! Eliminates an element that carries nothing. If it were free, Euler's equations would give α_e = −I⁻¹(ω × Iω), its centre
+//! of gravity would rest, and its joint would move with −a_e, a_e = α_e × g + γ(g). Relative to this motion the joint acts on
+//! a body at rest: with J = I + m (g²·1 − g gᵀ) and b = m g,
 //!
 //! f = μ a − Q (a + a_e) + m a_e,   Q = −b̃ J⁻¹ b̃,   α = α_e − J⁻¹ (b × (a + a_e)),   μ = m
 //!
-//! J⁻¹, Q and J⁻¹ b̃ are numbers in the frame of the body, the latter two of rank two, for a motion of the joint along b does
-//! nothing: with two vectors p across b, Q = Σ d p pᵀ and −J⁻¹ (b × x) = Σ r (p·x).
-//! Children whose joints are at the origin of the element ask nothing more of it: their answers add to its own.
+//! J⁻¹, Q and J⁻¹ b̃ are constant in the frame of the body. Q and J⁻¹ b̃ have rank two, because a motion of the joint along b
+//! has no effect: with two vectors p perpendicular to b, Q = Σ d p pᵀ and −J⁻¹ (b × x) = Σ r (p·x). Children whose joints are
+//! at the origin of the element need nothing more: their articulated inertias are added to its own.
 
 use super::frame::{Frame, Own, along, clean, cleaned, values};
 use super::{ArticulatedBody, BodyWithChildren};
@@ -17,20 +17,21 @@ use crate::expression::{Expr, Graph};
 use crate::model::Dimension;
 use std::array::from_fn;
 
-/// What the way outwards needs.
+/// The quantities that the pass outwards needs.
 pub(super) struct Tip<'g> {
-    /// Principal axes of I, absolute, as columns.
+    /// The principal axes of I, in absolute axes, as columns.
     axes: Mat3<'g>,
-    /// α_e in them.
+    /// α_e, in the principal axes.
     free: Vec3<'g>,
-    /// β + a_e of the joint, absolute.
+    /// β + a_e of the joint, in absolute axes.
     bias: Vec3<'g>,
-    /// p, absolute, and r, in the principal axes.
+    /// p in absolute axes, and r in the principal axes.
     turns: Vec<(Vec3<'g>, Vec3<'g>)>,
 }
 
 impl<'g> BodyWithChildren<'g, '_> {
-    /// Eliminates the element, if it is one that carries nothing but at its origin, is a body of numbers and bears no load.
+    /// Eliminates the element, if it carries nothing except at its origin, is a body with constants in numbers, and no force
+    /// acts on it.
     pub(super) fn tip(&self, label: &str) -> Option<(Tip<'g>, ArticulatedBody<'g>)> {
         let graph = self.body.graph;
         let bare = self.children.iter().all(|child| child.offset.is_zero());
@@ -121,7 +122,7 @@ fn rates<'g>(omega: Vec3<'g>, factors: [f64; 3]) -> Vec3<'g> {
     ])
 }
 
-/// α_e × g + ω × (ω × g) in principal axes.
+/// α_e × g + ω × (ω × g), in principal axes.
 fn tip_acceleration<'g>(
     graph: &'g Graph,
     omega: Vec3<'g>,
@@ -129,7 +130,7 @@ fn tip_acceleration<'g>(
     g: [f64; 3],
 ) -> Vec3<'g> {
     let [x, y, z] = omega.0;
-    // By axis: the product of the other two rates, and the sum of their squares.
+    // For each axis, the product of the other two rates, and the sum of their squares.
     let products = [y * z, x * z, x * y];
     let squares = omega.0.map(|rate| rate.squared());
     Vec3(from_fn(|i| {
@@ -141,12 +142,12 @@ fn tip_acceleration<'g>(
     }))
 }
 
-/// κ: α_e = (κ₁ ω₂ω₃, κ₂ ω₃ω₁, κ₃ ω₁ω₂) in principal axes.
+/// κ with α_e = (κ₁ ω₂ω₃, κ₂ ω₃ω₁, κ₃ ω₁ω₂), in principal axes.
 fn free_rates([x, y, z]: [f64; 3]) -> [f64; 3] {
     [(y - z) / x, (z - x) / y, (x - y) / z]
 }
 
-/// What the joint's acceleration along one vector across b does.
+/// The effect of the joint's acceleration along one vector p perpendicular to b.
 struct Answer<'g> {
     /// d \[kg\]
     resistance: Expr<'g>,
@@ -156,12 +157,12 @@ struct Answer<'g> {
     turn: Vec3<'g>,
 }
 
-/// What is constant of a body held at its joint, in axes of which the first is along g. Of J⁻¹ only the block across g is
-/// needed, the inverse N of J less its first pivot:
+/// The constants of a body that is held at its joint, in axes of which the first is along g. Of J⁻¹ only the block
+/// perpendicular to g is needed, which is the inverse N of J after elimination of its first pivot:
 ///
 /// Q = b² \[\[N₃₃, −N₂₃\], \[−N₂₃, N₂₂\]\],   −J⁻¹ b̃ x = b (…, N₂₂ x₃ − N₂₃ x₂, N₂₃ x₃ − N₃₃ x₂)
 struct Pinned<'g> {
-    /// The axes, in principal axes.
+    /// The axes, in the principal axes.
     axes: [[f64; 3]; 3],
     /// b
     moment: Expr<'g>,
@@ -205,7 +206,7 @@ impl<'g> Pinned<'g> {
         self.moment * self.moment * (n22 + n33)
     }
 
-    /// Q and −J⁻¹ b̃ by the vectors p: none where b is 0, else two.
+    /// Q and −J⁻¹ b̃ by the vectors p: none if b is 0, otherwise two.
     fn answers(&self) -> Vec<Answer<'g>> {
         if self.moment.is_zero() {
             return Vec::new();
@@ -223,7 +224,7 @@ impl<'g> Pinned<'g> {
             ]
         });
 
-        // −J⁻¹ b̃ x in these axes from x₂ and x₃, and these from the two p·x.
+        // −J⁻¹ b̃ x in these axes from x₂ and x₃, and x₂ and x₃ from the two p·x.
         let [n22, n33, n23] = self.inverse.map(|n| self.moment * n);
         let [first, second] = self.ratios.map(number);
         let columns = [[-n23, -n33], [n22, n23]].map(|[x, y]| [-(first * x + second * y), x, y]);
@@ -249,7 +250,7 @@ impl<'g> Pinned<'g> {
         answers.collect()
     }
 
-    /// d and p where all of Q are numbers, with as many zeros as there can be.
+    /// d and p, if all of Q are numbers, with as many zeros as possible.
     fn numbers(&self) -> Option<[(Expr<'g>, Vec3<'g>); 2]> {
         let graph = self.moment.graph();
         let [n22, n33, n23] = self.inverse;
@@ -285,7 +286,7 @@ mod tests {
     use crate::expression::{Graph, Symbol};
     use nalgebra::{Matrix3, Vector3};
 
-    /// Q and −J⁻¹ b̃ put together from the answers of a body of 3 kg, whose mass is a number or the value of a parameter.
+    /// Q and −J⁻¹ b̃, assembled from the vectors p, for a body of 3 kg whose mass is a number or the value of a parameter.
     fn put_together(
         parameter: bool,
         moments: [f64; 3],
@@ -323,7 +324,7 @@ mod tests {
         let bodies = [
             ([0.0178, 0.0234, 0.0201], [0.019, 0.001, 0.042]),
             ([0.0011, 0.0056, 0.0059], [0.061, -0.004, -0.045]),
-            // a spherical body, a rod, and centres of gravity on an axis and in a plane of them
+            // a spherical body, a rod, and centres of gravity on a principal axis and in a plane of two of them
             ([0.02, 0.02, 0.02], [0.03, -0.02, 0.05]),
             ([0.02, 0.02, 1e-6], [0.0, 0.0, -0.2]),
             ([0.3, 0.2, 0.4], [0.1, 0.0, 0.0]),
@@ -339,7 +340,7 @@ mod tests {
             for parameter in [false, true] {
                 let (count, resistance, turning) = put_together(parameter, moments, g);
                 assert_eq!(count, 2);
-                // some tens of roundings, each of them made worse by the condition of J
+                // some tens of roundings, each multiplied by the condition number of J
                 let near = |found: Matrix3<f64>, expected: Matrix3<f64>| {
                     let bound = 50.0 * f64::EPSILON * condition * expected.norm();
                     let difference = (found - expected).norm();

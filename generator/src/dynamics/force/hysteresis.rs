@@ -59,7 +59,7 @@ pub fn apply<'g>(
         Some(_) => furthest.max(foot.min(abscissa - unloading / slope)),
         None => furthest.max(foot),
     };
-    loads.memory[index].next = renewed;
+    loads.states.memory[index].next = renewed;
     // the line is above a curve while that drags the foot, below after a turn
     loads.kink(
         format!("{owner}: the line meets the loading curve"),
@@ -88,10 +88,10 @@ pub fn watch_turns<'g>(loads: &mut Loads<'g>, owner: &str, abscissa: Expr<'g>, r
     );
 }
 
-/// The elastic force of a law with hysteresis on both sides of 0.
+/// The elastic force of a law with hysteresis on both sides of 0, and the sets above and below it that are left when it turns here.
 ///
 /// `owner` is the law that the memory belongs to ("joint man/head"), `unit` that of the abscissa, which is made by `argument`; `loading` is f
-/// at the abscissa, `rate` the abscissa's rate.
+/// at the abscissa, `rate` the abscissa's rate. While the force waits for its switch, nothing is kept of how far it would have been loaded.
 #[expect(
     clippy::too_many_arguments,
     reason = "whose, what law, when, and where on it"
@@ -105,7 +105,7 @@ pub fn apply_both_ways<'g>(
     argument: impl Fn() -> Expr<'g> + Copy + 'g,
     loading: Expr<'g>,
     rate: Expr<'g>,
-) -> Expr<'g> {
+) -> (Expr<'g>, [Expr<'g>; 2]) {
     let graph = loading.graph();
     let (abscissa, zero) = (argument(), graph.constant(0.0));
     let slope = number(graph, &law.slope);
@@ -116,12 +116,12 @@ pub fn apply_both_ways<'g>(
         let mut side = |which: &str, above: bool| {
             let name = format!("{owner}: permanent set {which}");
             let (index, foot) = loads.memory(name, unit, zero);
-            let line = slope * (abscissa - foot);
+            let (line, kept) = (slope * (abscissa - foot), gate.of(foot));
             let (force, renewed) = match above {
-                true => (loading.min(line).max(zero), furthest.max(foot)),
-                false => (loading.max(line).min(zero), furthest.min(foot)),
+                true => (loading.min(line).max(zero), furthest.max(kept)),
+                false => (loading.max(line).min(zero), furthest.min(kept)),
             };
-            loads.memory[index].next = renewed;
+            loads.states.memory[index].next = renewed;
             loads.kink(
                 format!("{owner}: the line {which} meets the loading curve"),
                 move || (1.0 + APART) * argument() - loading / slope - foot,
@@ -129,24 +129,26 @@ pub fn apply_both_ways<'g>(
             loads.kink(format!("{owner}: the line {which} ends"), move || {
                 argument() - foot
             });
-            force
+            (force, renewed)
         };
-        return side("above", true) + side("below", false);
+        let [above, below] = [side("above", true), side("below", false)];
+        return (above.0 + below.0, [above.1, below.1]);
     };
     let back = curve(graph, unloading, abscissa);
     let name = format!("{owner}: foot of the unloading line");
     let (index, foot) = loads.memory(name, unit, zero);
-    let line = slope * (abscissa - foot);
+    let (line, kept) = (slope * (abscissa - foot), gate.of(foot));
     let returns = abscissa - back / slope;
     // in this order a curve that was left shows: `max` and `min` keep what is no number on their left
     let above = loading.min(back.max(line));
     let below = loading.max(back.min(line));
-    loads.memory[index].next = choose(
+    let renewed = choose(
         zero,
         abscissa,
-        furthest.max(foot.min(returns)),
-        furthest.min(foot.max(returns)),
+        furthest.max(kept.min(returns)),
+        furthest.min(kept.max(returns)),
     );
+    loads.states.memory[index].next = renewed;
     loads.kink(
         format!("{owner}: the line meets the loading curve"),
         move || (1.0 + APART) * argument() - loading / slope - foot,
@@ -159,5 +161,6 @@ pub fn apply_both_ways<'g>(
     let which = "unloading curve";
     loads.curve_of_state(owner, which, unloading, Acts::Everywhere, argument);
     loads.corners(owner, which, gate, unloading, argument, move || rate);
-    choose(zero, abscissa, above, below)
+    let force = choose(zero, abscissa, above, below);
+    (force, [renewed.max(zero), renewed.min(zero)])
 }

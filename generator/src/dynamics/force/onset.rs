@@ -17,7 +17,7 @@
 //! distance of its farthest point where its degree is not 2, whose deepest point may move by any speed; there the same distance takes
 //! the place of a + a²/b. Speeds are those of the bodies concerned alone, so that what rides together is not fast.
 
-use super::exact;
+use super::events::exact;
 use super::switch::Gate;
 use super::{ElementMotion, Loads, Motion};
 use crate::dynamics::kinematics::Point;
@@ -43,12 +43,12 @@ pub struct Onset<'g> {
 
 impl<'g> Loads<'g> {
     /// Tells when a law begins to act. `onset` is called when everything else is derived.
-    pub(super) fn onset(&mut self, name: impl Into<String>, onset: impl Fn() -> Onset<'g> + 'g) {
-        self.onsets.push((name.into(), Box::new(onset)));
+    pub(crate) fn onset(&mut self, name: impl Into<String>, onset: impl Fn() -> Onset<'g> + 'g) {
+        self.events.onsets.push((name.into(), Box::new(onset)));
     }
 
     /// Tells where a curve of the state begins to act that is 0 on an interval. `speed` is by how much its argument changes, of any sign.
-    pub(super) fn onset_of_curve(
+    pub(crate) fn onset_of_curve(
         &mut self,
         owner: &str,
         gate: Gate<'g>,
@@ -56,7 +56,7 @@ impl<'g> Loads<'g> {
         argument: impl Fn() -> Expr<'g> + 'g,
         speed: Expr<'g>,
     ) {
-        let idle = self.idle[curve.curve].clone();
+        let idle = self.events.idle[curve.curve].clone();
         if idle.is_empty() {
             return;
         }
@@ -82,7 +82,7 @@ impl<'g> Loads<'g> {
 
     /// Tells of the corners of a curve of the state, which no step may pass and leave again unseen. `which` it is of the `owner`; `speed` is by how
     /// much its argument changes, of any sign.
-    pub(super) fn corners(
+    pub(crate) fn corners(
         &mut self,
         owner: &str,
         which: &str,
@@ -91,7 +91,7 @@ impl<'g> Loads<'g> {
         argument: impl Fn() -> Expr<'g> + 'g,
         speed: impl Fn() -> Expr<'g> + 'g,
     ) {
-        if !self.kinked[curve.curve] {
+        if !self.events.kinked[curve.curve] {
             return;
         }
         let (name, curve) = (format!("{owner}: corner of the {which}"), curve.clone());
@@ -103,13 +103,13 @@ impl<'g> Loads<'g> {
                 speed: absolute(speed * rate(graph, &curve)),
             })
         };
-        self.corners.push((name, Box::new(corner)));
+        self.events.corners.push((name, Box::new(corner)));
     }
 
     /// By how much a contact may be entered before its curve is anything but 0, in the curve's argument.
-    pub(super) fn lead(&self, graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
+    pub(crate) fn lead(&self, graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
         let from_zero = |interval: &&[f64; 2]| interval[0] <= 0.0 && 0.0 < interval[1];
-        let idle = self.idle[curve.curve].iter().find(from_zero);
+        let idle = self.events.idle[curve.curve].iter().find(from_zero);
         match idle {
             Some([_, to]) if to.is_finite() => graph.constant(*to) / rate(graph, curve),
             Some(_) => graph.constant(FAR),
@@ -119,7 +119,7 @@ impl<'g> Loads<'g> {
 
     /// The onsets of all laws, and the corners of their curves.
     pub fn onsets(&self, graph: &'g Graph) -> [Vec<(String, Onset<'g>)>; 2] {
-        [&self.onsets, &self.corners].map(|onsets| Self::made(graph, onsets))
+        [&self.events.onsets, &self.events.corners].map(|onsets| Self::made(graph, onsets))
     }
 
     fn made(graph: &'g Graph, onsets: &[Told<'g>]) -> Vec<(String, Onset<'g>)> {

@@ -79,7 +79,7 @@ impl<'g> Gate<'g> {
 impl<'g> Loads<'g> {
     /// Makes room for the memory of all switches; what it becomes is said by [`complete`], once the quantities are known
     /// that they wait for.
-    pub(super) fn declare_switches(&mut self, graph: &'g Graph, model: &Model) {
+    pub(crate) fn declare_switches(&mut self, graph: &'g Graph, model: &Model) {
         for switch in &model.switches {
             let never = graph.constant(NEVER);
             let (fired, since) = self.memory(format!("switch {}: fired", switch.name), "s", never);
@@ -87,13 +87,13 @@ impl<'g> Loads<'g> {
                 Some(_) => self.memory(format!("switch {}: acts", switch.name), "s", never),
                 None => (fired, since),
             };
-            self.switches.push(Remembered { fired, acts, since });
+            self.states.switches.push(Remembered { fired, acts, since });
         }
     }
 
     /// Whether what acts only at certain times acts.
-    pub(super) fn gate(&self, active: Active) -> Gate<'g> {
-        let switch = |index: Option<usize>| index.map(|index| self.switches[index]);
+    pub(crate) fn gate(&self, active: Active) -> Gate<'g> {
+        let switch = |index: Option<usize>| index.map(|index| self.states.switches[index]);
         Gate {
             since: switch(active.since),
             until: switch(active.until),
@@ -116,7 +116,7 @@ pub fn complete<'g>(
     let now = time(graph);
     for (index, switch) in model.switches.iter().enumerate() {
         graph.section(format!("switch {}", switch.name));
-        let Remembered { fired, acts, .. } = loads.switches[index];
+        let Remembered { fired, acts, .. } = loads.states.switches[index];
         let memory = |index: usize| graph.symbol(Symbol::Memory(index as u32));
         // rests at 1 once it has come
         let waiting = |index: usize, guard: Expr<'g>| choose(memory(index), ever, one, guard);
@@ -130,14 +130,14 @@ pub fn complete<'g>(
             Trigger::Below(_, threshold) => (-above(threshold, quantities[index]), false),
         };
         let guard = waiting(fired, guard);
-        loads.memory[fired].next = match inclusive {
+        loads.states.memory[fired].next = match inclusive {
             true => choose(zero, guard, memory(fired), now),
             false => choose(guard, zero, now, memory(fired)),
         };
         loads.guard(format!("switch {}: fires", switch.name), guard);
         if let Some(after) = &switch.after {
             let guard = waiting(acts, memory(fired) + number(graph, after) - now);
-            loads.memory[acts].next = choose(zero, guard, memory(acts), now);
+            loads.states.memory[acts].next = choose(zero, guard, memory(acts), now);
             loads.guard(format!("switch {}: acts", switch.name), guard);
         }
     }

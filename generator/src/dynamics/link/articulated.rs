@@ -1,4 +1,5 @@
-//! What is outboard of a joint answers accelerations Δ beyond the reference motion by f = K Δa + Bᵀ Δα + f₀, n = B Δa + J Δα + n₀.
+//! Articulated inertia in the frames of links: for accelerations Δ beyond the reference motion, the bodies outboard of a joint
+//! need the wrench f = K Δa + Bᵀ Δα + f₀, n = B Δa + J Δα + n₀.
 
 use super::frames::FramedLink;
 use super::turn::{Turn, through};
@@ -7,7 +8,7 @@ use crate::dynamics::spatial::Wrench;
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 
-/// What is outboard of a joint.
+/// Articulated inertia and bias of the bodies outboard of a joint.
 #[derive(Clone, Copy)]
 pub struct Articulated<'g> {
     /// K
@@ -57,7 +58,7 @@ impl<'g> Articulated<'g> {
         self.combined(other, |a, b| a - b)
     }
 
-    /// In the parent's axes.
+    /// The same, turned into the parent's axes.
     pub fn turned(&self, turns: &[Turn<'g>]) -> Self {
         let mut turned = *self;
         for turn in turns {
@@ -72,7 +73,7 @@ impl<'g> Articulated<'g> {
         turned
     }
 
-    /// Through the constant part of a link's joint to the parent's origin.
+    /// The same, moved through the constant part of a link's joint to the parent's origin.
     pub fn by_constants(&self, frame: &FramedLink<'g>) -> Self {
         let graph = self.mass.diagonal[0].graph();
         let matrix = Mat3(frame.against.map(|row| row.map(|a| graph.constant(a))));
@@ -91,7 +92,7 @@ impl<'g> Articulated<'g> {
         turned.cleaned().moved(frame.place)
     }
 
-    /// Constants without what only rounding has left.
+    /// The same, with constants that are only rounding set to 0.
     fn cleaned(&self) -> Self {
         let entries = |m: &Mat3<'g>| m.0.iter().flatten().copied().collect::<Vec<_>>();
         let full = |m: &Sym3<'g>| m.diagonal.iter().chain(&m.off).copied().collect::<Vec<_>>();
@@ -116,7 +117,7 @@ impl<'g> Articulated<'g> {
         }
     }
 
-    /// What is left when something is eliminated that needs U, given G = U/D, 1/D and u; the bias by U u/D or by G u.
+    /// The rest after the elimination of a velocity with U, G = U/D, 1/D and u. The bias is multiplied as U (u/D) or as G u.
     pub fn less(
         &self,
         needed: &Wrench<'g>,
@@ -147,7 +148,7 @@ impl<'g> Articulated<'g> {
         rest
     }
 
-    /// As felt at an origin from which its own is at r.
+    /// The same about another origin; its own origin is at r from there.
     pub fn moved(&self, r: Vec3<'g>) -> Self {
         if r.is_zero() {
             return *self;
@@ -158,7 +159,7 @@ impl<'g> Articulated<'g> {
             self.coupling.column(j) + r.cross(column)
         });
         let coupling = Mat3::from_columns(columns);
-        // J' = J − B r̂ + r̂ B'ᵀ: by axis of r, so that every product is made once
+        // J' = J − B r̂ + r̂ B'ᵀ: axis by axis of r, so that every product is made once
         let inertia = Sym3::from_fn(|i, j| {
             (0..3).fold(self.inertia.entry(i, j), |sum, k| {
                 if r.0[k].is_zero() {
@@ -185,6 +186,20 @@ impl<'g> Articulated<'g> {
         }
     }
 
+    /// Δa and Δα where nothing holds it in the plane across z.
+    pub fn floating_in_plane(&self, graph: &'g Graph) -> (Vec3<'g>, Vec3<'g>) {
+        let (k, b, zero) = (&self.mass, &self.coupling.0[2], graph.constant(0.0));
+        let lower = vec![
+            vec![k.entry(0, 0)],
+            vec![k.entry(1, 0), k.entry(1, 1)],
+            vec![b[0], b[1], self.inertia.entry(2, 2)],
+        ];
+        let [x, y, _] = self.bias.force.0;
+        let right = vec![-x, -y, -self.bias.moment.0[2]];
+        let x = Ldl::of(graph, lower).solve(right);
+        (Vec3([x[0], x[1], zero]), Vec3([zero, zero, x[2]]))
+    }
+
     /// Δa and Δα where nothing holds it.
     pub fn floating(&self, graph: &'g Graph) -> (Vec3<'g>, Vec3<'g>) {
         let entry = |i: usize, j: usize| match (i < 3, j < 3) {
@@ -201,8 +216,8 @@ impl<'g> Articulated<'g> {
     }
 }
 
-/// What passes through a turn about z unchanged and is not felt by it, as numbers: K diag(k, k, k'), J diag(j, j, 0),
-/// B [[b, −t, 0], [t, b, 0], 0].
+/// The part that a rotation about z does not change and that the hinge does not feel, as numbers: K diag(k, k, k'), J diag(j, j,
+/// 0), B [[b, −t, 0], [t, b, 0], 0].
 pub fn invariant<'g>(
     graph: &'g Graph,
     of: &Articulated<'g>,

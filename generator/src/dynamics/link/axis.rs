@@ -1,4 +1,5 @@
-//! One axis of the articulated-body algorithm: U = (K z s + Bᵀ z t,  B z s + J z t) and D = s U_fz + t U_nz of its column (z s, z t).
+//! One axis in the articulated-body algorithm. Its column is (z s, z t), so U = (K z s + Bᵀ z t,  B z s + J z t) and D = s U_fz + t
+//! U_nz.
 
 use super::articulated::Articulated;
 use super::frames::FramedLink;
@@ -8,13 +9,13 @@ use crate::dynamics::spatial::Wrench;
 use crate::expression::Expr;
 use crate::expression::vector::{Sym3, Vec3};
 
-/// An axis that is eliminated.
+/// An axis while it is eliminated.
 #[derive(Clone, Copy)]
 pub struct Axis<'g> {
     /// t and s
     pub turn: f64,
     pub slide: Expr<'g>,
-    /// Inertia of a rotor
+    /// Inertia of a rotor on the axis
     armature: Expr<'g>,
     /// U
     pub needed: Wrench<'g>,
@@ -24,22 +25,22 @@ pub struct Axis<'g> {
     pub inverse: Expr<'g>,
     /// U/D
     gain: Wrench<'g>,
-    /// What acts on its coordinate
+    /// Generalised force on its coordinate
     acting: Expr<'g>,
     /// u
     pub left: Expr<'g>,
 }
 
 impl<'g> Axis<'g> {
-    /// Whether it only turns or only slides, and has no rotor: then no inertia along it passes.
+    /// Whether it only turns or only slides, and has no rotor. Then the bodies outboard pass no inertia along it.
     fn is_pure(&self) -> bool {
         self.armature.is_zero() && (self.turn == 0.0 || self.slide.is_zero())
     }
 
-    /// q̈ beyond the reference motion.
+    /// q̈ minus its value in the reference motion.
     pub fn rate(&self, a: Vec3<'g>, alpha: Vec3<'g>, scales_rate: bool) -> Expr<'g> {
         let zero = self.left.graph().constant(0.0);
-        // of a pure hinge α_z meets D/D = 1, of a slider a_z
+        // for a pure hinge the factor of α_z is D/D = 1, for a slider that of a_z
         let hinge = self.is_pure() && self.turn != 0.0;
         let slider = self.is_pure() && self.turn == 0.0;
         let plain = match (hinge, slider) {
@@ -67,7 +68,7 @@ impl<'g> Axis<'g> {
         rate - plain
     }
 
-    /// What it needs as a share of a velocity.
+    /// Its U, D and u as those of a shared velocity.
     pub fn velocity(&self, row: usize) -> Velocity<'g> {
         Velocity {
             row,
@@ -77,12 +78,12 @@ impl<'g> Axis<'g> {
         }
     }
 
-    /// The power of a wrench per velocity of the axis.
+    /// The power of a wrench per velocity of this axis.
     pub fn power(&self, wrench: &Wrench<'g>) -> Expr<'g> {
         self.slide * wrench.force.0[2] + self.turn * wrench.moment.0[2]
     }
 
-    /// The axis of a link that this is outboard of, at a reference acceleration of its coordinate.
+    /// The axis of a link, given the articulated inertia outboard of it and the reference acceleration of its coordinate.
     pub fn of(
         outboard: &Articulated<'g>,
         link: &Link<'g>,
@@ -100,7 +101,7 @@ impl<'g> Axis<'g> {
         else {
             unreachable!("only axes are eliminated as such")
         };
-        // what acts on a slider is a force, in the unit of length
+        // the generalised force of a slider is a force, in the unit of length
         let (slide, acting, armature) = match turn == 0.0 {
             true => (slide, unit * acting, (unit * unit) * armature),
             false => ((1.0 / unit) * slide, acting, armature),
@@ -133,7 +134,7 @@ impl<'g> Axis<'g> {
         }
     }
 
-    /// What is left of what is outboard when the coordinate follows.
+    /// The articulated inertia that remains when the coordinate moves freely.
     pub fn rest(&self, outboard: &Articulated<'g>, scales_bias: bool) -> Articulated<'g> {
         let mut rest = outboard.less(
             &self.needed,
@@ -153,7 +154,7 @@ impl<'g> Axis<'g> {
             })
         };
         if self.turn != 0.0 {
-            // the row and the column of the turn vanish, and the moment is what acts
+            // row and column of the rotation vanish, and the moment along it is the generalised force
             rest.coupling.0[2] = [zero; 3];
             rest.inertia = without_z(rest.inertia);
             rest.bias.moment.0[2] = self.acting;

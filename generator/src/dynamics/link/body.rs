@@ -1,7 +1,7 @@
-//! What a rigid body is about a point: mass, first moment and second moment, and how they go from one frame to another.
+//! The mass properties of a rigid body about a point, mass, first moment and second moment, and their change from one frame to another.
 //!
-//! J = tr Σ · 1 − Σ is the inertia about the point. Σ = ∫ρρᵀ is what can be moved in parts: what lies on the axis of a hinge is seen by
-//! the carrier alone.
+//! J = tr Σ · 1 − Σ is the inertia about the point. Σ = ∫ρρᵀ can be moved in parts, which regrouping needs: mass on the axis of a hinge
+//! acts on the carrier alone.
 
 use super::tree::LinkJoint;
 use super::turn::Turn;
@@ -11,18 +11,18 @@ use crate::expression::{Expr, Graph};
 /// m, h and Σ about an origin.
 #[derive(Clone, Copy)]
 pub struct Body<'g> {
-    /// m \[kg\]; of regrouped bodies of any sign.
+    /// m \[kg\]; it may have any sign after regrouping.
     pub mass: Expr<'g>,
     /// h = m c \[kg m\]
     pub first: Vec3<'g>,
     /// Σ = ∫ρρᵀ \[kg m²\]
     pub second: Sym3<'g>,
-    /// The largest numbers that h and Σ were made of: what is far below them is rounding.
+    /// The largest numbers from which h and Σ were computed. Values far below them are rounding.
     pub sizes: [f64; 2],
 }
 
 impl<'g> Body<'g> {
-    /// Nothing.
+    /// A body without mass.
     pub fn none(graph: &'g Graph) -> Self {
         Body {
             mass: graph.constant(0.0),
@@ -32,7 +32,7 @@ impl<'g> Body<'g> {
         }
     }
 
-    /// With the sizes of its own numbers and of others'.
+    /// The body with the larger of these sizes and of its own.
     fn sized(mut self, others: [f64; 2]) -> Self {
         let entries = self.second.diagonal.iter().chain(&self.second.off);
         let own = [largest(self.first.0.iter()), largest(entries)];
@@ -57,7 +57,7 @@ impl<'g> Body<'g> {
         .sized(self.sizes)
     }
 
-    /// In axes that are the rows of a constant matrix.
+    /// The body in axes that are the rows of a constant matrix.
     pub fn in_axes(&self, axes: &[[f64; 3]; 3]) -> Self {
         let first = in_axes(axes, self.first);
         let half = axes.map(|row| in_axes_of(&self.second, row));
@@ -69,7 +69,7 @@ impl<'g> Body<'g> {
         }
     }
 
-    /// In axes that it is turned to, turn by turn.
+    /// The body in axes that follow from its own by several rotations, in order.
     pub fn turned(&self, turns: &[Turn<'g>]) -> Self {
         turns.iter().fold(*self, |body, turn| Body {
             mass: body.mass,
@@ -79,7 +79,7 @@ impl<'g> Body<'g> {
         })
     }
 
-    /// Both together, about the same origin.
+    /// The sum of two bodies about the same origin.
     pub fn plus(&self, other: &Self) -> Self {
         Body {
             mass: self.mass + other.mass,
@@ -90,7 +90,7 @@ impl<'g> Body<'g> {
         .sized([0, 1].map(|i| self.sizes[i].max(other.sizes[i])))
     }
 
-    /// The one less the other, about the same origin.
+    /// The difference of two bodies about the same origin.
     pub fn minus(&self, other: &Self) -> Self {
         Body {
             mass: self.mass - other.mass,
@@ -101,7 +101,7 @@ impl<'g> Body<'g> {
         .sized([0, 1].map(|i| self.sizes[i].max(other.sizes[i])))
     }
 
-    /// What the joint of a body does not feel.
+    /// The part of a body that its joint does not feel.
     pub fn unfelt(&self, joint: &LinkJoint<'g>) -> Self {
         let graph = self.mass.graph();
         let mut unfelt = Body::none(graph);
@@ -120,14 +120,14 @@ impl<'g> Body<'g> {
         unfelt
     }
 
-    /// Whether it is made of numbers alone.
+    /// Whether all its entries are numbers.
     pub fn is_constant(&self) -> bool {
         let second = self.second.diagonal.iter().chain(&self.second.off);
         let mut entries = self.first.0.iter().chain(second).chain([&self.mass]);
         entries.all(|e| e.as_constant().is_some())
     }
 
-    /// What a hinge about z does not feel.
+    /// The part of a body that a hinge about z does not feel.
     pub fn unfelt_about_z(&self) -> Self {
         let mut unfelt = Body {
             mass: self.mass,
@@ -138,7 +138,7 @@ impl<'g> Body<'g> {
         unfelt
     }
 
-    /// Without what only rounding has left, and what is regrouped exactly 0; z is along the axis of the joint.
+    /// The body without values that are only rounding, and with regrouped entries exactly 0; z is along the axis of the joint.
     pub fn felt(&self, joint: &LinkJoint<'g>) -> Self {
         let zero = self.mass.graph().constant(0.0);
         let mut felt = *self;
@@ -149,7 +149,7 @@ impl<'g> Body<'g> {
         felt.cleaned()
     }
 
-    /// Without what only rounding has left.
+    /// The body without values that are only rounding.
     fn cleaned(&self) -> Self {
         let [first, second] = self.sizes;
         Body {
@@ -171,7 +171,7 @@ impl<'g> Body<'g> {
     }
 }
 
-/// Relative size below which a constant is rounding.
+/// The relative size below which a constant counts as rounding.
 const ROUNDING: f64 = 4e-15;
 
 fn largest<'a, 'g: 'a>(entries: impl Iterator<Item = &'a Expr<'g>>) -> f64 {
@@ -186,7 +186,7 @@ fn without_rounding<'g>(value: Expr<'g>, scale: f64) -> Expr<'g> {
     }
 }
 
-/// A constant vector without what only rounding has left.
+/// A constant vector without components that are only rounding.
 pub fn cleaned(v: Vec3<'_>) -> Vec3<'_> {
     let largest = largest(v.0.iter());
     Vec3(v.0.map(|a| without_rounding(a, largest)))

@@ -1,7 +1,7 @@
-//! The articulated-body algorithm in the frames of links, at a reference motion.   \[Featherstone 2008, ch. 7\]
+//! The articulated-body algorithm in the frames of links, relative to a reference motion.   \[Featherstone 2008, ch. 7\]
 //!
-//! What is outboard of a joint answers accelerations Δ beyond the reference motion by f = K Δa + Bᵀ Δα + f₀, n = B Δa + J Δα + n₀. With the
-//! column (z s, z t) of a joint,
+//! For accelerations Δ beyond the reference motion, the bodies outboard of a joint need the wrench f = K Δa + Bᵀ Δα + f₀, n = B Δa + J Δα + n₀. A
+//! joint has the column (z s, z t):
 //!
 //! | leaves to root | |
 //! |---|---|
@@ -9,7 +9,7 @@
 //! | (K, B, J) ← (K, B, J) − U Uᵀ / D | (f₀, n₀) ← (f₀, n₀) + U u / D |
 //! | turned by X; moved by r: B' = B + r̂ K,  J' = J − B r̂ + r̂ B'ᵀ | n₀' = n₀ + r × f₀ |
 //!
-//! Of a hinge row and column of z vanish in J and B, of a slider those of K and B: 15 entries are left of 21. Root to leaves,
+//! For a hinge the row and column of z vanish in J and B, for a slider those in K and B, so 15 of 21 entries are left. From the root to the leaves,
 //! Δa = Xᵀ (Δa_p + Δα_p × r), Δα = Xᵀ Δα_p, and q̈ = q̈ref + (u − U · (Δa, Δα)) / D.
 
 use super::articulated::{Articulated, invariant};
@@ -26,11 +26,11 @@ use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 use rustc_hash::FxHashMap;
 
-/// What the way outwards needs of a joint.
+/// The quantities of a joint that the pass outwards needs.
 enum Eliminated<'g> {
-    /// With E/D of the shared velocities that wait, by row.
+    /// An axis, with E/D of the shared velocities that are not yet eliminated, by row.
     Axis(Box<Axis<'g>>, Vec<(usize, Expr<'g>)>),
-    /// It has a share of a velocity: t and s of its column, and how much of the velocity of this row.
+    /// The joint has a share of a shared velocity: t and s of its column, and its share of the velocity in this row.
     Share {
         turn: f64,
         slide: Expr<'g>,
@@ -47,41 +47,41 @@ enum Eliminated<'g> {
     Base,
 }
 
-/// What moves in a link.
+/// The accelerations of the joint of a link.
 #[derive(Clone, Copy)]
 pub struct Solved<'g> {
-    /// Of a ball α, absolute axes; of an axis q̈ in the first place.
+    /// For a ball α, in absolute axes; for an axis q̈, as the first component.
     pub rotation: Vec3<'g>,
-    /// Of a free base: the acceleration of its origin less the field, absolute axes.
+    /// For a free base: the acceleration of its origin minus the field, in absolute axes.
     pub base: Vec3<'g>,
 }
 
-/// A shared velocity that is eliminated at a link.
+/// A shared velocity that is eliminated at a certain link.
 struct Head<'g> {
     /// Whether the joint of the link itself has a share of it.
     own: bool,
     velocity: Velocity<'g>,
     inverse: Expr<'g>,
-    /// D_rq of those that are eliminated later, by row.
+    /// D_rq of the velocities that are eliminated later, by row.
     crossing: Vec<(usize, Expr<'g>)>,
 }
 
-/// What the way inwards leaves behind.
+/// The results of the pass inwards.
 struct Inwards<'g> {
     eliminated: Vec<Eliminated<'g>>,
-    /// By link.
+    /// For each link, the shared velocities that are eliminated there.
     heads: Vec<Vec<Head<'g>>>,
     outboard: Vec<Articulated<'g>>,
 }
 
-/// What is on its way to a parent.
+/// An articulated inertia on the way to a parent.
 #[derive(Clone, Copy)]
 struct Passed<'g> {
     place: Vec3<'g>,
     what: Articulated<'g>,
 }
 
-/// The accelerations of all links. Shared velocities must have [heads].
+/// The accelerations of all links. Each shared velocity must have a link among the [heads].
 pub fn accelerations<'g>(
     tree: &Tree<'g>,
     framed: &Framed<'g>,
@@ -97,7 +97,7 @@ pub fn accelerations<'g>(
     outwards(tree, framed, choice, &motions, &inwards, name)
 }
 
-/// Leaves to root.
+/// The pass from the leaves to the root.
 fn inwards<'g>(
     tree: &Tree<'g>,
     framed: &Framed<'g>,
@@ -166,7 +166,8 @@ fn inwards<'g>(
     }
 }
 
-/// Eliminates the joint of a link, and before it the shared velocities that end there: what the way outwards needs, what is left, and those velocities.
+/// Eliminates the joint of a link, and before it the shared velocities that end at this link. Returns the quantities for the pass outwards, the
+/// remaining articulated inertia, and those velocities.
 fn joint<'g>(
     written: &Written<'g, '_>,
     (k, motion): (usize, &LinkMotion<'g>),
@@ -237,7 +238,7 @@ fn end<'g>(
 }
 
 impl<'g> Head<'g> {
-    /// v̇_r, given the motion of the link and what is known of others.
+    /// v̇_r, given the motion of the link and the shared velocities that are already known.
     fn rate(&self, a: Vec3<'g>, alpha: Vec3<'g>, known: &FxHashMap<usize, Expr<'g>>) -> Expr<'g> {
         let Velocity { needed, left, .. } = &self.velocity;
         let others = self.crossing.iter();
@@ -249,7 +250,7 @@ impl<'g> Head<'g> {
     }
 }
 
-/// Root to leaves.
+/// The pass from the root to the leaves.
 fn outwards<'g>(
     tree: &Tree<'g>,
     framed: &Framed<'g>,
@@ -301,9 +302,14 @@ fn outwards<'g>(
             base: none,
         };
         match &inwards.eliminated[k] {
+            Eliminated::Base if !link.joint.is_ball() => {
+                (a, alpha) = inwards.outboard[k].floating_in_plane(graph);
+                result.rotation.0[0] = frame.sign * alpha.0[2];
+                result.base = choice.unit * frame.axes.times(a);
+            }
             Eliminated::Base => {
                 (a, alpha) = inwards.outboard[k].floating(graph);
-                // of the joint, where the origin is not
+                // the origin of the joint, which differs from that of the frame
                 let back = Vec3(choice.base.map(|b| graph.constant(-b / choice.unit)));
                 let turned = LinkMotion {
                     alpha,
@@ -325,6 +331,9 @@ fn outwards<'g>(
             }
             Eliminated::Axis(axis, gains) => {
                 a = slid(a, alpha);
+                if link.joint.is_absolute() {
+                    alpha = none;
+                }
                 let rate = axis.rate(a, alpha, choice.links[k].scales_rate);
                 let rate = gains.iter().fold(rate, |rate, (row, gain)| {
                     known.get(row).map_or(rate, |other| rate - *gain * *other)
@@ -352,7 +361,7 @@ fn outwards<'g>(
                 }
             }
         }
-        // those that the joint of the link has no share of: the last first
+        // the shared velocities in which the joint of the link has no share, the last one first
         let others = inwards.heads[k].iter().filter(|head| !head.own);
         for head in others.rev() {
             known.insert(head.velocity.row, head.rate(a, alpha, &known));
@@ -363,7 +372,7 @@ fn outwards<'g>(
     solved
 }
 
-/// What a link's own body needs, less what acts on it.
+/// The wrench that a link's own body needs, minus the wrench that acts on it.
 fn own<'g>(
     tree: &Tree<'g>,
     framed: &Framed<'g>,
@@ -392,7 +401,7 @@ fn own<'g>(
 }
 
 impl<'g> FramedLink<'g> {
-    /// What acts on a link, about the origin of its frame and in its axes, in the unit of length.
+    /// The wrench that acts on a link, about the origin of its frame and in its axes, in the unit of length.
     pub fn load(&self, link: &Link<'g>, choice: &Choice, base: bool) -> Wrench<'g> {
         let force = choice.unit * self.axes.transposed_times(link.load.force);
         let moment = self.axes.transposed_times(link.load.moment);
@@ -411,14 +420,14 @@ impl<'g> FramedLink<'g> {
     }
 }
 
-/// Whether a link turns about z alone against a parent, neither of which keeps other axes.
+/// The parent of a link, if the link turns about z alone relative to it and neither of the two keeps other axes.
 fn is_plain_hinge(k: usize, tree: &Tree<'_>, framed: &Framed<'_>) -> Option<usize> {
     let parent = tree.links[k].parent?;
     (tree.links[k].joint.is_hinge() && !framed.links[k].aligned && !framed.links[parent].aligned)
         .then_some(parent)
 }
 
-/// Gives the parent the invariant part of a link's own inertia.
+/// Moves the invariant part of a link's own inertia to its parent.
 fn give_constants<'g>(
     graph: &'g Graph,
     k: usize,
@@ -430,13 +439,13 @@ fn give_constants<'g>(
         return;
     };
     if let Some(part) = invariant(graph, &outboard[k], true) {
-        // h_z = 0 and m = 0 of hinges: only J is left
+        // h_z and m are 0 for hinges, so only J is left
         outboard[k] = outboard[k].minus(&part);
         outboard[parent] = outboard[parent].plus(&part.by_constants(&framed.links[k]));
     }
 }
 
-/// Gives the parent the invariant part of what is left, where that is constant.
+/// Moves the invariant part of the remaining articulated inertia to the parent, if that part is constant.
 fn give_rest<'g>(
     graph: &'g Graph,
     k: usize,
@@ -465,7 +474,8 @@ fn give_rest<'g>(
     }
 }
 
-/// What several links pass on, moved to the origin of their parent: axis by axis, those with the same rest of the way together.
+/// The sum of the articulated inertias that several links pass on, moved to the origin of their parent axis by axis. Those with the same rest of the
+/// way are added first.
 fn together<'g>(mut group: Vec<Passed<'g>>, order: Option<[usize; 3]>) -> Articulated<'g> {
     let graph = group[0].place.0[0].graph();
     let axes: Vec<Option<usize>> = match order {
@@ -499,7 +509,7 @@ fn together<'g>(mut group: Vec<Passed<'g>>, order: Option<[usize; 3]>) -> Articu
 }
 
 impl<'g> Articulated<'g> {
-    /// What is left when the element turns at will: no moment passes.
+    /// The articulated inertia that remains when the element turns freely: no moment passes.
     fn without_ball(&self) -> (Eliminated<'g>, Self) {
         let graph = self.mass.diagonal[0].graph();
         let inertia = &self.inertia;

@@ -1,7 +1,7 @@
 //! Generalised forces in the frames of links, by the recursive Newton–Euler algorithm.   \[Featherstone 2008, ch. 5\]
 //!
-//! From the leaves to the root every link passes on what it and all that it carries need, and each velocity takes the power of that wrench. What a
-//! field a does that is the same everywhere is known of the composite body of a link alone: (m a, h × a).
+//! From the leaves to the root every link passes on the wrench that it and the links that it carries need, and each velocity takes the power of
+//! that wrench. The effect of a field a that is the same everywhere follows from the composite body of a link alone: (m a, h × a).
 
 use super::body::Body;
 use super::motion::LinkMotion;
@@ -12,15 +12,15 @@ use crate::dynamics::spatial::Wrench;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 
-/// Forces by row, and of a part of a tree what it passes on to the rest.
+/// Forces by row; for a part of a tree also the wrenches that it passes on to the rest.
 pub struct Forces<'g> {
-    /// By row; those of the same row are to be added.
+    /// Terms by row. Terms of the same row must be added.
     pub terms: Vec<(usize, Expr<'g>)>,
-    /// Of a part of a tree.
+    /// The wrenches that a part of a tree passes on.
     pub passed: Vec<Wrench<'g>>,
 }
 
-/// What the links need at a reference motion, less what acts on them.
+/// The wrenches that the links need in the reference motion, minus the wrenches that act on them.
 pub fn needed<'g>(written: &Written<'g, '_>, motions: &[LinkMotion<'g>]) -> Vec<Wrench<'g>> {
     let links = written.tree.links.iter().zip(&written.framed.links);
     let links = links.zip(&written.choice.links).zip(motions).enumerate();
@@ -36,7 +36,7 @@ pub fn needed<'g>(written: &Written<'g, '_>, motions: &[LinkMotion<'g>]) -> Vec<
         .collect()
 }
 
-/// The power of wrenches on the links, in their axes, per velocity: the sum is what all that follows a velocity takes of it.
+/// The power of wrenches on the links, in their axes, per velocity, by row: the sum over all links that the velocity moves.
 pub fn powers<'g>(
     written: &Written<'g, '_>,
     wrenches: Vec<Wrench<'g>>,
@@ -72,7 +72,7 @@ pub fn powers<'g>(
     forces
 }
 
-/// What a field that is the same everywhere does, in absolute axes, by row.
+/// The generalised forces of a field that is the same everywhere, given in absolute axes, by row.
 pub fn of_field<'g>(
     written: &Written<'g, '_>,
     composites: &[Body<'g>],

@@ -1,9 +1,9 @@
-//! The frames of links, and the constants of the system in them.
+//! The frames of links, and the constants of the system in these frames.
 //!
-//! The frame of a link has its origin on the axis of its joint and z along it, and is fixed to the link. Two things are free: the turn about z
-//! and the place of the origin along z. The frame of a ball is that of its element, or the absolute one.
+//! The frame of a link is fixed to the link, with its origin on the axis of its joint and z along this axis. Two choices remain: the rotation about z
+//! and the place of the origin along z. The frame of a ball is that of its element, or the absolute frame.
 //!
-//! Of what hangs on a hinge h_x, h_y and five entries of Σ are left, for its bodies are regrouped.
+//! Bodies are regrouped, so of the bodies on a hinge only h_x, h_y and five entries of Σ are left.
 
 use super::body::{Body, cleaned, in_axes};
 use super::keep::{Constant, kept};
@@ -14,55 +14,55 @@ use crate::expression::{Expr, Graph};
 pub use crate::rotation::Matrix;
 use crate::rotation::{IDENTITY, cross, dot, product, transpose};
 
-/// How the equations of a tree are written.
+/// The choice of frames for the equations of a tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// By link.
+    /// The choice for each link.
     pub links: Vec<LinkChoice>,
-    /// Where the origin of a free base is, in its axes \[m\].
+    /// The origin of a free base, in its axes \[m\].
     pub base: [f64; 3],
-    /// Unit of length \[m\].
+    /// The unit of length \[m\].
     pub unit: f64,
 }
 
-/// How those of one link are written.
+/// The choice of the frame of one link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkChoice {
-    /// Turn of its frame about z \[rad\].
+    /// Angle of its frame about z \[rad\].
     pub turn: f64,
     /// Place of its origin along z \[m\].
     pub place: f64,
-    /// Whether it keeps the axes of the inboard side of its joint; of a ball, the absolute ones.
+    /// Whether it keeps the axes of the inboard side of its joint; for a ball, the absolute axes.
     pub aligned: bool,
-    /// Its reference acceleration about z.
+    /// Its angular acceleration about z in the reference motion.
     pub reference: ReferenceTurn,
-    /// Whether its moment at the reference motion is written by J and not by Σ.
+    /// Whether its moment in the reference motion is written with J instead of Σ.
     pub by_inertia: bool,
-    /// In which order what it carries is moved to its origin, axis by axis.
+    /// The order of the axes along which the bodies that it carries are moved to its origin.
     pub order: [usize; 3],
-    /// Which child keeps which component of the first moment of the link, in the reference motion.
+    /// The child that keeps a component of the first moment of this link in the reference motion, and the component.
     pub keep: Option<(usize, usize)>,
-    /// Whether the way inwards scales U by u/D, else G by u.
+    /// Whether the pass inwards multiplies U by u/D; otherwise it multiplies G by u.
     pub scales_bias: bool,
-    /// Whether the way outwards takes G, else U and then 1/D.
+    /// Whether the pass outwards uses G; otherwise U and then 1/D.
     pub scales_rate: bool,
 }
 
-/// How α⁰_z of a link is chosen.
+/// The choice of α⁰_z of a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReferenceTurn {
     /// 0
     Zero,
-    /// That of q̈ = 0
+    /// Its value for q̈ = 0
     Rest,
-    /// ω_x ω_y: Γ_xy is 0
+    /// ω_x ω_y, so that Γ_xy is 0
     Product,
-    /// −ω_x ω_y: Γ_yx is 0
+    /// −ω_x ω_y, so that Γ_yx is 0
     NegativeProduct,
 }
 
 impl Choice {
-    /// Nothing chosen.
+    /// The choice before any search.
     pub fn plain(links: usize) -> Self {
         let link = LinkChoice {
             turn: 0.0,
@@ -85,12 +85,12 @@ impl Choice {
 
 /// A tree in the frames of its links.
 pub struct Framed<'g> {
-    /// By link.
+    /// Each link in its frame.
     pub links: Vec<FramedLink<'g>>,
 }
 
-/// Whether a link can keep the axes of the inboard side of its joint: a hinge all of whose children turn about its axis, a ball all of whose children
-/// are on balls.
+/// Whether a link can keep the axes of the inboard side of its joint: it is a hinge whose children all turn about its axis, or a ball whose children
+/// are all on balls.
 pub fn can_align(tree: &Tree<'_>, natural: &[(Matrix, f64)], k: usize) -> bool {
     let mut children = tree
         .links
@@ -111,32 +111,32 @@ pub fn can_align(tree: &Tree<'_>, natural: &[(Matrix, f64)], k: usize) -> bool {
     }
 }
 
-/// One link in its frame; lengths in the unit of the choice.
+/// One link in its frame. Lengths are in the unit of the choice.
 pub struct FramedLink<'g> {
-    /// From its axes to the parent's, in order.
+    /// The rotations from its axes to the parent's, in order.
     pub turns: Vec<Turn<'g>>,
-    /// Its origin from the parent's, the parent's axes.
+    /// Its origin from the parent's origin, in the parent's axes.
     pub place: Vec3<'g>,
-    /// Regrouped.
+    /// Its body after regrouping.
     pub body: Body<'g>,
-    /// That of the reference motion: the same, or [a part of it elsewhere](super::keep).
+    /// The body for the reference motion: the same, or with [a part of it moved elsewhere](super::keep).
     pub in_reference: Body<'g>,
     /// Whether it keeps the axes of the inboard side of its joint.
     pub aligned: bool,
-    /// Sign of its axis against that of the model.
+    /// The sign of its axis relative to the axis of the model.
     pub sign: f64,
-    /// Its axes → absolute axes.
+    /// The rotation from its axes to absolute axes.
     pub axes: Mat3<'g>,
-    /// Its origin from its element's, its axes.
+    /// Its origin from that of its element, in its axes.
     pub origin: Vec3<'g>,
-    /// R, the constant part of its turn against the parent.
+    /// R, the constant part of its rotation relative to the parent.
     pub against: [[f64; 3]; 3],
 }
 
-/// Size below which an entry of a rotation is rounding.
+/// The size below which an entry of a rotation counts as rounding.
 const ROUNDING: f64 = 4e-15;
 
-/// Axes of each link before its choice by its model, as columns, and the sign of the joint's axis.
+/// The axes of each link before the choice of the rotation about z, as columns, and the sign of the joint's axis.
 pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
     let mut found: Vec<(Matrix, f64)> = Vec::new();
     for link in &tree.links {
@@ -149,14 +149,15 @@ pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
             let along = column(&carrier, 2);
             (0..3).all(|i| (axis[i] - sign * along[i]).abs() < ROUNDING)
         };
-        // of two axes that point against each other, one is turned around
+        // if two axes point in opposite directions, one is reversed
         let sign = if is_along(-1.0) { -1.0 } else { 1.0 };
         let parallel = is_along(sign);
         let axis = axis.map(|a| sign * a);
         let axes = match parallel {
             true => carrier,
             false => {
-                // x along an axis of the carrier that is square to the joint's, else along whatever is square
+                // x is along an axis of the carrier that is perpendicular to the joint's axis, if there is one, otherwise along any perpendicular
+                // direction
                 let square = (0..3)
                     .map(|i| column(&carrier, i))
                     .find(|c| dot(*c, axis).abs() < ROUNDING);
@@ -166,7 +167,7 @@ pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
                     unit[smallest.unwrap_or(0)] = 1.0;
                     cross(axis, unit)
                 });
-                // exactly square, and of length 1
+                // exactly perpendicular, and of length 1
                 let along = dot(x, axis);
                 let x = [0, 1, 2].map(|i| x[i] - along * axis[i]);
                 let length = dot(x, x).sqrt();
@@ -192,10 +193,12 @@ impl<'g> Framed<'g> {
             |k: usize| Vec3(origin_of(tree, natural, choice, k).map(|a| graph.constant(a)));
         let mut links: Vec<FramedLink<'g>> = Vec::new();
         let mut constants: Vec<Constant<'g>> = Vec::new();
-        // by link, the turns of those that keep the axes of the inboard side
+        // for each link, the rotations of links that keep the axes of the inboard side
         let mut aligning: Vec<Vec<Turn<'g>>> = Vec::new();
-        // by link, of the aligned ones: sum of the angles, variable and constant
+        // for each aligned link, the sum of the angles, variable and constant
         let mut angles: Vec<(Expr<'g>, f64)> = Vec::new();
+        // by link, in the plane: the angles that it and its axes have in the absolute frame
+        let mut turned: Vec<[Expr<'g>; 2]> = Vec::new();
         for (k, link) in tree.links.iter().enumerate() {
             let constant = |m: &Matrix| m.map(|row| row.map(|a| graph.constant(a)));
             let carrier = link.parent.map_or(IDENTITY, |p| axes[p]);
@@ -222,6 +225,11 @@ impl<'g> Framed<'g> {
             let mut turns = Vec::new();
             let mut own_turns = Vec::new();
             let (mut angle, mut offset) = (graph.constant(0.0), 0.0);
+            let [carrier_turned, axes_turned] = match link.parent {
+                Some(p) => turned[p],
+                None => [tree.ground.angle; 2],
+            };
+            let mut own_turned = carrier_turned;
             match &link.joint {
                 LinkJoint::Ball { .. } => {
                     let own = match aligned[k] {
@@ -240,22 +248,30 @@ impl<'g> Framed<'g> {
                 LinkJoint::Axis {
                     turn,
                     position,
-                    axis: _,
+                    axis,
+                    absolute,
                     ..
                 } => {
                     let sign = natural[k].1;
                     let [outer, tilt, inner] = z_x_z(&r);
                     if *turn != 0.0 {
                         angle = sign * *position;
+                        own_turned = carrier_turned + (turn * axis[1]) * *position;
+                    }
+                    if *absolute {
+                        angle = sign * (*position - axes_turned);
+                        own_turned = *position;
                     }
                     offset = inner;
                     let on_aligned = link.parent.filter(|&p| aligned[p]);
                     if let Some(p) = on_aligned {
                         place = turned_about_z(place, angles[p]);
-                        angle = angle + angles[p].0;
+                        if !absolute {
+                            angle = angle + angles[p].0;
+                        }
                         offset += angles[p].1 + outer;
                     }
-                    // of aligned links the angle turns what they carry
+                    // for aligned links, the angle turns the links that they carry
                     if !aligned[k] {
                         push_about(graph, &mut turns, 2, angle, offset);
                     }
@@ -266,6 +282,10 @@ impl<'g> Framed<'g> {
                 }
             }
             angles.push((angle, offset));
+            turned.push(match aligned[k] {
+                true => [own_turned, axes_turned],
+                false => [own_turned; 2],
+            });
             if aligned[k] {
                 match &link.joint {
                     LinkJoint::Ball { .. } => own_turns.push(Turn::Matrix(link.rotation)),
@@ -273,7 +293,7 @@ impl<'g> Framed<'g> {
                 }
             }
             let body = body.turned(&own_turns);
-            // of a joint of several freedoms, the last link has the axes of the element
+            // in a joint of several degrees of freedom, the last link has the axes of the element
             let mut carried = tree.links.iter().filter(|l| l.parent == Some(k));
             let inside = carried.any(|carried| carried.element == link.element);
             let axes = match (&link.joint, aligned[k] || inside) {
@@ -283,7 +303,7 @@ impl<'g> Framed<'g> {
                 (LinkJoint::Axis { .. }, true) => {
                     let carrier = link.parent.map_or(tree.ground.axes, |p| links[p].axes);
                     let turns = turns.iter().rev();
-                    // columns of the carrier's axes, turned by the constant part
+                    // the columns of the carrier's axes, turned by the constant part
                     let rows = carrier.0.map(|row| {
                         turns
                             .clone()
@@ -327,7 +347,7 @@ pub fn turned_axes(natural: &Matrix, turn: f64) -> Matrix {
     product(natural, &about_z(turn))
 }
 
-/// The origin of a link's frame from that of its element, the element's axes \[m\].
+/// The origin of a link's frame from that of its element, in the element's axes \[m\].
 pub fn origin_of(
     tree: &Tree<'_>,
     natural: &[(Matrix, f64)],
@@ -347,7 +367,7 @@ fn turned_about_z<'g>(v: Vec3<'g>, (angle, offset): (Expr<'g>, f64)) -> Vec3<'g>
     super::turn::through(&turns, v)
 }
 
-/// Adds a turn by an angle and a constant; right angles are split off, for they cost nothing.
+/// Adds a rotation by a variable and a constant angle. Right angles are split off, because they cost nothing.
 fn push_about<'g>(
     graph: &'g Graph,
     turns: &mut Vec<Turn<'g>>,
@@ -386,7 +406,7 @@ fn push_constant<'g>(graph: &'g Graph, turns: &mut Vec<Turn<'g>>, axis: usize, a
     }
 }
 
-/// The right angles in an angle, 0 to 3, and the rest, 0 where only rounding is left.
+/// The number of right angles in an angle, 0 to 3, and the rest, which is 0 if it is only rounding.
 fn right_angles(angle: f64) -> (u8, f64) {
     let quarter = std::f64::consts::FRAC_PI_2;
     let quarters = (angle / quarter).round();
@@ -399,14 +419,14 @@ fn right_angles(angle: f64) -> (u8, f64) {
 fn z_x_z(r: &Matrix) -> [f64; 3] {
     let across = (r[0][2] * r[0][2] + r[1][2] * r[1][2]).sqrt();
     if across < 1e-14 {
-        // about z alone, or that after half a turn about x
+        // a rotation about z alone, or one after half a turn about x
         return match r[2][2] > 0.0 {
             true => [0.0, 0.0, libm::atan2(r[1][0], r[0][0])],
             false => [0.0, std::f64::consts::PI, -libm::atan2(r[1][0], r[0][0])],
         };
     }
     let (outer, tilt) = (libm::atan2(r[0][2], -r[1][2]), libm::atan2(across, r[2][2]));
-    // a small tilt leaves `outer` uncertain by ε/tilt: `inner` is what is left of the turn, so that both together are exact
+    // a small tilt leaves `outer` uncertain by ε/tilt; `inner` is the rest of the rotation, so that both together are exact
     let (so, co) = (libm::sin(outer), libm::cos(outer));
     let (st, ct) = (libm::sin(tilt), libm::cos(tilt));
     let left = |j: usize| {
@@ -427,7 +447,7 @@ fn is_identity(m: &Mat3<'_>) -> bool {
     })
 }
 
-/// A rotation without what only rounding has left.
+/// A rotation without entries that are only rounding.
 fn snapped(r: &Matrix) -> Matrix {
     r.map(|row| {
         row.map(|a| match a.round() {

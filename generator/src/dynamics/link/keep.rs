@@ -1,25 +1,29 @@
-//! A part of the regrouped bodies kept back, in the reference motion alone.
+//! Moves a part of the regrouped bodies back to a child, for the reference motion only.
 //!
-//! A point of mass μ on the axis of a hinge moves with both its links. With μ = h_k / r_k less on the parent, whose joint to the hinge is at r, h_k of the
-//! parent is 0; the child has m = μ then. What the parent's own hinge does not feel of the point goes on to its parent.
+//! A point of mass μ on the axis of a hinge moves with both of its links. Let the joint to the hinge be at r on the parent. If a point of μ = h_k /
+//! r_k is taken from the parent and given to the child, h_k of the parent is 0 and the child has m = μ. The part of the point that the parent's own
+//! hinge does not feel is passed on to its parent.
 
 use super::body::Body;
 use super::frames::{Choice, Matrix};
 use super::tree::{LinkJoint, Tree};
 use crate::expression::vector::Vec3;
 
-/// A link as far as its body is constant.
+/// The constant properties of a link.
 pub struct Constant<'g> {
     /// Its body, in its axes.
     pub body: Body<'g>,
-    /// Its origin from the parent's, the parent's axes.
+    /// Its origin from the parent's origin, in the parent's axes.
     pub place: Vec3<'g>,
-    /// From its axes to the parent's, but for its own turn about z.
+    /// The rotation from its axes to the parent's, without its own rotation about z.
     pub against: Matrix,
 }
 
-/// How many times as large the numbers of a second moment may become: larger ones of opposite signs lose that factor of their digits, and 16 is little.
-const LARGER: f64 = 16.0;
+/// How many times as large the numbers of a first and of a second moment may become: larger ones of opposite signs lose that factor of their digits. Of
+/// h 256 is little: some 50 roundings of 256 ε are 3e-12.
+///
+/// The numbers of a link, of sizes h and Σ, are those of a mass h²/Σ, so that |μ| ≤ 256 h²/Σ.
+const LARGER: [f64; 2] = [256.0, 16.0];
 
 /// Whether a child can keep h_k of its parent.
 fn can_keep(tree: &Tree<'_>, parent: usize, child: usize, place: Vec3<'_>, k: usize) -> bool {
@@ -27,12 +31,9 @@ fn can_keep(tree: &Tree<'_>, parent: usize, child: usize, place: Vec3<'_>, k: us
         LinkJoint::Ball { .. } => parent == 0 && tree.free && tree.carrier.is_none(),
         joint => joint.is_hinge() && k < 2,
     };
-    let [x, y, z] = place.0.map(|r| r.as_constant());
-    let (Some(x), Some(y), Some(z)) = (x, y, z) else {
-        return false;
-    };
-    let distance = (x * x + y * y + z * z).sqrt();
-    carries && tree.links[child].joint.is_hinge() && [x, y, z][k].abs() > 1e-6 * distance
+    let along = place.0[k].as_constant();
+    let known = place.0.iter().all(|r| r.as_constant().is_some());
+    carries && known && tree.links[child].joint.is_hinge() && along.is_some_and(|r| r != 0.0)
 }
 
 /// The bodies for the reference motion.
@@ -53,7 +54,7 @@ pub fn kept<'g>(tree: &Tree<'g>, choice: &Choice, links: &[Constant<'g>]) -> Vec
     bodies
 }
 
-/// The bodies when a child of a link keeps a component of its first moment; `None` where numbers become too large.
+/// The bodies when a child of a link keeps a component of its first moment; `None` if numbers become too large.
 fn with_kept<'g>(
     tree: &Tree<'g>,
     links: &[Constant<'g>],
@@ -63,18 +64,26 @@ fn with_kept<'g>(
     let graph = tree.graph;
     let mut bodies = bodies.to_vec();
     let place = links[child].place;
+    let too_large = |of: &Body<'g>, link: usize| {
+        let own = links[link].body.sizes;
+        (0..2).any(|i| of.sizes[i] > LARGER[i] * own[i])
+    };
     let point = Body {
         mass: bodies[k].first.0[axis] / place.0[axis],
         ..Body::none(graph)
     };
+    let [first, second] = links[k].body.sizes;
+    if point.mass.as_constant()?.abs() * second > LARGER[0] * first * first {
+        return None;
+    }
     bodies[child] = bodies[child].plus(&point);
     let mut rest = bodies[k].minus(&point.moved(place));
     rest.first.0[axis] = graph.constant(0.0);
-    // what the joint of the link does not feel goes on
+    // the part that the joint of the link does not feel is passed on
     let mut link = k;
     loop {
         // what is no number has no size that could be compared
-        if !rest.is_constant() || rest.sizes[1] > LARGER * links[link].body.sizes[1] {
+        if !rest.is_constant() || too_large(&rest, link) {
             return None;
         }
         let joint = &tree.links[link].joint;

@@ -1,11 +1,11 @@
-//! S in the frames of links, by composite bodies.   \[Featherstone 2008, ch. 6\]
+//! S in the frames of links, by the composite-body algorithm.   \[Featherstone 2008, ch. 6\]
 //!
-//! The composite body of a link is it and all that turns with it: m, h and Σ about its origin. Of regrouped bodies m is mostly 0. The wrench
-//! that it needs for v̇ = 1 of its joint,
+//! The composite body of a link consists of the link and all links that turn with it: m, h and Σ about its origin. For regrouped bodies m is
+//! mostly 0. The wrench that it needs for v̇ = 1 of its joint,
 //!
 //! f = s m z + t z × h,   n = s h × z + t J z   with   J z = (−Σ_xz, −Σ_yz, Σ_xx + Σ_yy)
 //!
-//! goes from link to link towards the root, and its power per velocity is an entry of S.
+//! is passed from link to link towards the root. Its power per velocity is an entry of S.
 
 use super::body::Body;
 use super::tree::{Carried, LinkJoint};
@@ -15,11 +15,11 @@ use crate::dynamics::spatial::Wrench;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 
-/// What has been found of S.
+/// The entries of S found so far.
 pub struct Entries<'g> {
-    /// Terms of the upper or the lower triangle: row, column, value. Those of the same place are to be added.
+    /// Terms of the upper or the lower triangle: row, column, value. Terms with the same place must be added.
     pub terms: Vec<(usize, usize, Expr<'g>)>,
-    /// Of a part of a tree: what it passes on to the rest.
+    /// The wrenches that a part of a tree passes on to the rest.
     pub passed: Vec<Wrench<'g>>,
 }
 
@@ -53,7 +53,8 @@ pub fn mass_matrix<'g>(
     if let Some(base) = tree.base {
         let unit = written.choice.unit;
         let mass = (1.0 / (unit * unit)) * composites[0].mass;
-        let diagonal = (base..base + 3).map(|i| (i, i, mass));
+        let rows = base..base + tree.directions.len();
+        let diagonal = rows.map(|i| (i, i, mass));
         entries.terms.extend(diagonal);
     }
     for (k, link) in tree.links.iter().enumerate() {
@@ -91,7 +92,7 @@ pub fn mass_matrix<'g>(
     entries
 }
 
-/// What the composite body of an axis needs for v̇ = 1 about z of the link.
+/// The wrench that the composite body of an axis needs for v̇ = 1 about z of the link.
 fn needed<'g>(written: &Written<'g, '_>, k: usize, body: &Body<'g>) -> Wrench<'g> {
     let LinkJoint::Axis { turn, slide, .. } = written.tree.links[k].joint else {
         unreachable!("only an axis has one column")
@@ -108,16 +109,16 @@ fn needed<'g>(written: &Written<'g, '_>, k: usize, body: &Body<'g>) -> Wrench<'g
     }
 }
 
-/// A velocity that wrenches are needed for.
+/// A velocity, for which the wrenches are computed.
 struct Column<'g> {
     /// Index in v.
     row: usize,
-    /// The wrenches are for one of this as a share of it.
+    /// The share that the joint has in this velocity; the wrenches are for 1.
     share: Expr<'g>,
 }
 
 impl<'g> Entries<'g> {
-    /// The columns of a ball.
+    /// Adds the columns of a ball.
     fn ball(&mut self, written: &Written<'g, '_>, k: usize, body: &Body<'g>) {
         let (link, frame) = (&written.tree.links[k], &written.framed.links[k]);
         let LinkJoint::Ball { columns, .. } = &link.joint else {
@@ -145,7 +146,7 @@ impl<'g> Entries<'g> {
         }
     }
 
-    /// The power of a wrench per velocity of a link.
+    /// Adds the power of a wrench per velocity of a link.
     fn take(
         &mut self,
         written: &Written<'g, '_>,
@@ -155,7 +156,7 @@ impl<'g> Entries<'g> {
     ) {
         for (row, power) in written.powers(k, wrench) {
             let power = column.share * power;
-            // on the diagonal, what two links have together counts twice
+            // on the diagonal, the common term of two links counts twice
             let together = if row == column.row {
                 2.0 * power
             } else {
@@ -165,7 +166,7 @@ impl<'g> Entries<'g> {
         }
     }
 
-    /// What a wrench on a link is to all that carry it.
+    /// Passes a wrench on a link to all links that carry it.
     fn inwards(
         &mut self,
         written: &Written<'g, '_>,

@@ -1,24 +1,24 @@
-//! Systems with joint axes, in the frames of their links: S, r_s and r_k, and the accelerations by two ways.
+//! Systems that have joints other than balls, in the frames of their links: S, r_s and r_k, and the accelerations by two routes.
 //!
-//! In axes fixed to a link the inertia of its body is constant, much of it is 0 in the right frame, and a turn about the joint's axis
-//! mixes two components only. What lies on the axis of a hinge is regrouped to the parent beforehand, and velocities
-//! enter by a reference motion, so that they never meet an articulated inertia.
+//! In axes fixed to a link, the inertia of its body is constant, many of its entries are 0 in a suitable frame, and a rotation about the
+//! joint's axis mixes only two components. Mass on the axis of a hinge is regrouped to the parent beforehand. Velocities enter by a reference
+//! motion, so they are never multiplied by an articulated inertia.
 //!
 //! | file | |
 //! |---|---|
 //! | `tree` | the links of a system |
 //! | `body` | mass, first and second moment |
 //! | `frames` | the frames of links, and regrouping |
-//! | `keep` | a part of the regrouped bodies kept back |
-//! | `turn` | turns between two frames |
+//! | `keep` | a part of the regrouped bodies moved back |
+//! | `turn` | rotations between two frames |
 //! | `motion` | the reference motion |
 //! | `elimination` | the articulated-body algorithm |
-//! | `articulated`, `axis` | what is outboard of a joint, and an axis in it |
+//! | `articulated`, `axis` | the articulated inertia outboard of a joint, and an axis in it |
 //! | `shared` | velocities that several links share |
-//! | `wrench` | how bodies and wrenches go from a link to its parent |
+//! | `wrench` | how bodies and wrenches are passed from a link to its parent |
 //! | `mass_matrix` | S by composite bodies |
 //! | `forces` | generalised forces |
-//! | `search` | the choice of frames by count |
+//! | `search` | the choice of frames by operation count |
 
 mod articulated;
 mod axis;
@@ -53,7 +53,7 @@ use search::Aim;
 use tree::{LinkJoint, Tree};
 use wrench::Written;
 
-/// v̇ of the system, by row, without S; `None` where link frames cannot say it.
+/// v̇ of the system, by row, without S; `None` if link frames do not apply.
 pub fn accelerations<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &Loads<'g>,
@@ -67,7 +67,7 @@ pub fn accelerations<'g>(
     Some(rates(spatial, loads, &tree, &solved))
 }
 
-/// S, r_s and r_k of a system in the place of those that are there, where link frames take fewer operations: S and r_s together, r_k by itself.
+/// Replaces S, r_s and r_k of a system by those in link frames where these take fewer operations: S and r_s together, r_k by itself.
 pub fn cheaper_matrices<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &Loads<'g>,
@@ -113,7 +113,7 @@ pub fn cheaper_matrices<'g>(
     }
 }
 
-/// v̇ of the system by its S in the place of those that are there, where link frames take fewer operations.
+/// Replaces v̇ of the system by v̇ from S in link frames, if this takes fewer operations.
 pub fn cheaper_accelerations<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &Loads<'g>,
@@ -137,23 +137,23 @@ fn cost(graph: &Graph, values: &[Expr<'_>]) -> usize {
 
 /// S, r_s and r_k of a system.
 struct Matrices<'g> {
-    /// S: terms of its upper or lower triangle by row and column; those of the same place are to be added.
+    /// Terms of the upper or lower triangle of S, by row and column. Terms with the same place must be added.
     matrix: Vec<(usize, usize, Expr<'g>)>,
-    /// r_s, terms by row.
+    /// Terms of r_s by row.
     velocity_forces: Vec<(usize, Expr<'g>)>,
-    /// r_k, terms by row.
+    /// Terms of r_k by row.
     applied_forces: Vec<(usize, Expr<'g>)>,
 }
 
-/// What the links of a system need, in frames that were chosen.
+/// S and the forces of the links of a system, in chosen frames.
 struct Needs<'g> {
-    /// The composite bodies, by link.
+    /// The composite body of each link.
     composites: Vec<Body<'g>>,
-    /// S, terms by row and column.
+    /// Terms of S by row and column.
     matrix: Vec<(usize, usize, Expr<'g>)>,
-    /// The reference motion, by link.
+    /// The reference motion of each link.
     motions: Vec<LinkMotion<'g>>,
-    /// What is needed for it beyond what acts, terms by row.
+    /// Terms, by row, of the forces that the reference motion needs, without the forces that act.
     forces: Vec<(usize, Expr<'g>)>,
 }
 
@@ -173,7 +173,7 @@ impl<'g> Needs<'g> {
     }
 }
 
-/// S, r_s and r_k of the system; `None` where link frames cannot say them.
+/// S, r_s and r_k of the system; `None` if link frames do not apply.
 fn matrices<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &Loads<'g>,
@@ -196,7 +196,7 @@ fn matrices<'g>(
     let acting = acting.map(|(k, (link, frame))| frame.load(link, &choice, k == 0 && loaded.free));
     let mut applied_forces = forces::powers(&written, acting.collect(), &name).terms;
     let reference = reference_acceleration(spatial.graph, spatial.of_system(), spatial.motion);
-    let field = loads.fields[spatial.system] - reference;
+    let field = loads.wrenches.fields[spatial.system] - reference;
     applied_forces.extend(forces::of_field(&written, &needs.composites, field));
     applied_forces.extend(loaded.on_coordinates());
     Some(Matrices {
@@ -206,7 +206,7 @@ fn matrices<'g>(
     })
 }
 
-/// v̇ of the system by its S. Sets its rows; false where link frames cannot say it.
+/// Sets the rows of v̇ of the system, computed from its S; returns false if link frames do not apply.
 fn accelerations_by_factors<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &Loads<'g>,
@@ -250,7 +250,7 @@ fn accelerations_by_factors<'g>(
         accelerations[link.row] = accelerations[link.row] + reference;
     }
     if let Some(rows) = spatial.layout.reference_velocities(spatial.system) {
-        let field = loads.fields[spatial.system];
+        let field = loads.wrenches.fields[spatial.system];
         for (row, &direction) in rows.zip(spatial.layout.directions) {
             accelerations[row] = accelerations[row] + field.0[direction];
         }
@@ -258,7 +258,7 @@ fn accelerations_by_factors<'g>(
     true
 }
 
-/// Adds terms to S, both triangles.
+/// Adds terms to both triangles of S.
 fn add_entries<'g>(matrix: &mut [Vec<Option<Expr<'g>>>], terms: &[(usize, usize, Expr<'g>)]) {
     for &(i, j, value) in terms {
         if !value.is_zero() {
@@ -268,7 +268,7 @@ fn add_entries<'g>(matrix: &mut [Vec<Option<Expr<'g>>>], terms: &[(usize, usize,
     }
 }
 
-/// v̇ of what moves in the links, by row.
+/// v̇ of the joints of all links, by row.
 fn rates<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &Loads<'g>,
@@ -279,7 +279,7 @@ fn rates<'g>(
     let mut rates = Vec::new();
     for (link, solved) in tree.links.iter().zip(solved) {
         if !link.joint.is_ball() {
-            // of links that share a velocity, the first
+            // of the links that share a velocity, only the first counts
             if !rates.iter().any(|(row, _)| *row == link.row) {
                 rates.push((link.row, solved.rotation.0[0]));
             }
@@ -305,7 +305,7 @@ fn rates<'g>(
         );
     }
     if let Some(rows) = spatial.layout.reference_velocities(spatial.system) {
-        let field = loads.fields[spatial.system];
+        let field = loads.wrenches.fields[spatial.system];
         for (row, &direction) in rows.zip(spatial.layout.directions) {
             rates.push((row, solved[0].base.0[direction] + field.0[direction]));
         }

@@ -1,6 +1,6 @@
 //! The reference motion: any motion that the joints allow at the given velocities, in the frames of the links.
 //!
-//! Root to leaves, with X the turn from the axes of a link to its parent's and r its place there,
+//! It goes from the root to the leaves. X is the rotation from the axes of a link to its parent's, and r the place of the link there:
 //!
 //! | | |
 //! |---|---|
@@ -8,8 +8,8 @@
 //! | a⁰ = Xᵀ (a⁰_p + Γ_p r) | Γ = α̂⁰ + ω̂ ω̂:  Γ_ij = ω_i ω_j ∓ α⁰_k,  Γ_ii = −(ω_j² + ω_k²) |
 //! | along a slide d = z s q: a⁰ += Γ d + 2 ω × z s q̇ + z s q̈ref | with ω and α⁰ before the turn about z |
 //!
-//! q̈ref makes α⁰_z, or a⁰_z of what slides, what costs least: mostly 0. On a ball α⁰ = 0, and of a free base a⁰ = 0: no acceleration of a
-//! field is turned from link to link.
+//! q̈ref is chosen such that α⁰_z, or a⁰_z of a slider, costs least; mostly these are 0. On a ball α⁰ = 0, and for a free base a⁰ = 0, so
+//! the acceleration of a field is not turned from link to link.
 
 use super::body::Body;
 use super::frames::{Choice, Framed, ReferenceTurn};
@@ -19,14 +19,14 @@ use crate::dynamics::spatial::Wrench;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 
-/// The motion of a link, in its axes.
+/// The reference motion of a link, in its axes.
 #[derive(Clone, Copy)]
 pub struct LinkMotion<'g> {
     /// ω
     pub omega: Vec3<'g>,
     /// α⁰
     pub alpha: Vec3<'g>,
-    /// a⁰ of its origin
+    /// a⁰, the acceleration of its origin
     pub acceleration: Vec3<'g>,
     /// q̈ref
     pub reference: Expr<'g>,
@@ -58,7 +58,7 @@ impl<'g> LinkMotion<'g> {
         }))
     }
 
-    /// The wrench that a body needs.
+    /// The wrench that a body needs in this motion.
     pub fn inertia(&self, body: &Body<'g>, by_inertia: bool) -> Wrench<'g> {
         let h = body.first;
         let force = self.gamma(h) + body.mass * self.acceleration;
@@ -98,7 +98,7 @@ impl<'g> LinkMotion<'g> {
     }
 }
 
-/// A vector as a sum of vectors along the axes, in this order; zeros are left out.
+/// A vector as a sum of vectors along the axes, in this order, without zeros.
 pub fn steps<'g>(v: Vec3<'g>, order: [usize; 3]) -> Vec<Vec3<'g>> {
     let graph = v.0[0].graph();
     let along = |axis: usize| {
@@ -110,7 +110,7 @@ pub fn steps<'g>(v: Vec3<'g>, order: [usize; 3]) -> Vec<Vec3<'g>> {
     steps.filter(|step| !step.is_zero()).collect()
 }
 
-/// The slide of a link along z, and its rate.
+/// The displacement of a link along z, and its rate; `None` if it does not slide.
 pub fn slide<'g>(joint: &LinkJoint<'g>, unit: f64, sign: f64) -> Option<(Expr<'g>, Expr<'g>)> {
     match *joint {
         LinkJoint::Axis {
@@ -126,14 +126,14 @@ pub fn slide<'g>(joint: &LinkJoint<'g>, unit: f64, sign: f64) -> Option<(Expr<'g
     }
 }
 
-/// Which reference motion.
+/// The kind of reference motion.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Reference {
-    /// As chosen; α⁰ = 0 of balls.
+    /// As chosen, with α⁰ = 0 for balls.
     Chosen,
-    /// As chosen, but that of v̇ = 0 of balls.
+    /// As chosen, but with the motion of v̇ = 0 for balls.
     ChosenOfAxes,
-    /// That of v̇ = 0.
+    /// The motion of v̇ = 0.
     Rest,
 }
 
@@ -186,12 +186,17 @@ pub fn motion<'g>(
                 }
             }
             LinkJoint::Axis {
+                rate,
+                absolute: true,
+                ..
+            } => motion.omega.0[2] = frame.sign * *rate,
+            LinkJoint::Axis {
                 turn,
                 rate,
                 coupled,
                 ..
             } => {
-                // what is coupled accelerates together
+                // coupled joints must accelerate together
                 let chosen = match reference == Reference::Rest || *coupled {
                     true => ReferenceTurn::Rest,
                     false => chosen.reference,

@@ -1,25 +1,27 @@
-//! Velocities that several links share, because freedoms follow others: each is eliminated at the first link that carries all that it moves.
+//! Velocities that several links share, because degrees of freedom follow others. Each is eliminated at the first link that carries all
+//! links that it moves.
 //!
-//! On the way there its column goes along: what is outboard needs U_r for v̇_r = 1, and D_r v̇_r = u_r − U_r · (Δa, Δα) − Σ D_rq v̇_q.
+//! On the way there its column is passed along: for v̇_r = 1 the bodies outboard need U_r, and D_r v̇_r = u_r − U_r · (Δa, Δα) − Σ D_rq
+//! v̇_q.
 //!
 //! | | |
 //! |---|---|
-//! | at a link whose joint has σ v_r about its column H | U_r += σ I H,  D_r += 2 σ Hᵀ U_r + σ² Hᵀ I H,  D_rq += σ Hᵀ U_q,  u_r += σ u |
+//! | at a link whose joint has the share σ v_r along its column H | U_r += σ I H,  D_r += 2 σ Hᵀ U_r + σ² Hᵀ I H,  D_rq += σ Hᵀ U_q,  u_r += σ u |
 //! | where (U, D, u) is eliminated, with E_r = Hᵀ U_r or D_r | U_r −= U E_r/D,  D_rq −= E_r E_q/D,  u_r −= E_r u/D |
 
 use super::tree::Tree;
 use crate::dynamics::spatial::Wrench;
 use crate::expression::Expr;
 
-/// Velocities on their way to where they are eliminated.
+/// Shared velocities on the way to the links where they are eliminated.
 #[derive(Clone, Default)]
 pub struct Shared<'g> {
     velocities: Vec<Velocity<'g>>,
-    /// D_rq, r < q.
+    /// D_rq for r < q.
     between: Vec<(usize, usize, Expr<'g>)>,
 }
 
-/// One of them.
+/// One shared velocity.
 #[derive(Clone)]
 pub struct Velocity<'g> {
     /// r
@@ -32,7 +34,8 @@ pub struct Velocity<'g> {
     pub left: Expr<'g>,
 }
 
-/// By shared velocity: its row, and the link where it is eliminated; `None` where no link carries all of them, or a ball is between.
+/// For each shared velocity, its row and the link where it is eliminated; `None` if no link carries all of its links, or if a ball is
+/// between.
 pub fn heads(tree: &Tree<'_>) -> Option<Vec<(usize, usize)>> {
     let mut heads: Vec<(usize, usize)> = Vec::new();
     for (k, link) in tree.links.iter().enumerate() {
@@ -44,7 +47,7 @@ pub fn heads(tree: &Tree<'_>) -> Option<Vec<(usize, usize)>> {
             other.joint.is_coupled() && other.row == link.row
         });
         let mut members: Vec<usize> = same.collect();
-        // the last of them is carried by its parent too, until one is left
+        // replaces the last one by its parent, which carries it, until one is left
         while members.len() > 1 {
             let last = members.pop()?;
             let carrier = &tree.links[last];
@@ -61,7 +64,7 @@ pub fn heads(tree: &Tree<'_>) -> Option<Vec<(usize, usize)>> {
 }
 
 impl<'g> Shared<'g> {
-    /// With those of another branch.
+    /// Adds the velocities of another branch.
     pub fn join(&mut self, other: Shared<'g>) {
         for velocity in other.velocities {
             match self.velocities.iter_mut().find(|v| v.row == velocity.row) {
@@ -86,7 +89,7 @@ impl<'g> Shared<'g> {
         }
     }
 
-    /// As felt elsewhere.
+    /// The same, with all wrenches moved elsewhere.
     pub fn passed(mut self, of: impl Fn(Wrench<'g>) -> Wrench<'g>) -> Self {
         for velocity in &mut self.velocities {
             velocity.needed = of(velocity.needed);
@@ -94,13 +97,14 @@ impl<'g> Shared<'g> {
         self
     }
 
-    /// Hᵀ U_r by row, where `power` is that of a wrench per velocity of the joint.
+    /// Hᵀ U_r by row; `power` gives the power of a wrench per velocity of the joint.
     pub fn powers(&self, power: impl Fn(&Wrench<'g>) -> Expr<'g>) -> Vec<(usize, Expr<'g>)> {
         let each = self.velocities.iter();
         each.map(|v| (v.row, power(&v.needed))).collect()
     }
 
-    /// Adds a link whose joint has a share of a velocity, with what its joint alone needs, and the powers of what is there already.
+    /// Adds a link whose joint has a share of a velocity, with the U, D and u of its joint alone, and the powers of the velocities that are
+    /// already there.
     pub fn add(&mut self, share: Expr<'g>, own: Velocity<'g>, powers: &[(usize, Expr<'g>)]) {
         let row = own.row;
         let added = Velocity {
@@ -129,7 +133,7 @@ impl<'g> Shared<'g> {
         }
     }
 
-    /// What is left when something is eliminated that needs this, given 1/D, u and E by row.
+    /// The velocities that remain after the elimination of U, given 1/D, u and E by row.
     pub fn eliminate(
         &mut self,
         needed: &Wrench<'g>,
@@ -152,7 +156,7 @@ impl<'g> Shared<'g> {
         }
     }
 
-    /// Takes one of them out, with D_rq by q.
+    /// Removes one velocity and returns it, with D_rq by q.
     pub fn take(&mut self, row: usize) -> Option<(Velocity<'g>, Vec<(usize, Expr<'g>)>)> {
         let at = self.velocities.iter().position(|v| v.row == row)?;
         let velocity = self.velocities.remove(at);

@@ -1,6 +1,6 @@
-//! The links of a system: its elements, with a link for every freedom of a joint and none for a weld.
+//! The links of a system: one for every degree of freedom of an element's joint, and none for a weld.
 //!
-//! Everything is in the axes of the elements, which are parallel when all freedoms of a joint are at 0, and about their origins.
+//! All quantities are in the axes of the elements, about their origins. The axes along a joint are parallel when its degrees of freedom are at 0.
 
 use super::articulated::Articulated;
 use super::body::Body;
@@ -14,74 +14,78 @@ use crate::expression::{Expr, Graph};
 use crate::joint::twist::turn_and_advance;
 use crate::model::{Dimension, Joint, Reference};
 
-/// A system as links, parents first.
+/// A system as links; parents come first.
 pub struct Tree<'g> {
     pub graph: &'g Graph,
     pub links: Vec<Link<'g>>,
-    /// What carries the first link.
+    /// The carrier of the first link.
     pub ground: Ground<'g>,
-    /// Whether the reference joint is free; the first link is on a ball then.
+    /// Whether the reference joint is free; then the first link is on a ball.
     pub free: bool,
     /// Index in v of the first velocity of a free reference joint.
     pub base: Option<usize>,
+    /// The absolute axes along which a free reference joint moves.
+    pub directions: &'static [usize],
     /// ω, α⁰ and a⁰ of the first link, where it stands for what carries a part of a tree.
     pub carrier: Option<[Vec3<'g>; 3]>,
 }
 
-/// What carries the first link: the frame, or the vehicle that its joint is on, if that is no ball.
+/// The carrier of the first link: the absolute frame, or the vehicle on which its joint is, if that joint is no ball.
 #[derive(Clone, Copy)]
 pub struct Ground<'g> {
-    /// Its axes → absolute axes.
+    /// Rotation from its axes to absolute axes.
     pub axes: Mat3<'g>,
-    /// ω, its axes.
+    /// Angular velocity ω, in its axes.
     pub omega: Vec3<'g>,
-    /// α, its axes.
+    /// Angular acceleration α, in its axes.
     pub alpha: Vec3<'g>,
-    /// Acceleration of the reference joint less the field common to all elements, its axes; of a free one 0.
+    /// Acceleration of the reference joint minus the field common to all elements, in its axes; 0 for a free one.
     pub acceleration: Vec3<'g>,
+    /// φ in the plane, 0 in space.
+    pub angle: Expr<'g>,
 }
 
 /// One link.
 #[derive(Clone)]
 pub struct Link<'g> {
-    /// Of which element.
+    /// Index of its element.
     pub element: usize,
     /// Index in v of its first velocity.
     pub row: usize,
-    /// What carries it.
+    /// Index of its carrier.
     pub parent: Option<usize>,
     pub joint: LinkJoint<'g>,
-    /// Its joint from the parent's origin, the parent's axes.
+    /// The position of its joint from the parent's origin, in the parent's axes.
     pub place: Vec3<'g>,
     pub body: Body<'g>,
-    /// A, its axes → absolute axes.
+    /// A, the rotation from its axes to absolute axes.
     pub rotation: Mat3<'g>,
-    /// What acts on it, absolute axes.
+    /// The wrench that acts on it, in absolute axes.
     pub load: Wrench<'g>,
-    /// What stands for the links that it carries and that are left out.
+    /// Quantities that stand for omitted links that it carries.
     pub carries: Option<Carried<'g>>,
 }
 
-/// What links that are left out pass on.
+/// The quantities that omitted links pass on.
 #[derive(Clone)]
 pub enum Carried<'g> {
-    /// Of accelerations.
+    /// Those for accelerations.
     Articulated(Articulated<'g>),
-    /// Of S and of forces.
+    /// Those for S and for forces.
     Composite {
         /// Their composite bodies.
         body: Body<'g>,
-        /// What they need.
+        /// The wrench that they need.
         needed: Wrench<'g>,
-        /// What they need for each of their velocities.
+        /// The wrenches that they need for each of their velocities.
         columns: Vec<Wrench<'g>>,
     },
 }
 
-/// What a link does against its parent.
+/// The joint between a link and its parent.
 #[derive(Clone)]
 pub enum LinkJoint<'g> {
-    /// It turns at will. All in absolute axes.
+    /// A ball: it turns freely. All quantities are in absolute axes.
     Ball {
         /// ω
         omega: Vec3<'g>,
@@ -90,21 +94,23 @@ pub enum LinkJoint<'g> {
         /// The axes about which its velocities turn it, as columns: ω = Σ e_j v_j
         columns: Mat3<'g>,
     },
-    /// It turns by `turn` and slides by `slide` times its coordinate, about and along an axis.
+    /// An axis: the link turns by `turn` and slides by `slide` times its coordinate, about and along it.
     Axis {
         axis: [f64; 3],
         turn: f64,
         slide: Expr<'g>,
         position: Expr<'g>,
         rate: Expr<'g>,
-        /// The force or torque of laws on the coordinate.
+        /// The generalised force of laws on the coordinate.
         acting: Expr<'g>,
-        /// Its velocity is this times that of its row.
+        /// The ratio of its velocity to the velocity in its row.
         ratio: Expr<'g>,
-        /// Inertia that its velocity alone moves.
+        /// The inertia that its velocity alone moves.
         armature: Expr<'g>,
-        /// Whether other links have the same row.
+        /// Whether other links share the same row.
         coupled: bool,
+        /// Whether it is a hinge of the plane whose angle is absolute: its carrier's turn does not turn it.
+        absolute: bool,
     },
 }
 
@@ -114,12 +120,17 @@ impl LinkJoint<'_> {
         matches!(self, LinkJoint::Ball { .. })
     }
 
+    /// Whether its velocities turn it against the absolute frame, so that it does not turn with its carrier.
+    pub fn is_absolute(&self) -> bool {
+        self.is_ball() || matches!(self, LinkJoint::Axis { absolute: true, .. })
+    }
+
     /// Whether other links have a share of its velocity.
     pub fn is_coupled(&self) -> bool {
         matches!(self, LinkJoint::Axis { coupled: true, .. })
     }
 
-    /// Whether it is a slider.
+    /// Whether it is a slider, which does not turn.
     pub fn slides_alone(&self) -> bool {
         matches!(self, LinkJoint::Axis { turn: 0.0, .. })
     }
@@ -131,26 +142,21 @@ impl LinkJoint<'_> {
 }
 
 impl<'g> Tree<'g> {
-    /// The links of a system, and what acts on them; without loads nothing acts, and the reference joint is at rest. `None` where link frames cannot
-    /// say it: axes that are parameters, a free reference joint whose first element is not on a ball, in the plane an element whose orientation is
-    /// absolute.
+    /// The links of a system, with the wrenches on them. Without `loads` no force acts, and the reference joint is at rest. `None` if link frames do
+    /// not apply: an axis is a parameter; a free reference joint has a first element that is not on a ball; or, in the plane, an element has an
+    /// absolute orientation.
     pub fn of(spatial: &Spatial<'g, '_>, loads: Option<&Loads<'g>>) -> Option<Self> {
         let (graph, model, system) = (spatial.graph, spatial.model, spatial.of_system());
         let free = matches!(system.reference, Reference::Free);
         let first_is_ball = system.elements.first()?.joint == Joint::Ball;
         let complete = spatial.tree.bodies.iter().all(|body| body.gyroscopic);
-        let absolute_in_plane = model.dimension == Dimension::Plane
-            && system
-                .elements
-                .iter()
-                .any(|element| element.joint == Joint::Ball);
-        if absolute_in_plane || (free && !first_is_ball) || !complete {
+        if (free && !first_is_ball) || !complete {
             return None;
         }
         graph.section(format!("system {}: links", system.name));
         let none = Vec3::zero(graph);
         let mut links: Vec<Link<'g>> = Vec::new();
-        // of every element its link and its origin from the link's
+        // for every element, its link and its origin from that of the link
         let mut seats: Vec<(Option<usize>, Vec3<'g>)> = Vec::new();
         for (k, element) in system.elements.iter().enumerate() {
             let motion = spatial.motion_of(k);
@@ -174,9 +180,26 @@ impl<'g> Tree<'g> {
                 load: Wrench::none(graph),
                 carries: None,
             };
-            let acting = loads.map(|loads| &loads.on_freedoms[spatial.system][k][..]);
+            let acting = loads.map(|loads| &loads.wrenches.on_freedoms[spatial.system][k][..]);
             let acting = acting.unwrap_or_default();
             match &element.joint {
+                Joint::Ball if model.dimension == Dimension::Plane => {
+                    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+                    let joint = LinkJoint::Axis {
+                        axis: [0.0, 1.0, 0.0],
+                        turn: 1.0,
+                        slide: zero,
+                        position: motion.angle,
+                        rate: motion.omega.0[1],
+                        acting: zero,
+                        ratio: one,
+                        armature: zero,
+                        coupled: false,
+                        absolute: true,
+                    };
+                    links.push(link(shares[0].velocity, parent, joint, place));
+                    (parent, place) = (Some(links.len() - 1), none);
+                }
                 Joint::Ball => {
                     let columns = [0, 1, 2].map(|j| motion.axes[j]);
                     let joint = LinkJoint::Ball {
@@ -205,6 +228,7 @@ impl<'g> Tree<'g> {
                             ratio: shares[i].ratio,
                             armature: number(graph, &freedom.armature),
                             coupled: false,
+                            absolute: false,
                         };
                         links.push(link(shares[i].velocity, parent, joint, place));
                         (parent, place) = (Some(links.len() - 1), none);
@@ -216,7 +240,7 @@ impl<'g> Tree<'g> {
             let to = &mut links[to];
             to.body = to.body.plus(&body_of(spatial, k).moved(place));
             let Some(loads) = loads else { continue };
-            let load = &loads.elements[spatial.system][k];
+            let load = &loads.wrenches.elements[spatial.system][k];
             let offset = to.rotation.times(place);
             to.load = to.load.plus(Wrench {
                 force: load.force,
@@ -233,13 +257,14 @@ impl<'g> Tree<'g> {
                 .layout
                 .reference_velocities(spatial.system)
                 .map(|rows| rows.start),
+            directions: spatial.layout.directions,
             carrier: None,
         };
         tree.regroup();
         Some(tree)
     }
 
-    /// What laws on coordinates do, by row.
+    /// The generalised forces of laws on coordinates, by row.
     pub fn on_coordinates(&self) -> Vec<(usize, Expr<'g>)> {
         let of = |link: &Link<'g>| match link.joint {
             LinkJoint::Axis { acting, ratio, .. } => Some((link.row, ratio * acting)),
@@ -248,7 +273,7 @@ impl<'g> Tree<'g> {
         self.links.iter().filter_map(of).collect()
     }
 
-    /// The same links, of other expressions.
+    /// The same links, with each expression replaced.
     pub fn map<'h>(&self, graph: &'h Graph, mut of: impl FnMut(Expr<'g>) -> Expr<'h>) -> Tree<'h> {
         let links = self.links.iter().map(|link| Link {
             element: link.element,
@@ -274,6 +299,7 @@ impl<'g> Tree<'g> {
                     ratio,
                     armature,
                     coupled,
+                    absolute,
                 } => LinkJoint::Axis {
                     axis,
                     turn,
@@ -284,6 +310,7 @@ impl<'g> Tree<'g> {
                     ratio: of(ratio),
                     armature: of(armature),
                     coupled,
+                    absolute,
                 },
             },
             place: Vec3(link.place.0.map(&mut of)),
@@ -309,14 +336,16 @@ impl<'g> Tree<'g> {
             ground: self.ground.map(&mut of),
             free: self.free,
             base: self.base,
+            directions: self.directions,
             carrier: None,
         }
     }
 
-    /// Gives the parent of every link what its joint does not feel: what moves it moves the parent all the same.
+    /// Regroups bodies: gives the parent of every link the part of its body that its joint does not feel, because that part moves the parent in any
+    /// case.
     ///
-    /// Of a hinge that is what lies on its axis e: m, (h · e) e and (e · Σ e) e eᵀ; of a slider Σ; of a ball m. The bodies that are left move
-    /// the system as those before; one alone has no meaning, and its mass may be negative.
+    /// A hinge does not feel the mass on its axis e: m, (h · e) e and (e · Σ e) e eᵀ. A slider does not feel Σ, and a ball not m. The regrouped
+    /// bodies give the same motion of the system; a single one has no physical meaning, and its mass may be negative.
     fn regroup(&mut self) {
         for k in (0..self.links.len()).rev() {
             let link = &self.links[k];
@@ -326,7 +355,7 @@ impl<'g> Tree<'g> {
             let passed = link.body.unfelt(&link.joint);
             let (parent, place) = (link.parent, link.place);
             let moved = match link.joint.slides_alone() {
-                // Σ does not feel where it is
+                // Σ is the same everywhere
                 true => passed,
                 false => passed.moved(place),
             };
@@ -339,22 +368,23 @@ impl<'g> Tree<'g> {
 }
 
 impl<'g> Ground<'g> {
-    /// Of a system; without loads its reference joint does not accelerate, and the ground turns all the same.
+    /// The ground of a system. Without `loads` its reference joint does not accelerate, but the ground still turns.
     fn of(spatial: &Spatial<'g, '_>, loads: Option<&Loads<'g>>, first_is_ball: bool) -> Self {
         let (graph, system) = (spatial.graph, spatial.of_system());
         let none = Vec3::zero(graph);
         let acceleration = match (&system.reference, loads) {
             (Reference::Free, _) | (_, None) => none,
             (_, Some(loads)) => {
-                reference_acceleration(graph, system, spatial.motion) - loads.fields[spatial.system]
+                reference_acceleration(graph, system, spatial.motion)
+                    - loads.wrenches.fields[spatial.system]
             }
         };
-        let (axes, omega, alpha) = match (&system.reference, first_is_ball) {
+        let (axes, omega, alpha, angle) = match (&system.reference, first_is_ball) {
             (Reference::Riding { vehicle, .. }, false) => {
                 let body = &spatial.motion.vehicles[*vehicle].body;
-                (body.rotation, body.omega, body.bias)
+                (body.rotation, body.omega, body.bias, body.angle)
             }
-            _ => (identity(graph), none, none),
+            _ => (identity(graph), none, none, graph.constant(0.0)),
         };
         let own = |v: Vec3<'g>| axes.transposed_times(v);
         Ground {
@@ -362,13 +392,16 @@ impl<'g> Ground<'g> {
             omega: own(omega),
             alpha: own(alpha),
             acceleration: own(acceleration),
+            angle,
         }
     }
 
-    /// The same, of other expressions.
+    /// The same ground, with each expression replaced.
     pub fn map<'h>(&self, mut of: impl FnMut(Expr<'g>) -> Expr<'h>) -> Ground<'h> {
+        let angle = of(self.angle);
         let mut vector = |v: Vec3<'g>| Vec3(v.0.map(&mut of));
         Ground {
+            angle,
             acceleration: vector(self.acceleration),
             axes: Mat3(self.axes.0.map(|row| vector(Vec3(row)).0)),
             omega: vector(self.omega),
@@ -377,12 +410,12 @@ impl<'g> Ground<'g> {
     }
 }
 
-/// The axes of the frame.
+/// The axes of the absolute frame.
 pub fn identity(graph: &Graph) -> Mat3<'_> {
     Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.constant(f64::from(i == j)))))
 }
 
-/// Marks the links that have a row together.
+/// Marks the links that share a row.
 fn couple(links: &mut [Link<'_>]) {
     let rows: Vec<usize> = links.iter().map(|link| link.row).collect();
     for link in links {

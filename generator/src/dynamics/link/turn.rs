@@ -1,26 +1,26 @@
-//! Constant and variable turns between the axes of two links, in the fewest operations.
+//! Constant and variable rotations between the axes of two links, in the fewest operations.
 
 use crate::dynamics::augmented::rotated;
 use crate::expression::Expr;
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 
-/// A turn from the axes of one frame to those of another: v ↦ R v.
+/// A rotation from the axes of one frame to those of another: v ↦ R v.
 #[derive(Clone, Copy)]
 pub enum Turn<'g> {
-    /// By this number of right angles, 1 to 3, about the axis of this index: no operation.
+    /// A rotation by this number of right angles, 1 to 3, about the axis with this index. It needs no operation.
     Quarters(usize, u8),
-    /// By an angle about the axis of this index.
+    /// A rotation by an angle about the axis with this index.
     About {
         axis: usize,
         sine: Expr<'g>,
         cosine: Expr<'g>,
     },
-    /// By a matrix.
+    /// A rotation by a matrix.
     Matrix(Mat3<'g>),
 }
 
 impl<'g> Turn<'g> {
-    /// The turn back.
+    /// The inverse rotation.
     pub fn inverse(&self) -> Self {
         match *self {
             Turn::Quarters(axis, quarters) => Turn::Quarters(axis, 4 - quarters),
@@ -53,7 +53,7 @@ impl<'g> Turn<'g> {
         turned
     }
 
-    /// R M Rᵀ of a symmetric M
+    /// R M Rᵀ for a symmetric M
     pub fn symmetric(&self, m: Sym3<'g>) -> Sym3<'g> {
         match *self {
             Turn::Quarters(..) => {
@@ -110,14 +110,14 @@ impl<'g> Turn<'g> {
     }
 }
 
-/// xx, yy and xy of a symmetric matrix, turned in their plane: with A = xx − yy and w = s A + 2 c xy,
-/// xx − s w, yy + s w, c w − xy.
+/// xx, yy and xy of a symmetric matrix, rotated in their plane: with A = xx − yy and w = s A + 2 c xy, xx − s w,
+/// yy + s w, c w − xy.
 fn in_plane<'g>(
     [xx, yy, xy]: [Expr<'g>; 3],
     (sine, cosine): (Expr<'g>, Expr<'g>),
 ) -> [Expr<'g>; 3] {
     let difference = xx - yy;
-    // a constant with one harmonic: s² and s c are shared by all that turns by this angle
+    // constants give one harmonic: s² and s c are shared by everything that turns by this angle
     let constant = |e: Expr<'g>| e.as_constant().is_some();
     if constant(difference) && constant(xy) {
         if xy.is_zero() {
@@ -134,12 +134,12 @@ fn in_plane<'g>(
     [xx - s, yy + s, cosine * w - xy]
 }
 
-/// A vector through several turns, in order.
+/// A vector after several rotations, in order.
 pub fn through<'g>(turns: &[Turn<'g>], v: Vec3<'g>) -> Vec3<'g> {
     turns.iter().fold(v, |v, turn| turn.vector(v))
 }
 
-/// A vector back through several turns.
+/// A vector after the inverse of several rotations.
 pub fn back_through<'g>(turns: &[Turn<'g>], v: Vec3<'g>) -> Vec3<'g> {
     turns
         .iter()

@@ -1,7 +1,7 @@
-//! How the bodies and wrenches of links go from a link to its parent.
+//! How the bodies and wrenches of links are passed from a link to its parent.
 //!
-//! A wrench is about the origin of its link, in the link's axes, and of a ball in absolute ones: its velocities turn it about those.
-//! Through a turning joint all of it passes, through a ball the force alone.
+//! A wrench is about the origin of its link, in the axes of the link. On a ball it is in absolute axes, because its velocities turn
+//! about those. A joint with an axis passes the whole wrench, a ball only the force.
 
 use super::body::Body;
 use super::frames::{Choice, Framed};
@@ -12,7 +12,7 @@ use crate::dynamics::spatial::Wrench;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 
-/// A tree, and how it is written.
+/// A tree with its frames and the choice of these.
 #[derive(Clone, Copy)]
 pub struct Written<'g, 'a> {
     pub tree: &'a Tree<'g>,
@@ -20,7 +20,7 @@ pub struct Written<'g, 'a> {
     pub choice: &'a Choice,
 }
 
-/// A wrench on a link, from one of its children.
+/// A wrench on a link that comes from one of its children.
 #[derive(Clone, Copy)]
 pub enum Arrived<'g> {
     /// In the axes of the link.
@@ -30,7 +30,7 @@ pub enum Arrived<'g> {
 }
 
 impl<'g> Arrived<'g> {
-    /// In whichever axes it is.
+    /// The wrench without change of its axes.
     pub fn as_it_is(self) -> Wrench<'g> {
         match self {
             Arrived::InLink(wrench) | Arrived::Absolute(wrench) => wrench,
@@ -44,7 +44,7 @@ impl<'g> Written<'g, '_> {
         self.tree.links[k].joint.is_ball()
     }
 
-    /// What the parent of a link feels of a wrench on it.
+    /// The wrench that the parent of a link feels from a wrench on the link.
     pub fn on_parent(&self, k: usize, parent: usize, wrench: Wrench<'g>) -> Arrived<'g> {
         let frame = &self.framed.links[k];
         let of = |force: Vec3<'g>, moment: Vec3<'g>, place: Vec3<'g>| Wrench {
@@ -62,6 +62,10 @@ impl<'g> Written<'g, '_> {
                 let force = axes.transposed_times(wrench.force);
                 Arrived::InLink(of(force, none, frame.place))
             }
+            (LinkJoint::Axis { absolute: true, .. }, _) => {
+                let force = through(&frame.turns, wrench.force);
+                Arrived::InLink(of(force, none, frame.place))
+            }
             (LinkJoint::Axis { .. }, _) => {
                 let mut moment = wrench.moment;
                 if let Some(along) = self.along(k) {
@@ -74,7 +78,7 @@ impl<'g> Written<'g, '_> {
         }
     }
 
-    /// A wrench as its link takes it.
+    /// The wrench in the axes that its link uses.
     pub fn settled(&self, k: usize, arrived: Arrived<'g>) -> Wrench<'g> {
         match arrived {
             Arrived::InLink(wrench) if self.is_ball(k) => self.absolute(k, wrench),
@@ -91,22 +95,22 @@ impl<'g> Written<'g, '_> {
         }
     }
 
-    /// The body of a link as its parent carries it, in the parent's axes about the parent's origin.
+    /// The body of a link as a part of its parent, in the parent's axes about the parent's origin.
     pub fn body_on_parent(&self, k: usize, body: Body<'g>) -> Body<'g> {
         let frame = &self.framed.links[k];
         let graph = self.tree.graph;
         let body = match (&self.tree.links[k].joint, self.along(k)) {
-            (LinkJoint::Ball { .. }, _) => Body {
+            (joint, _) if joint.is_absolute() => Body {
                 mass: body.mass,
                 ..Body::none(graph)
             },
-            (LinkJoint::Axis { .. }, None) => body.turned(&frame.turns),
-            (LinkJoint::Axis { .. }, Some(along)) => body.moved(along).turned(&frame.turns),
+            (_, None) => body.turned(&frame.turns),
+            (_, Some(along)) => body.moved(along).turned(&frame.turns),
         };
         body.moved(frame.place)
     }
 
-    /// The way that a link has slid along z, if it slides.
+    /// The displacement of a link along z, if it slides.
     pub fn along(&self, k: usize) -> Option<Vec3<'g>> {
         let sign = self.framed.links[k].sign;
         let (d, _) = slide(&self.tree.links[k].joint, self.choice.unit, sign)?;
@@ -130,10 +134,10 @@ impl<'g> Written<'g, '_> {
         }
     }
 
-    /// The acceleration that the reference motion gives the coordinate of a link; 0 of a ball, and of what is coupled.
+    /// The acceleration of the coordinate of a link in the reference motion; 0 for a ball and for a coupled coordinate.
     pub fn reference(&self, k: usize, motion: &LinkMotion<'g>) -> Expr<'g> {
         let joint = &self.tree.links[k].joint;
-        // of a slider a length
+        // for a slider it is a length
         let unit = if joint.slides_alone() {
             self.choice.unit
         } else {
@@ -147,11 +151,16 @@ impl<'g> Written<'g, '_> {
         let Some(base) = self.tree.base else {
             return Vec::new();
         };
-        let force = (1.0 / self.choice.unit) * wrench.force;
-        (0..3).map(|i| (base + i, force.0[i])).collect()
+        let force = match self.is_ball(0) {
+            true => wrench.force,
+            false => self.framed.links[0].axes.times(wrench.force),
+        };
+        let force = (1.0 / self.choice.unit) * force;
+        let directions = self.tree.directions.iter().enumerate();
+        directions.map(|(i, &d)| (base + i, force.0[d])).collect()
     }
 
-    /// The velocity of an axis about z of its link as a share of that of its row.
+    /// The velocity of a link about its z axis, as a share of the velocity in its row.
     pub fn share(&self, k: usize) -> Expr<'g> {
         match self.tree.links[k].joint {
             LinkJoint::Axis { ratio, .. } => self.framed.links[k].sign * ratio,
@@ -159,7 +168,7 @@ impl<'g> Written<'g, '_> {
         }
     }
 
-    /// The velocity of an axis about z of its link, in the unit of length where it is a slider, as a share of that of its row.
+    /// The same share, in the unit of length for a slider.
     pub fn scaled_share(&self, k: usize) -> Expr<'g> {
         match self.tree.links[k].joint.slides_alone() {
             true => (1.0 / self.choice.unit) * self.share(k),

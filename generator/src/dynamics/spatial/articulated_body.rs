@@ -1,7 +1,7 @@
-//! The accelerations by the articulated-body algorithm, with a reference motion in the place of velocity terms: accelerations are those at v̇ = 0
-//! and a rest Δ, which alone meets the articulated inertias.   \[Featherstone 2008, ch. 7\]
+//! The accelerations by the articulated-body algorithm. A reference motion replaces the velocity terms: accelerations are those for v̇ = 0 plus a
+//! rest Δ, and only Δ is multiplied by articulated inertias.   \[Featherstone 2008, ch. 7\]
 //!
-//! What is outboard of a joint answers accelerations of its element by the wrench
+//! For the accelerations of its element, the bodies outboard of a joint need the wrench
 //!
 //! f = K Δa + Bᵀ Δα + f₀,   n = B Δa + J Δα + n₀      (K, J symmetric; of a body alone K = m 1, B = ŵ, with û the matrix of u ×)
 //!
@@ -21,7 +21,7 @@ use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Symbol};
 use crate::model::Dimension;
 
-/// What is outboard of a joint, as its element feels it.
+/// The articulated inertia and bias of the bodies outboard of a joint, about the origin of its element.
 #[derive(Clone, Copy)]
 struct Articulated<'g> {
     /// K \[kg\]
@@ -34,10 +34,10 @@ struct Articulated<'g> {
     bias: Wrench<'g>,
 }
 
-/// What the way outwards needs of an element.
+/// The quantities of an element that the pass outwards needs.
 struct Eliminated<'g> {
     factors: Ldl<'g>,
-    /// z, of forces and of moments.
+    /// z, first of forces, then of moments.
     forces: Vec<Vec3<'g>>,
     moments: Vec<Vec3<'g>>,
     /// d⁻¹ L⁻¹ r
@@ -50,8 +50,8 @@ pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(u
     let (graph, system) = (spatial.graph, spatial.system);
     let elements = &spatial.of_system().elements;
     let free = spatial.layout.reference_velocities(system);
-    // in a frame in which the common field is at rest
-    let field = loads.fields[system];
+    // in a frame in which the common field vanishes
+    let field = loads.wrenches.fields[system];
     let given = match free {
         Some(_) => Vec3::zero(graph),
         None => reference_acceleration(graph, spatial.of_system(), spatial.motion) - field,
@@ -63,7 +63,7 @@ pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(u
                 "element {}: forces of velocity and load",
                 spatial.label(k)
             ));
-            let load = &loads.elements[system][k];
+            let load = &loads.wrenches.elements[system][k];
             let needed = spatial.inertia(k, body, biases[k]);
             let zero = graph.constant(0.0);
             let [x, y, z] = body.first_moment.0;
@@ -86,8 +86,8 @@ pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(u
         let label = spatial.label(k);
         graph.section(format!("element {label}: elimination"));
         let columns = elimination_columns(spatial, k);
-        // laws of a ball joint act as moments
-        let mut acting = loads.on_freedoms[system][k].clone();
+        // the laws of a ball joint act as moments
+        let mut acting = loads.wrenches.on_freedoms[system][k].clone();
         acting.resize(columns.columns.len(), graph.constant(0.0));
         let (done, rest) = outboard[k].eliminate(spatial, &columns.columns, acting);
         eliminated[k] = Some(done);
@@ -157,10 +157,10 @@ pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(u
     accelerations
 }
 
-/// The columns that are eliminated.
+/// The columns that are eliminated together.
 struct Columns<'g> {
     columns: Vec<Column<'g>>,
-    /// Whether they are those of v; of Bryant angles they are the absolute axes.
+    /// Whether they are the columns of v. For Bryant angles they are the absolute axes instead.
     own: bool,
 }
 
@@ -237,7 +237,7 @@ impl<'g> Articulated<'g> {
         (eliminated, left)
     }
 
-    /// As the carrier feels it, whose origin is at −u.
+    /// The same, moved to the carrier, whose origin is at −u.
     fn moved(self, u: Vec3<'g>, turns_with_carrier: bool) -> Self {
         let graph = u.0[0].graph();
         let none = Vec3::zero(graph);
@@ -245,7 +245,7 @@ impl<'g> Articulated<'g> {
             true => (self.coupling, self.inertia, self.bias.moment),
             false => (Mat3([none.0; 3]), Sym3::zero(graph), none),
         };
-        // û K and (û B'ᵀ): columns of the one, rows of the other, turned
+        // û K and û B'ᵀ: vectors of the columns of one and of the rows of the other, crossed with u
         let across = Mat3::from_columns([0, 1, 2].map(|j| {
             let column = [0, 1, 2].map(|i| self.mass.entry(i, j));
             u.cross(Vec3(column))
@@ -277,7 +277,7 @@ impl<'g> Articulated<'g> {
         }
     }
 
-    /// Δa of the origin where nothing holds it: f = 0.
+    /// Δa of the origin of a free base: f = 0.
     fn floating(&self, spatial: &Spatial<'g, '_>) -> Vec3<'g> {
         let directions = spatial.layout.directions;
         let matrix = (directions.iter().enumerate())
@@ -299,7 +299,7 @@ impl<'g> Articulated<'g> {
 }
 
 impl<'g> Eliminated<'g> {
-    /// v̇, given Δa' and Δα' of what carries the freedoms.
+    /// v̇, given Δa' and Δα' of the carrier of the degrees of freedom.
     fn rates(&self, a: Vec3<'g>, alpha: Vec3<'g>) -> Vec<Expr<'g>> {
         let rest = (self.bias.iter().zip(&self.forces).zip(&self.moments))
             .map(|((bias, force), moment)| *bias - (force.dot(a) + moment.dot(alpha)))

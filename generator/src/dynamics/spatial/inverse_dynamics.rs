@@ -1,5 +1,5 @@
-//! Generalised forces by the recursive Newton–Euler algorithm: from the leaves to the root, every element passes on what it and all that it
-//! carries need, and each velocity takes the power of that wrench.
+//! Generalised forces by the recursive Newton–Euler algorithm. From the leaves to the root, every element passes on the wrench that it and
+//! the elements that it carries need, and each velocity takes the power of that wrench.
 
 use super::{Spatial, Wrench};
 use crate::dynamics::force::Loads;
@@ -7,7 +7,7 @@ use crate::dynamics::kinematics::reference_acceleration;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 
-/// r_s: minus what the bodies need when v̇ = 0 and nothing acts. Sets the rows of the system.
+/// Sets the rows of r_s of the system: minus the forces that the bodies need when v̇ = 0 and no force acts.
 pub fn velocity_forces<'g>(spatial: &Spatial<'g, '_>, forces: &mut [Expr<'g>]) {
     let bodies = spatial.bodies();
     let biases = spatial.origin_biases(Vec3::zero(spatial.graph));
@@ -22,16 +22,16 @@ pub fn velocity_forces<'g>(spatial: &Spatial<'g, '_>, forces: &mut [Expr<'g>]) {
     }
 }
 
-/// r_k: what acts, less the inertia against a given acceleration of the reference joint. Sets the rows of the system.
+/// Sets the rows of r_k of the system: the applied forces, minus the inertia against a given acceleration of the reference joint.
 pub fn applied_forces<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: &mut [Expr<'g>]) {
     let graph = spatial.graph;
     let reference = reference_acceleration(graph, spatial.of_system(), spatial.motion);
-    let field = loads.fields[spatial.system] - reference;
+    let field = loads.wrenches.fields[spatial.system] - reference;
     let bodies = spatial.bodies();
     let acting = (bodies.iter().enumerate())
         .map(|(k, body)| {
             graph.section(format!("r_k[{}]", spatial.label(k)));
-            let load = &loads.elements[spatial.system][k];
+            let load = &loads.wrenches.elements[spatial.system][k];
             Wrench {
                 force: load.force + body.mass * field,
                 moment: load.moment + body.first_moment.cross(field),
@@ -43,13 +43,16 @@ pub fn applied_forces<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: 
     }
     for k in 0..spatial.of_system().elements.len() {
         let shares = spatial.layout.shares(graph, spatial.model, spatial.id(k));
-        for (share, force) in shares.iter().zip(&loads.on_freedoms[spatial.system][k]) {
+        for (share, force) in shares
+            .iter()
+            .zip(&loads.wrenches.on_freedoms[spatial.system][k])
+        {
             forces[share.velocity] = forces[share.velocity] + share.ratio * *force;
         }
     }
 }
 
-/// The power of a wrench on each element per velocity, by row: the sum is what all that follows a velocity needs of it.
+/// The power of a wrench on each element per velocity, by row: the sum over all elements that the velocity moves.
 fn powers<'g>(
     spatial: &Spatial<'g, '_>,
     mut wrenches: Vec<Wrench<'g>>,

@@ -1,16 +1,17 @@
-//! The mass matrix S by the composite-body algorithm: column j is the wrench that the composite body of its element needs for v̇_j = 1, and its
-//! power per velocity of the element and of all that carry it.   \[Featherstone 2008, ch. 6\]
+//! The mass matrix S by the composite-body algorithm. Column j follows from the wrench that the composite body of its element needs for
+//! v̇_j = 1: its power per velocity of the element and of all elements that carry it.   \[Featherstone 2008, ch. 6\]
 //!
-//! The composite body of an element is it and what turns with it; of what it carries on a ball joint the mass is a point of it.
+//! The composite body of an element consists of the element and all elements that turn with it. Elements that it carries on a ball joint count
+//! as a point mass.
 
 use super::{Column, Spatial, Wrench};
 use crate::dynamics::augmented::AugmentedBody;
 use crate::expression::Expr;
 use crate::expression::vector::{Sym3, Vec3};
 
-/// Sets the entries of the system; what is not set is 0 in every state.
+/// Sets the entries of S of the system; entries that are not set are 0 in every state.
 pub fn mass_matrix<'g>(spatial: &Spatial<'g, '_>, matrix: &mut [Vec<Option<Expr<'g>>>]) {
-    // the sum over all columns that are shares of the same velocity
+    // adds over all columns that are shares of the same velocity
     let mut add = |i: usize, j: usize, value: Expr<'g>| {
         if !value.is_zero() {
             let sum = matrix[i][j].map_or(value, |entry| entry + value);
@@ -40,7 +41,7 @@ pub fn mass_matrix<'g>(spatial: &Spatial<'g, '_>, matrix: &mut [Vec<Option<Expr<
             };
             add(j, j, column.armature);
             add(j, j, column.power(&wrench));
-            // on the diagonal, what two columns have together counts twice
+            // on the diagonal, the common term of two columns counts twice
             let mut beside = |other: &Column<'g>, wrench: &Wrench<'g>| {
                 let together = other.power(wrench);
                 match other.row == j {

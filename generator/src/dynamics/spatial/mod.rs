@@ -1,11 +1,12 @@
-//! Systems with other joints than balls, by spatial algebra in absolute axes.   \[Featherstone 2008\]
+//! Systems that have joints other than balls, by spatial algebra in absolute axes.   \[Featherstone 2008\]
 //!
-//! An element k has the origin p_k, in its joint, and the columns (s_j, e_j) of [its velocities](crate::joint::twist). With the carrier p,
-//! u = p_k − p_p, and ω_p ⇢ 0 where k is on a ball joint and does not turn with its carrier,
+//! An element k has the origin p_k, in its joint, and the columns (s_j, e_j) of [its velocities](crate::joint::twist). With the carrier p and
+//! u = p_k − p_p (if k is on a ball joint, it does not turn with its carrier, so α_k has no term α_p),
 //!
 //! a_k = a_p + α_p × u + c_k + Σ s_j v̇_j,   α_k = α_p + Σ e_j v̇_j + …      (… and c_k: what is there when v̇ = 0)
 //!
-//! A wrench (f, n) on k, n about p_k, does the work (s_j · f + e_j · n) v_j, and its carrier feels (f, n + u × f); of a ball joint no n passes.
+//! A wrench (f, n) on k, with n about p_k, has the power (s_j · f + e_j · n) v_j. Its carrier feels (f, n + u × f); through a ball joint no n
+//! passes.
 //!
 //! | file | |
 //! |---|---|
@@ -13,12 +14,12 @@
 //! | `inverse_dynamics` | r_s and r_k by the recursive Newton–Euler algorithm |
 //! | `articulated_body` | v̇ by the articulated-body algorithm |
 //!
-//! A freedom that follows another has q̇ = ratio · q̇ of the leader: its column, times the ratio, is added to the leader's. The articulated-body
-//! algorithm of this module cannot say that, for the two are at different places of the tree: v̇ follows from S then. In [the frames of the
-//! links](super::link) it can.
+//! A degree of freedom that follows another has q̇ = ratio · q̇ of the leader: its column, times the ratio, is added to the leader's. The
+//! articulated-body algorithm of this module cannot handle this, because the two are at different places of the tree; then v̇ follows from S.
+//! The algorithm in [the frames of the links](super::link) can handle it.
 //!
-//! Systems whose joints are all balls have [a shorter way](super::elimination), in which the mass of what is carried is a point of the
-//! carrier.
+//! Systems whose joints are all balls have [a shorter algorithm](super::elimination), in which the mass of the carried elements is a point of
+//! the carrier.
 
 mod articulated_body;
 mod inverse_dynamics;
@@ -43,32 +44,32 @@ use std::ops::Range;
 /// A system in motion.
 #[derive(Clone, Copy)]
 pub struct Spatial<'g, 'a> {
-    /// Where expressions are made.
+    /// The graph of the expressions.
     pub graph: &'g Graph,
-    /// Whose system it is.
+    /// The model.
     pub model: &'a Model,
     /// Its coordinates.
     pub layout: &'a Layout,
-    /// Which system.
+    /// Index of the system.
     pub system: usize,
     /// Its motion.
     pub motion: &'a Motion<'g>,
-    /// What is left out of its inertia.
+    /// The augmented bodies of its elements; they also say which gyroscopic moment is left out.
     pub tree: &'a AugmentedTree<'g>,
 }
 
-/// A velocity of an element: how it moves the origin against the carrier, and how it turns the element.
+/// A velocity of an element: how it moves the origin relative to the carrier, and how it turns the element.
 #[derive(Clone, Copy)]
 struct Column<'g> {
     /// Index in v.
     row: usize,
-    /// Inertia of what nothing but this velocity moves.
+    /// Inertia that only this velocity moves.
     armature: Expr<'g>,
     slide: Vec3<'g>,
     axis: Vec3<'g>,
 }
 
-/// A force at the origin of an element and a moment about it, absolute axes.
+/// A wrench: a force at the origin of an element and a moment about it, in absolute axes.
 #[derive(Clone, Copy)]
 pub(super) struct Wrench<'g> {
     pub(super) force: Vec3<'g>,
@@ -76,14 +77,14 @@ pub(super) struct Wrench<'g> {
 }
 
 impl<'g> Column<'g> {
-    /// s · f + e · n
+    /// The power s · f + e · n.
     fn power(&self, wrench: &Wrench<'g>) -> Expr<'g> {
         self.slide.dot(wrench.force) + self.axis.dot(wrench.moment)
     }
 }
 
 impl<'g> Wrench<'g> {
-    /// Nothing.
+    /// The wrench 0.
     pub(super) fn none(graph: &'g Graph) -> Self {
         Wrench {
             force: Vec3::zero(graph),
@@ -98,7 +99,7 @@ impl<'g> Wrench<'g> {
         }
     }
 
-    /// What the carrier of an element feels of a wrench on it.
+    /// The wrench that the carrier of an element feels from a wrench on the element.
     fn on_carrier(self, of: &ElementMotion<'g>) -> Self {
         let moment = of.offset.cross(self.force);
         Wrench {
@@ -111,7 +112,7 @@ impl<'g> Wrench<'g> {
     }
 }
 
-/// v̇ of a system in which freedoms follow others, by its S. Sets the rows of the system.
+/// Sets the rows of v̇ of a system in which degrees of freedom follow others, computed from its S.
 pub fn coupled_accelerations<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &Loads<'g>,
@@ -161,13 +162,13 @@ impl<'g, 'a> Spatial<'g, 'a> {
         identifier(self.model, self.id(element))
     }
 
-    /// Whether v are the rates of Bryant angles.
+    /// Whether v of an element are the rates of Bryant angles.
     pub(super) fn has_bryant_angles(&self, element: usize) -> bool {
         self.layout.orientation == Orientation::Bryant
             && self.of_system().elements[element].joint == Joint::Ball
     }
 
-    /// The velocities of an element's joint. Of a freedom that follows another, the column is that of the leader's velocity.
+    /// The velocities of an element's joint. If a degree of freedom follows another, its column belongs to the leader's velocity.
     fn columns(&self, element: usize) -> Vec<Column<'g>> {
         let motion = self.motion_of(element);
         let none = Vec3::zero(self.graph);
@@ -189,12 +190,12 @@ impl<'g, 'a> Spatial<'g, 'a> {
             .collect()
     }
 
-    /// Whether a freedom follows another: then S is not as sparse as the tree.
+    /// Whether a degree of freedom follows another. Then S is not as sparse as the tree.
     pub(super) fn is_coupled(&self) -> bool {
         self.of_system().is_coupled()
     }
 
-    /// The bodies alone, about their origins.
+    /// The bodies of single elements, about their origins.
     fn bodies(&self) -> Vec<AugmentedBody<'g>> {
         let elements = self.of_system().elements.iter().enumerate();
         let origin = Vec3::zero(self.graph);
@@ -212,7 +213,7 @@ impl<'g, 'a> Spatial<'g, 'a> {
             .collect()
     }
 
-    /// The acceleration of every origin when v̇ = 0, given that of the reference joint.
+    /// The acceleration of every origin for v̇ = 0, given that of the reference joint.
     fn origin_biases(&self, reference: Vec3<'g>) -> Vec<Vec3<'g>> {
         let mut biases: Vec<Vec3<'g>> = Vec::new();
         for (k, element) in self.of_system().elements.iter().enumerate() {
@@ -232,7 +233,7 @@ impl<'g, 'a> Spatial<'g, 'a> {
         biases
     }
 
-    /// The wrench that the body of an element needs when v̇ = 0, with this acceleration of its origin.
+    /// The wrench that the body of an element needs for v̇ = 0, given the acceleration of its origin.
     fn inertia(&self, k: usize, body: &AugmentedBody<'g>, acceleration: Vec3<'g>) -> Wrench<'g> {
         let motion = self.motion_of(k);
         Wrench {

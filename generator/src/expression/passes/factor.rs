@@ -1,13 +1,13 @@
-//! Fewer operations for the same values: a·x + b·x = (a + b)·x, c·(d·x) = (c d)·x, common pairs of operands of sums and
-//! products once, a/d and b/d by one reciprocal.
+//! Reduces operations without changing values: a·x + b·x = (a + b)·x and c·(d·x) = (c d)·x; common pairs of operands of
+//! sums and products are computed once; a/d and b/d share one reciprocal.
 //!
-//! Sums and products are taken apart into lists (`flatten`), what several lists have in common is shared
-//! (`pairs`), and the lists are put together again with common factors outside; until nothing is gained. Only what
-//! nothing else uses is taken apart, so no value is computed twice that was computed once. What depends on parameters alone
-//! comes first in a list, so that it forms one part that can be computed once per simulation; the rest by age, so that
-//! nothing waits for what could have been added last.
+//! Sums and products are taken apart into lists (`flatten`). Parts that several lists have in common are shared (`pairs`).
+//! Then the lists are put together again, with common factors outside. This is repeated until nothing is gained. A node is
+//! taken apart only if nothing else uses it, so no value is computed twice that was computed once. Operands that depend on
+//! parameters alone come first in a list, so that they form one part, which is computed once per simulation. The others are
+//! ordered by age, so that a sum need not wait for an operand that could have been added last.
 //!
-//! Values change by rounding only, as those of a + b + c do with the order. One reciprocal and k products stand for k
+//! Values change only by rounding, as those of a + b + c do with the order. One reciprocal and k products replace k
 //! quotients: one operation more, but a quotient takes as long as [`QUOTIENT`] products.
 
 use super::flatten::{Element, Flat, Role, Signed, flatten, unsigned};
@@ -18,13 +18,13 @@ use crate::expression::graph::{Expr, Graph};
 use crate::expression::live::{Dependence, Live};
 use crate::expression::node::{Node, NodeId};
 
-/// Products that take as long as a quotient.
+/// Number of products that take as long as a quotient.
 pub const QUOTIENT: usize = 4;
 
-/// Rounds at most; each is linear in the number of nodes, and later ones seldom gain anything.
+/// Largest number of rounds. Each is linear in the number of nodes, and later ones seldom gain anything.
 const ROUNDS: usize = 6;
 
-/// The graph with fewer operations.
+/// The same roots with fewer operations.
 pub fn factor(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     let mut best = rebuild(graph, roots);
     let mut least = costs(&best);
@@ -39,12 +39,12 @@ pub fn factor(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     best
 }
 
-/// What the pass makes smaller: operations, a quotient being several.
+/// The cost that the pass reduces: operations, where a quotient counts several times.
 pub fn cost(count: &Count) -> usize {
     count.total() + (QUOTIENT - 1) * count.div
 }
 
-/// Cost of what depends on more than parameters, then of all.
+/// The cost of nodes that depend on more than parameters, then the cost of all nodes.
 fn costs(rewritten: &Rewritten) -> (usize, usize) {
     let Rewritten { graph, roots } = rewritten;
     let live = Live::new(graph, roots);
@@ -69,7 +69,7 @@ fn round(graph: &Graph, roots: &[NodeId]) -> Rewritten {
         copy.enter_section_of(id);
         let new = match flat.role[at] {
             Role::Term(_) => continue,
-            // A sign of something that is part of a list is in that list.
+            // The sign of a member of a list is stored in that list.
             Role::Within => match node {
                 Node::Neg(a) => match copy.get(a) {
                     Some(a) => (-a).id(),
@@ -102,7 +102,7 @@ fn round(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     copy.finish(roots)
 }
 
-/// How many quotients have each node, or its negative, below.
+/// For each node, how many quotients have it, or its negative, as the denominator.
 fn divisions(graph: &Graph, live: &Live) -> Vec<u32> {
     let nodes = graph.nodes();
     let mut divisions = vec![0; nodes.len()];
@@ -114,7 +114,7 @@ fn divisions(graph: &Graph, live: &Live) -> Vec<u32> {
     divisions
 }
 
-/// Operands that are not part of a list are in the copy, being older than their users.
+/// Operands that are not members of a list are already copied, because they are older than their users.
 fn copied<'c>(copy: &'c Copier<'_>, id: NodeId) -> Expr<'c> {
     copy.get(id)
         .expect("operands are copied before their users")
@@ -124,23 +124,23 @@ fn signed(value: Expr<'_>, negative: bool) -> Expr<'_> {
     if negative { -value } else { value }
 }
 
-/// A term of a sum: a product of its own, or one operand.
+/// A term of a sum: a product that only this sum uses, or a single operand.
 struct Term {
     negative: bool,
     factors: Vec<Element>,
 }
 
-/// Lists being put together again.
+/// The lists while they are put together again.
 struct Lists {
-    /// Number of old nodes: beyond are pairs.
+    /// Number of old nodes; elements from this index on are pairs.
     nodes: usize,
-    /// True for products.
+    /// The pairs, with true for products.
     pairs: Vec<(Pair, bool)>,
-    /// By pair: where it is in the new graph.
+    /// For each pair, its node in the new graph.
     made: Vec<Option<NodeId>>,
-    /// By operand: its place among others.
+    /// For each operand, its position among others.
     order: Vec<(bool, Element)>,
-    /// By node: d for 1/d that is used once.
+    /// For each node that is 1/d and is used once, d.
     reciprocal_of: Vec<Option<NodeId>>,
 }
 
@@ -176,7 +176,7 @@ impl Lists {
         }
     }
 
-    /// Makes the pairs of a list, and the pairs in them.
+    /// Makes the pairs of a list, and the pairs inside them.
     fn make(&mut self, copy: &Copier<'_>, list: &Signed) {
         let mut wanted: Vec<Element> = list.iter().map(|&(_, e)| e).collect();
         while let Some(&element) = wanted.last() {
@@ -209,7 +209,7 @@ impl Lists {
         }
     }
 
-    /// An operand in the new graph; pairs must have been made.
+    /// An operand in the new graph; pairs must have been made before.
     fn value<'c>(&self, copy: &'c Copier<'_>, element: Element) -> Expr<'c> {
         match (element as usize).checked_sub(self.nodes) {
             None => copied(copy, NodeId(element)),
@@ -222,7 +222,7 @@ impl Lists {
 
     fn product<'c>(&self, copy: &'c Copier<'_>, mut factors: Vec<Element>) -> Expr<'c> {
         factors.sort_by_key(|&f| self.order[f as usize]);
-        // A reciprocal that nothing else uses is a quotient.
+        // A reciprocal that nothing else uses becomes a quotient.
         let below = |f: &Element| self.reciprocal_of.get(*f as usize).copied().flatten();
         let one = copy.graph().constant(1.0);
         let above = factors.iter().filter(|&f| below(f).is_none());
@@ -231,7 +231,7 @@ impl Lists {
         below.fold(product, |product, d| product / copied(copy, d))
     }
 
-    /// The terms of a sum, those that nothing else uses as their factors.
+    /// The terms of a sum. A term that nothing else uses is split into its factors.
     fn terms(&mut self, copy: &Copier<'_>, flat: &Flat, list: &Signed) -> Vec<Term> {
         self.make(copy, list);
         let mut terms = Vec::with_capacity(list.len());
@@ -254,7 +254,7 @@ impl Lists {
         terms
     }
 
-    /// The sum, common factors outside. Each level of recursion has a factor less.
+    /// The sum, with common factors outside. Each level of recursion has one factor less.
     fn sum<'c>(&self, copy: &'c Copier<'_>, terms: Vec<Term>) -> Expr<'c> {
         let mut parts: Vec<((bool, Element), Expr<'c>)> = Vec::with_capacity(terms.len());
         let mut terms: Vec<Option<Term>> = terms.into_iter().map(Some).collect();
@@ -294,7 +294,7 @@ impl Lists {
     }
 }
 
-/// Factors of more than one term and the terms that have them, the most frequent first.
+/// Factors that more than one term has, with these terms, the most frequent factor first.
 fn common_factors(terms: &[Option<Term>]) -> Vec<(Element, Vec<usize>)> {
     let mut entries: Vec<(Element, usize)> = Vec::new();
     for (at, term) in terms.iter().enumerate() {
@@ -439,7 +439,7 @@ mod tests {
         let roots = [nested.id(), long.id()];
         let new = factor(&graph, &roots);
         let [before, after] = [Count::of(&graph, &roots), Count::of(&new.graph, &new.roots)];
-        // c comes out of the long sum.
+        // c is taken out of the long sum.
         assert!(after.total() + 19_000 < before.total());
     }
 }

@@ -1,30 +1,31 @@
-//! Sums and products with any number of operands, seen through the binary nodes: a + b − (c − d) is the list a, b, −c, d.
+//! Sums and products with any number of operands, read from the binary nodes: a + b − (c − d) is the list a, b, −c, d.
 //!
-//! A sum goes into the list of the sum that uses it, if nothing else uses it; so does a product into a product. What is used
-//! more than once is an operand like any other. A sign belongs to the operand, never to a node of its own.
+//! A sum becomes part of the list of the sum that uses it, if nothing else uses it. The same holds for products. A node that is used more
+//! than once is an operand like any other. A sign belongs to the operand and is never a node of its own.
 //!
-//! A sum of one element does not go into that of another: it is what one passes on to the other, and one value. Its terms would be as many.
+//! A sum of one element does not become part of a sum of another element. It is the one value that one element passes to the other; its
+//! terms would be many.
 
 use crate::expression::graph::Graph;
 use crate::expression::live::Live;
 use crate::expression::node::{Node, NodeId};
 
-/// Index of an operand: a node, or, beyond the nodes, a pair found later.
+/// Index of an operand: a node, or, beyond the nodes, a pair that was found later.
 pub(super) type Element = u32;
 
 /// A list of operands with signs.
 pub(super) type Signed = Vec<(bool, Element)>;
 
-/// What a live node is.
+/// The role of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
-    /// Not needed, a sign, or part of the list of its only user.
+    /// Not needed, or a sign, or a member of the list of its only user.
     Within,
-    /// Index into the sums.
+    /// A sum: its index in `sums`.
     Sum(u32),
-    /// Index into the products.
+    /// A product: its index in `products`.
     Product(u32),
-    /// Index into the products; a term of one sum and nothing else.
+    /// A product that is a term of one sum and nothing else: its index in `products`.
     Term(u32),
     /// Anything else.
     Other,
@@ -32,17 +33,17 @@ pub(super) enum Role {
 
 /// The lists.
 pub(super) struct Flat {
-    /// By node.
+    /// The role of each node.
     pub role: Vec<Role>,
     /// Terms, ordered.
     pub sums: Vec<Signed>,
-    /// Factors, ordered, their signs being in `negative`.
+    /// Factors, ordered. The sign of the product is in `negative`.
     pub products: Vec<Signed>,
-    /// By product: true where it is the negative of its factors.
+    /// For each product, true if it is the negative of its factors.
     pub negative: Vec<bool>,
 }
 
-/// The node behind the signs of `id`.
+/// The node without its signs, and whether the sign is negative.
 pub(super) fn unsigned(nodes: &[Node], id: NodeId) -> (bool, NodeId) {
     let (mut negative, mut id) = (false, id);
     while let Node::Neg(a) = nodes[id.0 as usize] {
@@ -73,7 +74,7 @@ pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
         products: Vec::new(),
         negative: Vec::new(),
     };
-    // Lists of nodes that are part of a list still to come.
+    // Lists of nodes that will become part of a list of a later node.
     let mut open: Vec<Signed> = vec![Vec::new(); nodes.len()];
     for &id in live.nodes() {
         let at = id.0 as usize;
@@ -95,7 +96,7 @@ pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
                     for (sign, _) in &mut inner {
                         *sign ^= negative;
                     }
-                    // The longer list stays where it is: appending it each time would take quadratic time.
+                    // The longer list stays where it is, because appending it each time would take quadratic time.
                     if inner.len() > list.len() {
                         std::mem::swap(&mut inner, &mut list);
                     }
@@ -158,7 +159,7 @@ fn is_product(node: &Node) -> bool {
     matches!(node, Node::Mul(..))
 }
 
-/// Ordered, and without a and −a.
+/// The terms, ordered, without pairs a and −a.
 fn without_opposites(mut terms: Signed) -> Signed {
     terms.sort_unstable_by_key(|&(sign, term)| (term, sign));
     let mut kept = Signed::with_capacity(terms.len());
@@ -173,7 +174,7 @@ fn without_opposites(mut terms: Signed) -> Signed {
     kept
 }
 
-/// Who uses each node, signs being looked through.
+/// The users of each node. Signs are skipped: a user of −a counts as a user of a.
 struct Users {
     count: Vec<u32>,
     last: Vec<Option<NodeId>>,
@@ -205,7 +206,7 @@ impl Users {
         self.last[base] = user;
     }
 
-    /// The only user, if there is one and it is a node.
+    /// The only user, if there is exactly one and it is a node.
     fn only(&self, id: NodeId) -> Option<NodeId> {
         match self.count[id.0 as usize] {
             1 => self.last[id.0 as usize],

@@ -1,18 +1,19 @@
-//! Selects fused multiply-adds: a·b + c, a·b − c, c − a·b and −a·b − c in one rounding each.
+//! Selects fused multiply-adds: a·b + c, a·b − c, c − a·b and −a·b − c, each with one rounding.
 //!
-//! A product is fused with the sum that uses it, if nothing else does: a fused product is not there for anyone else, and
-//! computing it twice would save nothing. Signs go to the operands, where they are free: c − a·b = (−a)·b + c,
+//! A product is fused with the sum that uses it, if nothing else uses it: a fused product is not available elsewhere, and
+//! computing it twice would save nothing. Signs go to the operands, where they cost nothing: c − a·b = (−a)·b + c,
 //! −(a·b + c) = (−a)·b + (−c). A sum of products becomes a chain: a·b + c·d + e·f = fma(e, f, fma(c, d, a·b)).
 //!
-//! What depends on parameters alone is left in one piece where its user depends on more: it is computed once per simulation.
+//! A product that depends on parameters alone is not fused if its user depends on more, because it is computed once per
+//! simulation.
 
 use super::rebuild::{Copier, Rewritten, mul_add};
 use crate::expression::graph::{Expr, Graph, opposite_name};
 use crate::expression::live::{Dependence, Live};
 use crate::expression::node::{Node, NodeId};
 
-/// The graph with fused multiply-adds. The roots are those of one evaluation: a product that another of them uses too is
-/// not fused.
+/// The graph with fused multiply-adds. All roots belong to one evaluation: a product that another root uses, too, is not
+/// fused.
 pub fn fuse(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     let live = Live::new(graph, roots);
     let fused = select(graph, &live);
@@ -40,15 +41,15 @@ pub fn fuse(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     copy.finish(roots)
 }
 
-/// What becomes of a node.
+/// How a node is translated.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Choice {
     Keep,
-    /// A product, or a sum to be negated, that its only user computes.
+    /// A product, or a sum that is negated: its only user computes it.
     Absorbed,
-    /// A sum or difference that computes this product, one of its operands.
+    /// A sum or difference that is fused with this product, one of its operands.
     Fuse(NodeId),
-    /// The negative of this sum, which computes this product.
+    /// The negative of this sum, fused with this product.
     FuseNegative(NodeId, NodeId),
 }
 
@@ -68,7 +69,7 @@ fn select(graph: &Graph, live: &Live) -> Vec<Choice> {
                     && (!dependence.within(Dependence::PARAMETERS)
                         || live.dependence(id).within(Dependence::PARAMETERS))
             };
-            // Of two products the one that is ready later: the other one is then computed in its shadow.
+            // Of two products, the one that is ready later is fused; the other one is computed in the meantime.
             let product = [a, b]
                 .into_iter()
                 .filter(free)
@@ -77,7 +78,7 @@ fn select(graph: &Graph, live: &Live) -> Vec<Choice> {
                 choice[at] = Choice::Fuse(product);
                 choice[product.0 as usize] = Choice::Absorbed;
                 let addend = if product == a { b } else { a };
-                // The product alone would have cost as much as the fused operation does.
+                // The product alone would have taken as long as the fused operation.
                 latency[at] = ready(product).max(ready(addend) + cost(&node));
                 continue;
             }
@@ -96,7 +97,7 @@ fn select(graph: &Graph, live: &Live) -> Vec<Choice> {
     choice
 }
 
-/// ±(± a · b ± c) for a sum or difference one of whose operands is the product a · b.
+/// ±(± a · b ± c), for a sum or difference that has the product a · b as an operand.
 fn fused_sum(graph: &Graph, copy: &Copier<'_>, sum: Node, product: NodeId, negate: bool) -> NodeId {
     let [x, y] = match sum {
         Node::Add(x, y) | Node::Sub(x, y) => [x, y],
@@ -110,7 +111,7 @@ fn fused_sum(graph: &Graph, copy: &Copier<'_>, sum: Node, product: NodeId, negat
     };
     let mut addend = copied(copy, if first { y } else { x });
     if negate != (minus_y && !first) {
-        // The sign of a number costs nothing at all.
+        // The sign of a number costs nothing.
         match b.as_constant() {
             Some(_) => b = -b,
             None => a = -a,
@@ -122,13 +123,13 @@ fn fused_sum(graph: &Graph, copy: &Copier<'_>, sum: Node, product: NodeId, negat
     mul_add(a, b, addend).id()
 }
 
-/// Operands of live nodes that were not absorbed are in the copy, being older than their users.
+/// Operands of live nodes that were not absorbed are already copied, because they are older than their users.
 fn copied<'c>(copy: &'c Copier<'_>, id: NodeId) -> Expr<'c> {
     copy.get(id)
         .expect("operands are copied before their users")
 }
 
-/// Rough latency in cycles of current processors; it decides only which of two products is fused.
+/// The approximate latency in cycles of current processors. It only decides which of two products is fused.
 fn cost(node: &Node) -> u32 {
     match node {
         Node::Constant(_) | Node::Symbol(_) => 0,
@@ -151,7 +152,7 @@ mod tests {
         [0, 1, 2, 3, 4, 5].map(|i| graph.symbol(Symbol::Coordinate(i)))
     }
 
-    /// The only root after fusing, as nested text.
+    /// The single root after fusing, as nested text.
     fn fused(graph: &Graph, root: Expr<'_>) -> String {
         let new = fuse(graph, &[root.id()]);
         write(&new.graph, new.roots[0])
@@ -177,7 +178,7 @@ mod tests {
         let [a, b, c, ..] = inputs(&graph);
         assert_eq!(fused(&graph, a * b + c), "fma(a, b, c)");
         assert_eq!(fused(&graph, c - a * b), "fma(-a, b, c)");
-        // Older operands first: a·b − c is −(c − a·b) to the graph.
+        // In the graph a·b − c is −(c − a·b), because older operands come first.
         assert_eq!(fused(&graph, a * b - c), "fma(a, b, -c)");
         assert_eq!(fused(&graph, -(a * b) - c), "fma(-a, b, -c)");
         let product = a * b;
@@ -248,7 +249,7 @@ mod tests {
     fn names_return_to_what_they_were_given_to() {
         let graph = Graph::new();
         let [a, b, c, ..] = inputs(&graph);
-        // To the graph this is −(c − a·b).
+        // In the graph this is −(c − a·b).
         let value = a * b - c;
         graph.name(value, "w");
         let new = fuse(&graph, &[value.id()]);

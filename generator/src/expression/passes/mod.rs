@@ -1,9 +1,9 @@
-//! Passes: a graph and its roots go in, a smaller or better one comes out. Sections and names are kept.
+//! Passes: each turns a graph and its roots into a smaller or better graph. Sections and names are kept.
 //!
-//! [`rebuild()`] drops what is not needed, [`join()`] makes one graph of several, [`replace()`] drops what is known already, [`factor()`]
-//! lowers the number of operations, [`fuse()`] selects fused multiply-adds and comes last. [`repeat()`] then undoes some sharing of what is
-//! evaluated in a certain order. [`recall()`] alone works on an expression of a graph that goes on to grow. The roots should be those of one evaluation: what is used once by each of two functions is not shared
-//! between them.
+//! [`rebuild()`] drops nodes that are not needed. [`join()`] merges several graphs. [`replace()`] replaces values that are already known.
+//! [`factor()`] reduces the number of operations. [`fuse()`] selects fused multiply-adds and comes last. [`repeat()`] then undoes some sharing
+//! between nodes that are evaluated far apart. [`recall()`] works on an expression of a graph that continues to grow. The roots should be those of
+//! one evaluation: a value that two functions use once each is not shared between them.
 
 pub mod factor;
 mod flatten;

@@ -1,13 +1,13 @@
-//! Pairs of operands that several sums (or several products) have in common, the most frequent first: with
-//! a + b + c and a + b − d the pair a + b is computed once. Of sums, pairs are equal up to sign: a − b serves c + b − a.
+//! Pairs of operands that several sums (or several products) have in common, the most frequent first. With a + b + c and
+//! a + b − d the pair a + b is computed once. In sums, pairs are equal up to sign: a − b serves c + b − a.
 //!
-//! Taking a pair out of k lists saves k − 1 operations, so it never costs any.
+//! Taking a pair out of k lists saves k − 1 operations, so it never adds any.
 
 use super::flatten::{Element, Signed};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Operands further apart than this in a long list are not paired, so that time stays linear in its length.
+/// The largest distance of paired operands in a list, so that time stays linear in the length of the list.
 const WINDOW: usize = 16;
 
 /// A new operand: first + second, first − second or first · second.
@@ -15,12 +15,12 @@ const WINDOW: usize = 16;
 pub(super) struct Pair {
     pub first: Element,
     pub second: Element,
-    /// True where the second has the opposite sign.
+    /// True if the second operand has the opposite sign.
     pub opposite: bool,
 }
 
-/// Takes pairs that occur in two lists or more out of the lists. The new operands are numbered from `next`; a pair
-/// refers to older ones. Lists must be ordered by operand, and stay so.
+/// Takes pairs that occur in at least two lists out of the lists. The new operands are numbered from `next`. A pair may
+/// contain older pairs. Lists must be ordered by operand, and stay so.
 pub(super) fn extract_pairs(lists: &mut [Signed], next: Element) -> Vec<Pair> {
     let mut entries = Vec::new();
     for (at, list) in lists.iter().enumerate() {
@@ -35,7 +35,7 @@ pub(super) fn extract_pairs(lists: &mut [Signed], next: Element) -> Vec<Pair> {
     let mut pairs = Vec::new();
     while let Some((count, Reverse(key), mut occurrences)) = queue.pop() {
         let pair = pair(key);
-        // Earlier pairs may have used the operands up.
+        // Earlier pairs may already have used these operands.
         occurrences.retain(|&at| sign_of(&lists[at as usize], pair).is_some());
         if occurrences.len() < count {
             if occurrences.len() > 1 {
@@ -62,7 +62,7 @@ pub(super) fn extract_pairs(lists: &mut [Signed], next: Element) -> Vec<Pair> {
     pairs
 }
 
-/// How often, which, where.
+/// The number of occurrences, the pair, and the lists that have it.
 type Candidate = (usize, Reverse<Key>, Vec<u32>);
 
 type Key = (Element, Element, bool);
@@ -79,7 +79,7 @@ fn pair((first, second, opposite): Key) -> Pair {
     }
 }
 
-/// Queues what occurs in more than one list.
+/// Queues the pairs that occur in more than one list.
 fn push_groups(queue: &mut BinaryHeap<Candidate>, mut entries: Vec<(Key, u32)>) {
     entries.sort_unstable();
     entries.dedup();
@@ -91,7 +91,7 @@ fn push_groups(queue: &mut BinaryHeap<Candidate>, mut entries: Vec<(Key, u32)>) 
     }
 }
 
-/// The sign of the pair in the list, if it is there.
+/// The sign of the pair in the list, if the list has it.
 fn sign_of(list: &Signed, pair: Pair) -> Option<bool> {
     let find = |element| {
         let start = list.partition_point(|&(_, e)| e < element);

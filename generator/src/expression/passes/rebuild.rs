@@ -1,6 +1,7 @@
-//! Copies what some roots need into a new graph, node by node: the plumbing of every pass.
+//! Copies the nodes that some roots need into a new graph, one by one. Every pass uses this.
 //!
-//! What is not needed stays behind, the folding constructors see every node again, and sections and names go with the nodes.
+//! Nodes that are not needed are left behind, the folding constructors see every node again, and sections and names are
+//! kept.
 
 use crate::expression::graph::{Expr, Graph};
 use crate::expression::live::Live;
@@ -8,9 +9,9 @@ use crate::expression::node::{Node, NodeId};
 
 /// A graph that replaces another one.
 pub struct Rewritten {
-    /// The new graph: its sections have the indices that they had.
+    /// The new graph. Its sections have the same indices as before.
     pub graph: Graph,
-    /// The roots in it, in the order given.
+    /// The roots in the new graph, in the order given.
     pub roots: Vec<NodeId>,
 }
 
@@ -23,7 +24,8 @@ pub fn rebuild(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     copy.finish(roots)
 }
 
-/// What several graphs compute in one, with the roots of one after those of the other; equal operations become one.
+/// One graph with everything that several graphs compute; the roots of one follow those of the other. Equal operations
+/// become one.
 pub fn join(parts: &[(&Graph, &[NodeId])]) -> Rewritten {
     let mut joined = Rewritten {
         graph: Graph::new(),
@@ -41,14 +43,14 @@ pub fn join(parts: &[(&Graph, &[NodeId])]) -> Rewritten {
     joined
 }
 
-/// A copy in progress. Nodes are to be handed over in order of creation.
+/// A copy in progress. Nodes must be copied in order of creation.
 pub(super) struct Copier<'a> {
     old: &'a Graph,
     new: Graph,
-    /// By old node: where it went.
+    /// For each old node, its new node.
     map: Vec<Option<NodeId>>,
     section: usize,
-    /// By section of the old graph: its index in the new one.
+    /// For each section of the old graph, its index in the new one.
     sections: Vec<u32>,
 }
 
@@ -57,9 +59,9 @@ impl<'a> Copier<'a> {
         Self::onto(Graph::new(), old)
     }
 
-    /// A copy into a graph that may have nodes and sections already.
+    /// A copy into a graph that may already have nodes and sections.
     pub fn onto(new: Graph, old: &'a Graph) -> Self {
-        // All sections from the start, so that in an empty graph each keeps its index.
+        // All sections are created at the start, so that in an empty graph each keeps its index.
         let sections = old.sections();
         let enter = |section: &String| {
             new.section(section.as_str());
@@ -75,12 +77,12 @@ impl<'a> Copier<'a> {
         }
     }
 
-    /// The graph under construction.
+    /// The new graph under construction.
     pub fn graph(&self) -> &Graph {
         &self.new
     }
 
-    /// From here on, new nodes belong to the section of this old one.
+    /// From here on, new nodes belong to the section of this old node.
     pub fn enter_section_of(&mut self, id: NodeId) {
         let section = self.old.section_of(id);
         if section != self.section {
@@ -89,12 +91,12 @@ impl<'a> Copier<'a> {
         }
     }
 
-    /// Where an old node went, if it was copied.
+    /// The new node of an old node, if it was copied.
     pub fn get(&self, id: NodeId) -> Option<Expr<'_>> {
         self.map[id.0 as usize].map(|id| self.new.expr(id))
     }
 
-    /// Says where an old node went; its name goes along.
+    /// Sets the new node of an old node; the name is copied, too.
     pub fn set(&mut self, id: NodeId, new: NodeId) {
         self.map[id.0 as usize] = Some(new);
         if self.old.is_named(id)
@@ -104,7 +106,7 @@ impl<'a> Copier<'a> {
         }
     }
 
-    /// Copies a node by the folding constructors; its operands must have been copied.
+    /// Copies a node with the folding constructors. Its operands must have been copied before.
     pub fn fold(&mut self, id: NodeId) {
         self.enter_section_of(id);
         let operand = |id: NodeId| self.new.expr(self.target(id));
@@ -112,7 +114,7 @@ impl<'a> Copier<'a> {
         self.set(id, new);
     }
 
-    /// Copies a node as it is; its operands must have been copied.
+    /// Copies a node as it is. Its operands must have been copied before.
     pub fn keep(&mut self, id: NodeId) {
         self.enter_section_of(id);
         let node = self.old.node(id).map_operands(|id| self.target(id));
@@ -120,7 +122,7 @@ impl<'a> Copier<'a> {
         self.set(id, new);
     }
 
-    /// Copies a node as it is once more, though an equal one may be there: from here on the new one is meant.
+    /// Makes a second copy of a node as it is, even if an equal one exists. From here on users get the new one.
     pub fn repeat(&mut self, id: NodeId) {
         self.enter_section_of(id);
         let node = self.old.node(id).map_operands(|id| self.target(id));
@@ -137,7 +139,8 @@ impl<'a> Copier<'a> {
         }
     }
 
-    /// Where an old node went. Operands and roots of live nodes are live and older than their users, so they are there.
+    /// The new node of an old node. Operands and roots of live nodes are live and older than their users, so they were
+    /// copied.
     fn target(&self, id: NodeId) -> NodeId {
         self.map[id.0 as usize].expect("nodes are copied in order of creation")
     }
@@ -163,7 +166,7 @@ pub(super) fn construct<'g>(
         Node::Atan2(a, b) => operand(a).atan2(operand(b)),
         Node::Max(a, b) => operand(a).max(operand(b)),
         Node::Min(a, b) => operand(a).min(operand(b)),
-        // A call's operands stay grouped as they are.
+        // The operands of a call keep their packing.
         Node::Call(function, arguments) => {
             graph.intern(Node::Call(function, arguments.map(|id| operand(id).id())))
         }
@@ -173,7 +176,7 @@ pub(super) fn construct<'g>(
     }
 }
 
-/// a · b + c in one rounding; where nothing is to be rounded twice, the plain operations, folded.
+/// a · b + c with one rounding; folded plain operations if nothing would be rounded twice.
 pub(super) fn mul_add<'g>(a: Expr<'g>, b: Expr<'g>, c: Expr<'g>) -> Expr<'g> {
     let trivial = |x: Expr<'g>| x.is_zero() || x.is_one();
     if trivial(a) || trivial(b) || c.is_zero() {
@@ -199,7 +202,7 @@ mod tests {
             copy.graph.len(),
             Live::new(&graph, &[value.id()]).nodes().len()
         );
-        // A second copy has nothing left to do.
+        // A second rebuild changes nothing.
         let again = rebuild(&copy.graph, &copy.roots);
         assert_eq!(*again.graph.nodes(), *copy.graph.nodes());
         assert_eq!(again.roots, copy.roots);
@@ -217,7 +220,7 @@ mod tests {
         };
         let (of_a, of_b) = (make(&a, "element head"), make(&b, "element arm"));
         let both = join(&[(&a, &of_a[..1]), (&b, &of_b[..])]);
-        // two inputs, the product, the sum, and the root that only the second asks for
+        // two inputs, the product, the sum, and the root that only the second graph has
         assert_eq!(both.graph.len(), 5);
         assert_eq!(both.roots[0], both.roots[1]);
         let section = |root: usize| both.graph.section_of(both.roots[root]);

@@ -1,4 +1,4 @@
-//! Calls other functions in the place of some, in one expression of a graph that goes on to grow.
+//! Replaces functions that are called, in one expression of a graph that continues to grow.
 
 use super::rebuild::construct;
 use crate::expression::graph::Expr;
@@ -6,7 +6,7 @@ use crate::expression::live::Live;
 use crate::expression::node::{Function, Node, NodeId};
 use rustc_hash::FxHashMap;
 
-/// The expression with what `of` says called in the place of each function. What calls nothing that changes stays as it is.
+/// The expression with each called function replaced by `of` of it. Nodes that call no replaced function stay as they are.
 pub fn recall<'g>(expression: Expr<'g>, of: impl Fn(Function) -> Function) -> Expr<'g> {
     let (graph, root) = (expression.graph(), expression.id());
     let mut moved: FxHashMap<NodeId, NodeId> = FxHashMap::default();

@@ -1,12 +1,12 @@
-//! Puts inputs in the place of values that are known before: what lies below them is no longer needed.
+//! Replaces values that are already known by inputs. The nodes below them are then not needed.
 
 use super::rebuild::{Copier, Rewritten};
 use crate::expression::graph::Graph;
 use crate::expression::node::{Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 
-/// The graph without what lies below the replaced nodes. A replaced node becomes the input, or its negative where the
-/// flag is set.
+/// The graph with each replaced node turned into the input, or into its negative if the flag is set. Nodes that only
+/// replaced nodes need are left out.
 pub fn replace(
     graph: &Graph,
     roots: &[NodeId],
@@ -29,7 +29,7 @@ pub fn replace(
     copy.finish(roots)
 }
 
-/// What the roots need, in order of creation, if nothing below the replaced nodes is needed for them.
+/// The nodes that the roots need, in order of creation, without those below replaced nodes.
 fn needed(graph: &Graph, roots: &[NodeId], by: &FxHashMap<NodeId, (Symbol, bool)>) -> Vec<NodeId> {
     let nodes = graph.nodes();
     let mut needed = vec![false; nodes.len()];

@@ -5,8 +5,8 @@ use super::listing::{Line, Notation, Operand, listing};
 use crate::expression::graph::Graph;
 use crate::expression::node::NodeId;
 
-/// The roots as equations, after definitions of what they share, the sections as lines of text. The names of roots and
-/// inputs are LaTeX already; those of nodes and functions are identifiers.
+/// The roots as equations, after definitions of the values that they share, with the sections as lines of text. The
+/// names of roots and inputs are already LaTeX; those of nodes and functions are identifiers.
 pub fn latex(graph: &Graph, roots: &[(String, NodeId)], names: &Names<'_>) -> String {
     let mut lines = Vec::new();
     for line in listing(graph, roots, names, &Latex) {
@@ -45,7 +45,7 @@ pub fn identifier(name: &str) -> String {
     }
 }
 
-/// Words stand upright, letters and numbers as they are.
+/// Sets words upright; letters and numbers stay as they are.
 fn upright(part: &str) -> String {
     let number = part.chars().all(|c| c.is_ascii_digit());
     match number || part.chars().count() == 1 {
@@ -54,7 +54,7 @@ fn upright(part: &str) -> String {
     }
 }
 
-/// Text without what means something to TeX.
+/// Escapes characters that have a meaning in TeX.
 fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,9 +1,9 @@
-//! What is written out: which values get a line of their own, and how the rest is put together.
+//! The text of a listing: which values get a line of their own, and how the rest is written.
 //!
-//! A line of its own gets what has a name, what is used more than once and is not cheap to repeat, and what would make
-//! another line too long. Sums are lists of signed terms and products lists of factors, in the order in which they were
-//! made, so that signs fold (a − (b − c) is a − b + c) and no parenthesis is needed that a reader does not need. That
-//! is a matter of reading: the order in which a sum is rounded is not shown.
+//! A value gets a line of its own if it has a name, if it is used more than once and is not cheap to repeat, or if
+//! another line would become too long without it. Sums are lists of signed terms and products lists of factors, in the
+//! order in which they were made. So signs fold (a − (b − c) is a − b + c) and there are no superfluous parentheses.
+//! The listing is for reading: it does not show the order in which a sum is rounded.
 
 use super::Names;
 use crate::expression::graph::Graph;
@@ -12,28 +12,28 @@ use crate::expression::node::{Function, Node, NodeId, Symbol};
 use rustc_hash::FxHashSet;
 use std::mem::take;
 
-/// Characters beyond which part of a line gets a line of its own.
+/// The length in characters above which a part of a line gets a line of its own.
 const LONGEST: usize = 160;
 
-/// How things look.
+/// The notation of a language.
 pub(super) trait Notation {
     /// A finite number ≥ 0 or one that is not finite.
     fn number(&self, value: f64) -> String;
     fn input(&self, name: String) -> String;
-    /// A value with a line of its own.
+    /// The name of a value with a line of its own.
     fn defined(&self, name: &str) -> String;
     fn parenthesised(&self, inner: &str) -> String;
-    /// Between factors.
+    /// The sign between factors.
     fn times(&self) -> &'static str;
-    /// Operands carry no parentheses yet; what comes back needs none in a product.
+    /// A quotient. The operands have no parentheses yet; the result needs none in a product.
     fn quotient(&self, above: Operand, below: Operand) -> String;
     fn sqrt(&self, inner: &str) -> String;
-    /// sin, cos, atan2, max, min.
+    /// A call of sin, cos, atan2, max or min.
     fn standard(&self, name: &'static str, arguments: &[String]) -> String;
     fn call(&self, name: &str, arguments: &[String]) -> String;
 }
 
-/// An operand and how tightly it holds together.
+/// The text of an operand, and how tightly it binds.
 pub(super) struct Operand {
     pub text: String,
     pub form: Binding,
@@ -48,15 +48,15 @@ pub(super) enum Binding {
 
 /// A line of the listing.
 pub(super) enum Line {
-    /// From here on, definitions of this section.
+    /// The definitions of this section follow.
     Section(String),
-    /// From here on, results.
+    /// The results follow.
     Results,
     /// name = value
     Equation { name: String, value: String },
 }
 
-/// Definitions by section, then the roots under their names.
+/// The definitions by section, then the roots under their names.
 pub(super) fn listing(
     graph: &Graph,
     roots: &[(String, NodeId)],
@@ -109,7 +109,7 @@ pub(super) fn listing(
     writer.lines
 }
 
-/// What is repeated rather than defined.
+/// Whether a node is repeated rather than defined.
 fn cheap(graph: &Graph, node: Node) -> bool {
     match node {
         Node::Constant(_) | Node::Symbol(_) | Node::Neg(_) => true,
@@ -118,7 +118,7 @@ fn cheap(graph: &Graph, node: Node) -> bool {
     }
 }
 
-/// How often each node would be written, did every value that is not cheap have a line of its own.
+/// How often each node would be written if every value that is not cheap had a line of its own.
 fn occurrences(graph: &Graph, live: &Live) -> Vec<u32> {
     let mut occurrences = vec![0u32; graph.len()];
     for root in live.roots() {
@@ -139,10 +139,10 @@ fn occurrences(graph: &Graph, live: &Live) -> Vec<u32> {
     occurrences
 }
 
-/// A signed value, in parts.
+/// The parts of a signed value.
 #[derive(Clone)]
 struct Piece {
-    /// Never set for sums: their terms have signs.
+    /// Whether the value is negated; never for sums, whose terms have signs.
     negative: bool,
     form: Form,
 }
@@ -159,7 +159,7 @@ enum Form {
 struct Factor {
     made: Order,
     text: String,
-    /// Text of the negative, where that is no longer.
+    /// The text of the negative, if it is not longer.
     opposite: Option<String>,
 }
 
@@ -170,7 +170,7 @@ struct Term {
     text: String,
 }
 
-/// Numbers first, then by age, quotients last in a product.
+/// Sort key: numbers first, then by age; quotients come last in a product.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Order(u8, NodeId);
 
@@ -196,7 +196,7 @@ impl Piece {
         self.settled()
     }
 
-    /// The sign of a product goes into one of its sums: −a (b − c) is a (c − b).
+    /// Moves the sign of a product into one of its sums: −a (b − c) is a (c − b).
     fn settled(mut self) -> Self {
         if let Form::Product(factors) = &mut self.form
             && self.negative
@@ -222,9 +222,9 @@ struct Writer<'a> {
     graph: &'a Graph,
     names: &'a Names<'a>,
     notation: &'a dyn Notation,
-    /// By node.
+    /// The piece of each node.
     pieces: Vec<Piece>,
-    /// By node: true for what has a line of its own.
+    /// For each node, whether it has a line of its own.
     defined: Vec<bool>,
     lines: Vec<Line>,
     section: String,
@@ -281,14 +281,14 @@ impl Writer<'_> {
         }
     }
 
-    /// Gives the longest operands lines of their own until the rest fits one line.
+    /// Gives the longest operands lines of their own until the rest fits on one line.
     fn keep_short(&mut self, node: Node) {
         loop {
             let length = |id: NodeId| self.pieces[id.0 as usize].length();
             let total: usize = node.operands().map(length).sum();
             let longest = node.operands().max_by_key(|&id| length(id));
             match longest {
-                // Names can be long too; another line would not shorten them.
+                // Names can be long, too; a further line would not shorten them.
                 Some(id) if total > LONGEST && length(id) > LONGEST / 4 && !self.named(id) => {
                     self.define(id);
                 }
@@ -297,7 +297,7 @@ impl Writer<'_> {
         }
     }
 
-    /// True for what is written by its name.
+    /// True if the value is written by its name.
     fn named(&self, id: NodeId) -> bool {
         self.defined[id.0 as usize] || matches!(self.graph.node(id), Node::Symbol(_))
     }
@@ -360,7 +360,7 @@ impl Writer<'_> {
             Form::Sum(mut terms) => {
                 let text = self.notation.parenthesised(&sum_text(&terms));
                 terms.iter_mut().for_each(|t| t.negative = !t.negative);
-                // Of a + b the negative is longer, and no better in a product.
+                // The negative of a + b is longer, and no better in a product.
                 let opposite = Some(self.notation.parenthesised(&sum_text(&terms)))
                     .filter(|opposite| opposite.len() <= text.len());
                 vec![Factor {
@@ -377,7 +377,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The age of a value, whatever its sign.
+    /// The age of a value, without regard to its sign.
     fn age(&self, id: NodeId) -> NodeId {
         match self.graph.node(id) {
             Node::Neg(a) => a,
@@ -396,7 +396,7 @@ impl Writer<'_> {
         Piece::atom(self.notation.call(&name, &texts))
     }
 
-    /// Without the sign of the whole.
+    /// The operand without the sign of the whole.
     fn unsigned(&self, piece: &Piece) -> Operand {
         let (text, form) = match &piece.form {
             Form::Atom(text) => (text.clone(), Binding::Atom),
@@ -418,7 +418,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Gives a node a line of its own; from here on it is written by its name.
+    /// Gives a node a line of its own. From here on it is written by its name.
     fn define(&mut self, id: NodeId) {
         let piece = take(&mut self.pieces[id.0 as usize]);
         let value = self.signed(&piece);
@@ -458,7 +458,7 @@ impl Writer<'_> {
     }
 }
 
-/// The terms with their signs, a positive one first if there is one.
+/// The terms with their signs. A positive one comes first, if there is one.
 fn sum_text(terms: &[Term]) -> String {
     let first = terms.iter().position(|t| !t.negative).unwrap_or(0);
     let mut text = String::new();

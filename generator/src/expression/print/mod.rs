@@ -1,4 +1,4 @@
-//! Expressions as people read them: definitions of what is used more than once, then the results.
+//! Expressions for people to read: first definitions of values that are used more than once, then the results.
 //!
 //! ```text
 //! # element head: orientation
@@ -8,7 +8,8 @@
 //! b = q2 - t1*t1
 //! ```
 //!
-//! `listing` decides what is written out and where signs and parentheses go; [`text()`] and [`latex()`] decide how it looks.
+//! `listing` decides which values are written out and where signs and parentheses go. [`text()`] and [`latex()`] decide how
+//! it looks.
 
 pub mod latex;
 mod listing;
@@ -20,7 +21,7 @@ use std::cmp::Ordering;
 pub use latex::latex;
 pub use text::text;
 
-/// What inputs and functions are called.
+/// The names of inputs and functions.
 #[derive(Clone, Copy)]
 pub struct Names<'a> {
     /// Name of an input.
@@ -30,7 +31,7 @@ pub struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    /// Inputs by this function, curves by their index, force laws by their names.
+    /// Names inputs by this function, curves by their index, and force laws by their names.
     pub fn of_inputs(symbol: &'a dyn Fn(Symbol) -> String) -> Self {
         Names {
             symbol,
@@ -39,7 +40,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// `t`, `q1`, `v1`, `p1` …: for expressions that belong to no model.
+/// `t`, `q1`, `v1`, `p1` …: names for expressions that belong to no model.
 pub fn symbol_name(symbol: Symbol) -> String {
     match symbol {
         Symbol::Time => "t".to_string(),

@@ -1,11 +1,12 @@
-//! Expressions as plain text: `a = t1 + 2*q3`. What is written can be pasted into any algebra program.
+//! Expressions as plain text: `a = t1 + 2*q3`. The text can be pasted into any algebra program.
 
 use super::Names;
 use super::listing::{Binding, Line, Notation, Operand, listing};
 use crate::expression::graph::Graph;
 use crate::expression::node::NodeId;
 
-/// The roots as equations `name = value`, after definitions of what they share; a line each, the sections as headings.
+/// The roots as equations `name = value`, after definitions of the values that they share: one line each, with the
+/// sections as headings.
 pub fn text(graph: &Graph, roots: &[(String, NodeId)], names: &Names<'_>) -> String {
     let mut text = String::new();
     for line in listing(graph, roots, names, &Text) {
@@ -24,7 +25,7 @@ struct Text;
 
 impl Notation for Text {
     fn number(&self, value: f64) -> String {
-        // Debug is the shortest text that reads back as the same number, exponents included.
+        // Debug gives the shortest text that reads back as the same number, with exponents.
         let text = format!("{value:?}");
         text.strip_suffix(".0").unwrap_or(&text).to_string()
     }
@@ -184,7 +185,7 @@ mod tests {
         let long = written(&graph, nested);
         let longest = long.lines().map(str::len).max();
         assert!(longest < Some(200), "{longest:?}");
-        // Every operation is still there: two signs between terms and one between factors at each level.
+        // No operation is lost: two signs between terms and one between factors at each level.
         let signs = |sign: &str| long.matches(sign).count();
         assert_eq!([signs(" + ") + signs(" - "), signs("*")], [100_000, 50_000]);
     }

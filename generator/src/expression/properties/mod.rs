@@ -1,8 +1,8 @@
 //! Properties of the symbolic core on random expressions.
 //!
-//! Every value carries a bound of its own rounding error (running error analysis, [`Bounded`]), and two ways to compute the
-//! same thing may differ by twice the sum of their bounds: once for the roundings of each way, once for the numbers that
-//! were folded beforehand, whose roundings the way that did not fold them has in its bound.
+//! Every value carries a bound of its own rounding error (running error analysis, [`Bounded`]). Two ways to compute the
+//! same value may differ by twice the sum of their bounds: once for the roundings of each way, and once for numbers that
+//! were folded beforehand, whose roundings only the bound of the other way contains.
 
 mod parse;
 mod program;
@@ -102,11 +102,11 @@ proptest! {
         let roots = build(&graph, &program);
         let before = Count::of(&graph, &roots);
         prop_assert!(counted(&rebuild(&graph, &roots)).total() <= before.total());
-        // Fusing joins two operations that both have to be counted.
+        // Fusing joins two operations, both of which are counted.
         prop_assert_eq!(counted(&fuse(&graph, &roots)).total(), before.total());
         let after = counted(&factor(&graph, &roots));
         prop_assert!(super::passes::factor::cost(&after) <= super::passes::factor::cost(&before));
-        // Only a reciprocal may add an operation, and it stands for two quotients at least.
+        // Only a reciprocal may add an operation, and it replaces at least two quotients.
         let reciprocals = before.div.saturating_sub(after.div);
         prop_assert!(after.total() <= before.total() + reciprocals);
         prop_assert!(after.div <= before.div);
@@ -118,7 +118,7 @@ proptest! {
         let graph = Graph::new();
         let roots = build(&graph, &program);
         for (at, symbol) in SYMBOLS.into_iter().enumerate() {
-            // What branches has no derivative in symbols.
+            // A function that branches has no symbolic derivative.
             let Ok(derivatives) = differentiate(&graph, &roots, symbol) else {
                 continue;
             };
@@ -183,7 +183,7 @@ proptest! {
     }
 }
 
-/// Both make the same node.
+/// Checks that both make the same node.
 fn same(
     left: impl for<'g> Fn(Expr<'g>, Expr<'g>, Expr<'g>) -> Expr<'g>,
     right: impl for<'g> Fn(Expr<'g>, Expr<'g>, Expr<'g>) -> Expr<'g>,
@@ -191,7 +191,7 @@ fn same(
     let graph = Graph::new();
     let [x, y, z] = [0, 1, 2].map(|i| graph.symbol(Symbol::Coordinate(i)));
     assert_eq!(left(x, y, z).id(), right(x, y, z).id());
-    // In the other order of creation too.
+    // The same in the other order of creation.
     let graph = Graph::new();
     let [z, y, x] = [2, 1, 0].map(|i| graph.symbol(Symbol::Coordinate(i)));
     assert_eq!(right(x, y, z).id(), left(x, y, z).id());

@@ -5,7 +5,7 @@ use super::scalars::Bounded;
 
 type Known = Vec<(String, Bounded)>;
 
-/// Evaluates `name = expression` line by line, adding each name to what is known.
+/// Evaluates `name = expression` line by line, and adds each name to `known`.
 pub fn evaluate_listing(text: &str, known: &mut Known) -> Result<(), String> {
     for line in text.lines() {
         if line.is_empty() || line.starts_with('#') {

@@ -1,10 +1,10 @@
-//! Random expressions as programs: each step applies an operation to earlier values, so that values are shared.
+//! Random expressions as programs. Each step applies an operation to earlier values, so that values are shared.
 
 use crate::expression::{Expr, Function};
 use proptest::prelude::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What a program can be run over.
+/// A type over which a program can be run.
 pub trait Value:
     Copy
     + Add<Output = Self>
@@ -59,7 +59,7 @@ pub enum Operation {
     Add,
     Sub,
     Mul,
-    /// a / (1 + b²): a quotient that is well conditioned.
+    /// a / (1 + b²), a well-conditioned quotient
     Div,
     /// √(1 + a²)
     Sqrt,
@@ -75,9 +75,9 @@ pub enum Operation {
 /// A random expression, or several.
 #[derive(Clone, Debug)]
 pub enum Program {
-    /// Operations on values so many steps back.
+    /// Operations on the values of earlier steps, given as numbers of steps back.
     Steps(Vec<(Operation, usize, usize)>),
-    /// Sums of signed products of the inputs, by their indices: much in common, up to sign.
+    /// Sums of signed products of the inputs, by their indices. They have much in common, up to sign.
     Sums(Vec<Vec<(bool, Vec<usize>)>>),
 }
 
@@ -108,7 +108,7 @@ fn steps() -> impl Strategy<Value = Program> {
         1 => prop_oneof![Just(Operation::Max), Just(Operation::Min)],
         1 => Just(Operation::Curve),
     ];
-    // Operands are mostly recent: otherwise nothing would ever be nested.
+    // Operands are mostly recent, because otherwise nothing would be nested.
     let back = prop_oneof![0..4usize, 0..40usize];
     prop::collection::vec((operation, back.clone(), back), 3..40).prop_map(Program::Steps)
 }

@@ -21,7 +21,7 @@ impl Bounded {
         Bounded { value, error: 0.0 }
     }
 
-    /// A result rounded once, with what the operands' errors make of it.
+    /// A result that is rounded once, plus the error inherited from the operands.
     fn rounded(value: f64, inherited: f64) -> Self {
         Bounded {
             value,
@@ -29,7 +29,7 @@ impl Bounded {
         }
     }
 
-    /// True where first order is all that counts and nothing has overflowed.
+    /// True if the first order is sufficient and nothing has overflowed.
     pub fn is_trusted(self) -> bool {
         self.value.abs() < 1e100 && self.error < 1e-6 * (1.0 + self.value.abs())
     }
@@ -89,7 +89,7 @@ impl Scalar for Bounded {
         let least = (self.value - self.error).max(0.0);
         Self::rounded(self.value.sqrt(), self.error / (2.0 * least.sqrt()))
     }
-    // Library functions are good to a unit in the last place, two unit roundoffs.
+    // The error of library functions is at most one unit in the last place, which is two unit roundoffs.
     fn sin(self) -> Self {
         let value = self.value.sin();
         Self::rounded(value, self.error + U * value.abs())
@@ -247,7 +247,7 @@ impl Scalar for Dual {
     }
 }
 
-/// One curve: f(x) = x³ − x, with its slope 3x² − 1 and that of the slope.
+/// One curve: f(x) = x³ − x, with its slope 3x² − 1 and the slope of that.
 pub struct Curves;
 
 impl Functions<Bounded> for Curves {

@@ -6,33 +6,24 @@
 //!
 //! Each step uses only what the steps before it have resolved, and goes on after a problem, so that all are reported.
 
-mod airbag;
-mod applied;
-mod belt;
-mod contact;
+pub(crate) mod applied;
 mod criteria;
-mod curve;
+pub(crate) mod curve;
 mod element;
-mod hysteresis;
-mod joint;
+pub(crate) mod hysteresis;
 pub(crate) mod kinematics;
-mod load;
 mod mobility;
 pub(crate) mod name;
 pub use name::is_keyword;
-mod output;
+pub(crate) mod output;
 mod parameter;
-mod plane;
 pub(crate) mod quantity;
-mod regularity;
+pub(crate) mod regularity;
 mod run;
-mod rust;
-mod spring;
+pub(crate) mod rust;
 mod switch;
 mod system;
 mod translation;
-mod user;
-mod user_output;
 mod vehicle;
 
 use super::{
@@ -129,42 +120,42 @@ fn resolve_with(
 }
 
 /// What is resolved so far.
-pub(crate) struct Resolver<'a> {
+pub struct Resolver<'a> {
     pub(crate) problems: &'a Problems,
     pub(crate) planar: bool,
     /// Files with the points of curves.
-    tables: &'a BTreeMap<PathBuf, Table>,
-    parameters: Vec<Parameter>,
+    pub(crate) tables: &'a BTreeMap<PathBuf, Table>,
+    pub(crate) parameters: Vec<Parameter>,
     /// Their values (SI), in the same order.
     pub(crate) defaults: Vec<f64>,
     /// Their dimensions, in the same order.
-    measures: Vec<quantity::Measure>,
+    pub(crate) measures: Vec<quantity::Measure>,
     /// Parameters whose declaration is wrong.
-    failed_parameters: Vec<String>,
+    pub(crate) failed_parameters: Vec<String>,
     /// Named curves, then those written in place; `None` for what is wrong.
-    curves: Vec<Option<curve::Measured>>,
+    pub(crate) curves: Vec<Option<curve::Measured>>,
     /// Names of the named curves, in the same order.
-    curve_names: Vec<String>,
-    vehicles: Vec<Vehicle>,
-    systems: Vec<System>,
+    pub(crate) curve_names: Vec<String>,
+    pub(crate) vehicles: Vec<Vehicle>,
+    pub(crate) systems: Vec<System>,
     /// Every element by its path.
-    elements: HashMap<String, ElementId>,
+    pub(crate) elements: HashMap<String, ElementId>,
     /// The paths in order.
-    paths: Vec<String>,
-    forces: Vec<Force>,
+    pub(crate) paths: Vec<String>,
+    pub(crate) forces: Vec<Force>,
     /// Forces that are left out: kind and name.
-    disabled: Vec<(&'static str, String)>,
+    pub(crate) disabled: Vec<(&'static str, String)>,
     /// Those of them that could be resolved.
-    off: Vec<Force>,
-    outputs: Vec<Output>,
-    switch_names: Vec<String>,
+    pub(crate) off: Vec<Force>,
+    pub(crate) outputs: Vec<Output>,
+    pub(crate) switch_names: Vec<String>,
     /// In the order of their names; `None` for what is wrong.
-    switches: Vec<Option<Switch>>,
-    loaded: &'a Loaded,
+    pub(crate) switches: Vec<Option<Switch>>,
+    pub(crate) loaded: &'a Loaded,
 }
 
 impl<'a> Resolver<'a> {
-    fn new(problems: &'a Problems, loaded: &'a Loaded) -> Self {
+    pub(crate) fn new(problems: &'a Problems, loaded: &'a Loaded) -> Self {
         Resolver {
             problems,
             planar: loaded.header.dimension == WrittenDimension::Plane,
@@ -189,7 +180,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    fn dimension(&self) -> Dimension {
+    pub(crate) fn dimension(&self) -> Dimension {
         match self.planar {
             true => Dimension::Plane,
             false => Dimension::Space,
@@ -197,7 +188,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// The whole model; `None` where nothing sensible can be made of it.
-    fn model(mut self, loaded: &Loaded) -> Option<Resolved> {
+    pub(crate) fn model(mut self, loaded: &Loaded) -> Option<Resolved> {
         let main = loaded.files.last()?;
         let top = main.source.at();
         let header = &loaded.header;
@@ -295,7 +286,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// The element of a path `system/element`; reported where there is none.
-    fn element_id(&self, path: &str, at: At<'_>) -> Option<ElementId> {
+    pub(crate) fn element_id(&self, path: &str, at: At<'_>) -> Option<ElementId> {
         if let Some(&id) = self.elements.get(path) {
             return Some(id);
         }
@@ -332,7 +323,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// The body of a path: `frame`, a vehicle or an element; reported where there is none.
-    fn body(&self, path: &str, at: At<'_>) -> Option<Body> {
+    pub(crate) fn body(&self, path: &str, at: At<'_>) -> Option<Body> {
         if path == "frame" {
             return Some(Body::Frame);
         }
@@ -353,7 +344,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// A point of an element in its local frame.
-    fn point(&self, written: &Point, id: ElementId, at: At<'_>) -> [Number; 3] {
+    pub(crate) fn point(&self, written: &Point, id: ElementId, at: At<'_>) -> [Number; 3] {
         match written {
             Point::Cg => self.systems[id.system].elements[id.element].cg.clone(),
             Point::At(point) => self.vector(point, at, LENGTH),
@@ -361,13 +352,13 @@ impl<'a> Resolver<'a> {
     }
 
     /// The path of an element.
-    fn path(&self, id: ElementId) -> String {
+    pub(crate) fn path(&self, id: ElementId) -> String {
         let system = &self.systems[id.system];
         format!("{}/{}", system.name, system.elements[id.element].name)
     }
 
     /// Whether the whole model has more elements than are read; reported once.
-    fn too_many_elements(&self, at: At<'_>) -> bool {
+    pub(crate) fn too_many_elements(&self, at: At<'_>) -> bool {
         let count: usize = self.systems.iter().map(|s| s.elements.len()).sum();
         if count > MAX_ELEMENTS {
             self.problems.add(at.problem(
@@ -383,4 +374,4 @@ impl<'a> Resolver<'a> {
 pub(crate) const NOWHERE: [Number; 3] = [Number::ZERO; 3];
 
 /// The absolute axes by name.
-const AXES: [&str; 3] = ["x", "y", "z"];
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];

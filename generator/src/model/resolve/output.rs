@@ -1,16 +1,15 @@
 //! Outputs: what of which, and the unit of the column.
 
-use super::applied::kind_of;
 use super::quantity::LENGTH;
 use super::{NOWHERE, Resolver};
 use crate::description::output::{Axis, Component as WrittenComponent, Output as Written};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
+use crate::law::{Asked, LAWS, Registered};
 use crate::model::{
-    AirbagQuantity, Belt, BeltQuantity, Body, Component, ContactQuantity, ElementId, ForceKind,
-    FreedomQuantity, JointLoadQuantity, JointQuantity, Number, Output, PointQuantity, Projection,
-    Quantity, Reference, RotationQuantity, SpringQuantity, SwitchQuantity, SystemQuantity,
+    Body, Component, ElementId, FreedomQuantity, JointLoadQuantity, Number, Output, PointQuantity,
+    Projection, Quantity, Reference, RotationQuantity, SwitchQuantity, SystemQuantity,
 };
 
 /// Longest heading \[characters\].
@@ -45,18 +44,6 @@ const OF_BODY: [(&str, &str, OfBody); 8] = [
     ("accelerometer", "m/s^2", P(PointQuantity::Accelerometer)),
 ];
 
-pub const OF_JOINT: [(&str, &str, JointQuantity); 3] = [
-    ("torque", "N*m", JointQuantity::Torque),
-    ("angle", "rad", JointQuantity::Angle),
-    ("rate", "rad/s", JointQuantity::Rate),
-];
-
-/// Of the law of a freedom that turns, and of one that slides.
-const OF_LAW: [[(&str, &str, JointQuantity); 1]; 2] = [
-    [("torque", "N*m", JointQuantity::Torque)],
-    [("effort", "N", JointQuantity::Torque)],
-];
-
 /// Of a freedom that turns, and of one that slides.
 const OF_FREEDOM: [[(&str, &str, FreedomQuantity); 3]; 2] = [
     [
@@ -75,41 +62,6 @@ const OF_FREEDOM: [[(&str, &str, FreedomQuantity); 3]; 2] = [
 const OF_ANY_JOINT: [(&str, &str, JointLoadQuantity); 2] = [
     ("force", "N", JointLoadQuantity::Force),
     ("moment", "N*m", JointLoadQuantity::Moment),
-];
-
-const OF_CONTACT: [(&str, &str, ContactQuantity); 5] = [
-    ("force", "N", ContactQuantity::Force),
-    ("normal", "N", ContactQuantity::Normal),
-    ("friction", "N", ContactQuantity::Friction),
-    ("penetration", "m", ContactQuantity::Penetration),
-    ("permanent_set", "m", ContactQuantity::PermanentSet),
-];
-
-const OF_BELT: [(&str, &str, BeltQuantity); 7] = [
-    ("force", "N", BeltQuantity::Force),
-    ("length", "m", BeltQuantity::Length),
-    ("elongation", "", BeltQuantity::Elongation),
-    ("untensioned_length", "m", BeltQuantity::UntensionedLength),
-    ("payout", "m", BeltQuantity::Payout),
-    ("permanent_set", "", BeltQuantity::PermanentSet),
-    ("slip", "m", BeltQuantity::Slip),
-];
-
-const OF_AIRBAG: [(&str, &str, Option<AirbagQuantity>); 7] = [
-    ("force", "N", None),
-    ("pressure", "Pa", Some(AirbagQuantity::Pressure)),
-    ("temperature", "K", Some(AirbagQuantity::Temperature)),
-    ("mass", "kg", Some(AirbagQuantity::Mass)),
-    ("volume", "m^3", Some(AirbagQuantity::Volume)),
-    ("outflow", "kg/s", Some(AirbagQuantity::Outflow)),
-    ("area", "m^2", Some(AirbagQuantity::Area)),
-];
-
-const OF_SPRING: [(&str, &str, SpringQuantity); 4] = [
-    ("force", "N", SpringQuantity::Force),
-    ("length", "m", SpringQuantity::Length),
-    ("elongation", "m", SpringQuantity::Elongation),
-    ("rate", "m/s", SpringQuantity::Rate),
 ];
 
 const OF_SYSTEM: [(&str, &str, SystemQuantity); 4] = [
@@ -133,7 +85,7 @@ enum Subject {
     Element(ElementId),
     System(usize),
     Vehicle(usize),
-    Force(&'static str, usize),
+    Force(usize),
     Joint(ElementId),
     Freedom(ElementId),
     Switch(usize),
@@ -211,9 +163,10 @@ impl Resolver<'_> {
         off: bool,
     ) -> Option<(Quantity, &'static str)> {
         let subject = self.subject(written, at, off)?;
-        if !matches!(subject, Subject::Force("belt", _)) {
-            self.without(at, &["segment", "ring"], "anything but a belt");
+        if let Subject::Force(force) = subject {
+            return self.forces[force].kind.output(self, written, force, at);
         }
+        self.without(at, &["segment", "ring"], "anything but a belt");
         match subject {
             Subject::Element(_) | Subject::Vehicle(_) | Subject::System(_) => {
                 self.without(at, &["about"], "anything but a joint");
@@ -233,21 +186,7 @@ impl Resolver<'_> {
                 &["at", "about", "relative_to"],
                 "what a joint transmits",
             ),
-            Subject::Force("user", _) => {
-                self.without(at, &["on", "relative_to"], "a user force");
-            }
-            Subject::Force("joint", _) => self.without(
-                at,
-                &["at", "component", "axes", "relative_to", "on"],
-                "the scalars of a joint",
-            ),
-            Subject::Force(kind, _) => {
-                let kind = match kind {
-                    "airbag" => "an airbag".to_owned(),
-                    kind => format!("a {kind}"),
-                };
-                self.without(at, &["at", "about", "relative_to"], &kind);
-            }
+            Subject::Force(_) => {}
             Subject::Switch(_) => self.without(
                 at,
                 &["at", "component", "about", "axes", "relative_to", "on"],
@@ -260,36 +199,7 @@ impl Resolver<'_> {
             Subject::System(system) => self.of_system(written, system, at),
             Subject::Freedom(element) => self.of_freedom(written, element, at),
             Subject::Joint(element) => self.of_any_joint(written, element, at),
-            Subject::Force("joint", force) => self.of_joint(written, force, at),
-            Subject::Force("user", force) => self.of_user(written, force, at),
-            Subject::Force("contact", force) => {
-                let (what, unit) = self.look_up(written, &OF_CONTACT, "a contact", at)?;
-                let quantity = match what {
-                    ContactQuantity::Force if has_direction(written) => {
-                        self.force_on(written, force, at)?
-                    }
-                    _ => {
-                        self.scalar(at);
-                        Quantity::Contact { force, what }
-                    }
-                };
-                Some((quantity, unit))
-            }
-            Subject::Force("airbag", force) => self.of_airbag(written, force, at),
-            Subject::Force("spring", force) => {
-                let (what, unit) = self.look_up(written, &OF_SPRING, "a spring", at)?;
-                let quantity = match what {
-                    SpringQuantity::Force if has_direction(written) => {
-                        self.force_on(written, force, at)?
-                    }
-                    _ => {
-                        self.scalar(at);
-                        Quantity::Spring { force, what }
-                    }
-                };
-                Some((quantity, unit))
-            }
-            Subject::Force(_, force) => self.of_belt(written, force, at),
+            Subject::Force(_) => None,
             Subject::Switch(switch) => self
                 .look_up(written, &OF_SWITCH, "a switch", at)
                 .map(|(what, unit)| (Quantity::Switch { switch, what }, unit)),
@@ -353,7 +263,7 @@ impl Resolver<'_> {
                 Some(system) => Some(Subject::System(system)),
                 None => {
                     let mut forces = self.forces.iter().filter(|f| f.name == name);
-                    let force = forces.find(|f| OBSERVABLE.contains(&kind_of(&f.kind)));
+                    let force = forces.find(|f| observable().any(|law| law.key == f.kind.key()));
                     let element = self
                         .paths
                         .iter()
@@ -361,7 +271,7 @@ impl Resolver<'_> {
                     let help = match (force, element) {
                         (Some(force), _) => format!(
                             "did you mean {}?",
-                            quoted(&format!("{} {name}", kind_of(&force.kind)))
+                            quoted(&format!("{} {name}", force.kind.key()))
                         ),
                         (_, Some(path)) => format!(
                             "elements are named with their system; did you mean {}?",
@@ -381,17 +291,13 @@ impl Resolver<'_> {
                 self.element_id(name, at).map(Subject::Joint)
             }
             [kind, name] => {
-                let Some(kind) = OBSERVABLE.into_iter().find(|k| *k == kind) else {
-                    let message = match kind {
-                        "field" | "load" => format!("a {kind} is given and has no outputs"),
-                        _ => format!("there is no output of {}", quoted(of)),
+                let Some(law) = observable().find(|law| law.key == kind) else {
+                    let message = match LAWS.iter().find(|law| law.key == kind) {
+                        Some(law) => format!("{} is given and has no outputs", law.title),
+                        None => format!("there is no output of {}", quoted(of)),
                     };
-                    let near = nearest(
-                        kind,
-                        OBSERVABLE
-                            .into_iter()
-                            .chain(["system", "switch", "vehicle"]),
-                    );
+                    let laws = observable().map(|law| law.key);
+                    let near = nearest(kind, laws.chain(["system", "switch", "vehicle"]));
                     let help = match near {
                         Some(near) => format!("did you mean \"{near} {name}\"?"),
                         None => OF_HELP.to_owned(),
@@ -399,17 +305,21 @@ impl Resolver<'_> {
                     self.problems.add(at.problem(message, help));
                     return None;
                 };
-                let called = if kind == "user" { "user force" } else { kind };
-                let name = match (kind, name.split_once('/')) {
-                    ("user", Some((name, _))) => name,
+                let called = law.called();
+                let name = match name.split_once('/') {
+                    Some((name, _)) if law.has_ports => name,
                     _ => name,
                 };
                 let found = self
                     .forces
                     .iter()
-                    .position(|f| kind_of(&f.kind) == kind && f.name == name);
+                    .position(|f| f.kind.key() == kind && f.name == name);
                 if found.is_none() {
-                    if self.disabled.iter().any(|(k, n)| *k == kind && n == name) {
+                    if self
+                        .disabled
+                        .iter()
+                        .any(|(k, n)| *k == law.key && n == name)
+                    {
                         // a force that is wrong is left out too, but then that is reported
                         if !off && self.problems.count() == 0 {
                             self.problems.add(at.problem(
@@ -418,7 +328,7 @@ impl Resolver<'_> {
                             ));
                         }
                     } else {
-                        let names = self.forces.iter().filter(|f| kind_of(&f.kind) == kind);
+                        let names = self.forces.iter().filter(|f| f.kind.key() == kind);
                         let names: Vec<&str> = names.map(|f| f.name.as_str()).collect();
                         self.problems.add(at.problem(
                             format!("there is no {called} {} among the forces", quoted(name)),
@@ -426,7 +336,7 @@ impl Resolver<'_> {
                         ));
                     }
                 }
-                found.map(|force| Subject::Force(kind, force))
+                found.map(Subject::Force)
             }
             _ => {
                 self.problems
@@ -660,112 +570,8 @@ impl Resolver<'_> {
         Some((quantity, unit))
     }
 
-    /// Of a belt: of the whole, of a segment, or of a ring.
-    fn of_belt(
-        &self,
-        written: &Written,
-        force: usize,
-        at: At<'_>,
-    ) -> Option<(Quantity, &'static str)> {
-        let (what, unit) = self.look_up(written, &OF_BELT, "a belt", at)?;
-        let ForceKind::Belt(belt) = &self.forces[force].kind else {
-            return None;
-        };
-        if what == BeltQuantity::Force && has_direction(written) {
-            self.without(at, &["segment", "ring"], "the force on a body");
-            let quantity = match belt.rings.is_empty() {
-                true => self.force_on(written, force, at)?,
-                false => self.on_points(written, force, &belt_points(belt), at)?,
-            };
-            return Some((quantity, unit));
-        }
-        self.scalar(at);
-        let part = match what {
-            BeltQuantity::Slip => {
-                self.without(at, &["segment"], "the slip through a ring");
-                self.ring(written, belt, at)?
-            }
-            BeltQuantity::Payout => {
-                self.without(at, &["segment", "ring"], "the whole belt");
-                0
-            }
-            _ => {
-                self.without(at, &["ring"], "anything but `what: slip`");
-                self.segment(written, belt, at)?
-            }
-        };
-        Some((Quantity::Belt { force, part, what }, unit))
-    }
-
-    /// The ring that an output names.
-    fn ring(&self, written: &Written, belt: &Belt, at: At<'_>) -> Option<usize> {
-        let names: Vec<String> = belt.rings.iter().map(|ring| quoted(&ring.name)).collect();
-        let help = match names.is_empty() {
-            true => "write the rings of the belt in its `through`".to_owned(),
-            false => format!("name one by `ring:`; the belt has {}", names.join(", ")),
-        };
-        let Some(name) = &written.ring else {
-            let problem = "the slip of a belt is that through one of its rings";
-            self.problems.add(at.key("what").problem(problem, help));
-            return None;
-        };
-        let found = belt.rings.iter().position(|ring| ring.name == *name);
-        if found.is_none() {
-            let problem = format!("the belt has no ring {}", quoted(name));
-            self.problems.add(at.key("ring").problem(problem, help));
-        }
-        found
-    }
-
-    /// The segment that an output asks for, from 0 on.
-    fn segment(&self, written: &Written, belt: &Belt, at: At<'_>) -> Option<usize> {
-        let count = belt.rings.len() + 1;
-        match written.segment {
-            None if count == 1 => Some(0),
-            Some(number) if (1..=count).contains(&(number as usize)) => Some(number as usize - 1),
-            None => {
-                self.problems.add(at.key("what").problem(
-                    format!("the belt runs through rings, and each of its {count} segments has its own {}", written.what),
-                    format!("add `segment: 1` for that at its end `from`, up to `segment: {count}`"),
-                ));
-                None
-            }
-            Some(number) => {
-                self.problems.add(at.key("segment").problem(
-                    format!("the belt has no segment {number}"),
-                    format!("segments are counted from 1, at the end `from`, to {count}"),
-                ));
-                None
-            }
-        }
-    }
-
-    /// Of an airbag: its gas, or its force on a body.
-    fn of_airbag(
-        &self,
-        written: &Written,
-        force: usize,
-        at: At<'_>,
-    ) -> Option<(Quantity, &'static str)> {
-        let (what, unit) = self.look_up(written, &OF_AIRBAG, "an airbag", at)?;
-        let ForceKind::Airbag(airbag) = &self.forces[force].kind else {
-            return None;
-        };
-        let quantity = match what {
-            Some(what) => {
-                self.scalar(at);
-                Quantity::Airbag { force, what }
-            }
-            None => {
-                let bodies: Vec<Body> = airbag.ellipsoids().map(|e| e.center.on).collect();
-                self.on_points(written, force, &bodies, at)?
-            }
-        };
-        Some((quantity, unit))
-    }
-
     /// The force of a belt that runs through rings, or of an airbag, on one of the bodies of its points; without `on`, on the first.
-    fn on_points(
+    pub(crate) fn on_points(
         &self,
         written: &Written,
         force: usize,
@@ -801,14 +607,14 @@ impl Resolver<'_> {
         })
     }
 
-    /// The force of a contact or belt on one of its bodies.
-    fn force_on(&self, written: &Written, force: usize, at: At<'_>) -> Option<Quantity> {
-        let bodies = match &self.forces[force].kind {
-            ForceKind::Contact(contact) => [contact.ellipsoid.on, contact.against.place().on],
-            ForceKind::Belt(belt) => [belt.from.on, belt.to.on],
-            ForceKind::Spring(spring) => [spring.from.on, spring.to.on],
-            _ => return None,
-        };
+    /// The force between two bodies on one of them.
+    pub(crate) fn force_on(
+        &self,
+        written: &Written,
+        force: usize,
+        bodies: [Body; 2],
+        at: At<'_>,
+    ) -> Option<Quantity> {
         let on_second = self.on_second(written, bodies, at)?;
         let projection = Projection {
             component: self.component_of_vector(written, at)?,
@@ -827,7 +633,12 @@ impl Resolver<'_> {
     }
 
     /// Whether `on` names the second of two bodies; without it, the first is meant.
-    fn on_second(&self, written: &Written, bodies: [Body; 2], at: At<'_>) -> Option<bool> {
+    pub(crate) fn on_second(
+        &self,
+        written: &Written,
+        bodies: [Body; 2],
+        at: At<'_>,
+    ) -> Option<bool> {
         let Some(path) = &written.on else {
             return Some(false);
         };
@@ -852,31 +663,16 @@ impl Resolver<'_> {
         }
     }
 
-    /// Reports the keys that ask for a direction, which scalars have not.
-    fn scalar(&self, at: At<'_>) {
+    /// A scalar of a force; the keys that ask for a direction are reported.
+    pub(crate) fn scalar(&self, force: usize, what: Asked, at: At<'_>) -> Quantity {
         self.without(at, &["component", "axes", "on"], "a scalar");
+        Quantity::OfForce { force, what }
     }
 
-    fn of_joint(
-        &self,
-        written: &Written,
-        force: usize,
-        at: At<'_>,
-    ) -> Option<(Quantity, &'static str)> {
-        if let ForceKind::Freedom { child, freedom, .. } = self.forces[force].kind {
-            self.without(at, &["about", "freedom"], "the force of one freedom");
-            let freedoms = self.systems[child.system].elements[child.element]
-                .joint
-                .freedoms();
-            let table = &OF_LAW[usize::from(!freedoms[freedom].kind.turns())];
-            let (what, unit) = self.look_up(written, table, "the force of a freedom", at)?;
-            let about = 0;
-            return Some((Quantity::Joint { force, about, what }, unit));
-        }
-        self.without(at, &["freedom"], "a ball joint");
-        let (what, unit) = self.look_up(written, &OF_JOINT, "a joint", at)?;
-        let about = self.about(written, at)?;
-        Some((Quantity::Joint { force, about, what }, unit))
+    /// Reports the keys that mean nothing for a law between bodies, called so.
+    pub(crate) fn of_law(&self, at: At<'_>, law: &str) {
+        self.without(at, &["segment", "ring"], "anything but a belt");
+        self.without(at, &["at", "about", "relative_to"], law);
     }
 
     /// Which relative rotation of a joint is meant.
@@ -992,13 +788,8 @@ impl Resolver<'_> {
     }
 }
 
-/// The bodies of the points of a belt.
-fn belt_points(belt: &Belt) -> Vec<Body> {
-    belt.points().map(|point| point.on).collect()
-}
-
 /// Whether an output asks for more of a force than its size.
-fn has_direction(written: &Written) -> bool {
+pub(crate) fn has_direction(written: &Written) -> bool {
     written
         .component
         .is_some_and(|c| c.0 != WrittenComponent::Resultant)
@@ -1006,7 +797,9 @@ fn has_direction(written: &Written) -> bool {
         || written.on.is_some()
 }
 
-/// The kinds of forces that have outputs.
-const OBSERVABLE: [&str; 6] = ["joint", "contact", "belt", "spring", "airbag", "user"];
+/// The laws that have outputs.
+fn observable() -> impl Iterator<Item = &'static Registered> {
+    LAWS.iter().filter(|law| law.is_observable)
+}
 
 const OF_HELP: &str = "name an element (`man/head`), a force (`joint man/head`, `contact seat`, `belt chest`, `user drag`) or a system (`man`)";

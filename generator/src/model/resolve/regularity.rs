@@ -130,8 +130,12 @@ impl Resolver<'_> {
                     (None, true) => format!("the reference joint of the system {system}"),
                     (None, false) => format!("element {element} on its joint"),
                 };
+                let left = match left {
+                    0.0 => "nothing of it is left".to_owned(),
+                    left => format!("a share of {left:.0e} of it is left"),
+                };
                 (
-                    format!("{which} can move without any inertia: {left:.0e} of it are left when what it carries, and what is before it in the joint, move freely"),
+                    format!("{which} can move without any inertia: {left} when what it carries, and what is before it in the joint, move freely"),
                     match reference {
                         false if redundant => "the other freedoms of this joint move the element in all ways that this one does, whatever its mass: remove one of them, or give it another axis".into(),
                         true => "the root moves in its own joint as the reference joint does: write `reference: fixed`, or another `joint` of the root".into(),

@@ -44,7 +44,7 @@ impl Resolver<'_> {
     }
 
     /// A time, positive \[s\]; `default` where none is given.
-    pub(super) fn time(&self, quantity: Option<&Quantity>, at: At<'_>, default: f64) -> f64 {
+    pub(crate) fn time(&self, quantity: Option<&Quantity>, at: At<'_>, default: f64) -> f64 {
         let Some(quantity) = quantity else {
             return default;
         };

@@ -1,4 +1,4 @@
-//! A list as the body of a C function: a statement for each operation, then a store for each result.
+//! Writes a list as the body of a C function: a statement for each operation, then a store for each result.
 
 use super::support::Support;
 use super::{indented, number};
@@ -6,19 +6,19 @@ use crate::expression::{ApproachCall, Function};
 use crate::program::{Input, List, Operation, Value};
 use std::fmt::Write as _;
 
-/// The statements of a list, and which arguments of its function they use.
+/// The statements of a list, and the arguments of its function that they use.
 pub(super) struct Body {
     pub text: String,
-    /// Parameters and what is derived from them: `m`.
+    /// Whether they use `m`: parameters and values derived from them.
     pub uses_model: bool,
-    /// `t`
+    /// Whether they use `t`.
     pub uses_time: bool,
-    /// `y`
+    /// Whether they use `y`.
     pub uses_state: bool,
 }
 
-/// Writes a list whose results go to `results[0]`, `results[1]` and so on. `m` is a pointer to the model, `t` the time, `y` the state;
-/// accelerations are in `accelerations`, guards in `guards`.
+/// Writes a list whose results go to `results[0]`, `results[1]` and so on. `m` is a pointer to the model, `t` the time, `y` the state.
+/// Accelerations are in `accelerations`, event functions in `guards`.
 pub(super) fn body(list: &List, curve: &dyn Fn(u32) -> String, support: &mut Support) -> Body {
     let first = list.constants.len() + list.inputs.len();
     let mut writer = Writer {
@@ -58,7 +58,7 @@ pub(super) fn body(list: &List, curve: &dyn Fn(u32) -> String, support: &mut Sup
     }
 }
 
-/// Which values results depend on.
+/// For each value, whether a result depends on it.
 fn used(list: &List) -> Vec<bool> {
     let mut used = vec![false; list.values()];
     for result in &list.results {
@@ -90,10 +90,10 @@ fn input(input: Input) -> String {
 
 struct Writer<'a> {
     list: &'a List,
-    /// The name of a curve.
+    /// Gives the name of a curve.
     curve: &'a dyn Fn(u32) -> String,
     support: &'a mut Support,
-    /// By value, how it is written.
+    /// For each value, its text.
     names: Vec<String>,
     used: Vec<bool>,
     text: String,
@@ -104,7 +104,7 @@ impl Writer<'_> {
         &self.names[value.0 as usize]
     }
 
-    /// Writes an operation, unless nobody uses it; `name` is its number.
+    /// Writes an operation, unless nothing uses it; `name` is its number.
     fn operation(&mut self, operation: Operation, name: usize) {
         let begin = self.names.len();
         let defines = operation.defines();
@@ -204,7 +204,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A call of a function with several results: they stand in an array.
+    /// A call of a function with several results, which are written to an array.
     fn several(&mut self, function: Function, first: u32, name: usize) {
         let (part, early) = match function {
             Function::Support(_) => ("support", None),

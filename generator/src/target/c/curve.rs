@@ -1,4 +1,4 @@
-//! Curves as constant arrays, with all that follows from their points.
+//! Curves as constant arrays, with everything that follows from their points.
 //!
 //! Slopes, coefficients and integrals are computed as the runtime computes them (`bryant_runtime::curve`), so that values have the same bits.
 
@@ -7,21 +7,21 @@ use crate::model::Extrapolate;
 use crate::program::Curve;
 use std::fmt::Write as _;
 
-/// What follows from the points of a curve. Of pieces there is one more than points: piece 0 lies left of the first point, piece
-/// k + 1 right of point k.
+/// Everything that follows from the points of a curve. There is one more piece than points: piece 0 lies left of the first point, piece k + 1
+/// right of point k.
 struct Pieces {
     /// Slope at the left end of each piece.
     m: Vec<f64>,
-    /// Quadratic and cubic coefficients of each piece; nothing of lines.
+    /// Quadratic and cubic coefficients of each piece; `None` for lines.
     higher: Option<[Vec<f64>; 2]>,
-    /// At each point, the integral and the double integral from the first one.
+    /// At each point, the integral from the first point; `twice` has the double integral.
     once: Vec<f64>,
     twice: Vec<f64>,
     /// The abscissae at which the curve is not smooth.
     kinks: Vec<f64>,
 }
 
-/// The definition of a curve: arrays, and a structure named `name` that holds them.
+/// The definition of a curve: its arrays, and a structure named `name` that holds them.
 pub(super) fn define(curve: &Curve, name: &str) -> String {
     let pieces = match &curve.tangents {
         None => lines(curve),
@@ -128,7 +128,7 @@ fn cubics(curve: &Curve, tangents: &[f64]) -> Pieces {
     let (before, after) = match curve.extrapolate {
         Extrapolate::Linear => (tangents[0], [tangents[count - 1], 0.0, 0.0]),
         Extrapolate::Hold => (0.0, [0.0; 3]),
-        // the last point still belongs to the curve, with its slope and bend from the left
+        // the last point still belongs to the curve: it keeps slope and second derivative of the last piece
         Extrapolate::Error => {
             let end = m + h * (2.0 * c2 + 3.0 * h * c3);
             (0.0, [end, c2 + 3.0 * h * c3, 0.0])
@@ -146,11 +146,11 @@ fn cubics(curve: &Curve, tangents: &[f64]) -> Pieces {
     }
 }
 
-/// The points at which the second derivative changes, or where the curve is left the slope.
+/// The points at which the second derivative changes, and the ends of a held curve where the slope changes.
 fn cubic_kinks(curve: &Curve, tangents: &[f64], coefficients: &[[f64; 3]]) -> Vec<f64> {
     let points = &curve.points;
     let mut kinks = Vec::new();
-    // of the piece to the left of each point: the second derivative at its end, and how far that may be off
+    // for the piece to the left of each point: the second derivative at its end, and a bound of its rounding error
     let (mut bend, mut off) = (0.0, 0.0);
     for (k, &[x, _]) in points.iter().enumerate() {
         let m = tangents[k];
@@ -178,7 +178,7 @@ fn cubic_kinks(curve: &Curve, tangents: &[f64], coefficients: &[[f64; 3]]) -> Ve
     kinks
 }
 
-/// How far off the slope of a line through two points may be, as their coordinates are rounded.
+/// A bound of the error in the slope of a line through two points, due to the rounding of their coordinates.
 fn rounding([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
     let run = x1 - x0;
     let slope = ((y1 - y0) / run).abs();

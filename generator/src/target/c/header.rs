@@ -1,4 +1,4 @@
-//! The header: sizes, names, and what functions there are.
+//! The header of a model: sizes, names, and declarations of functions.
 
 use super::methods::Function;
 use super::names::Enumerators;
@@ -6,7 +6,7 @@ use super::{comment, number};
 use crate::program::{Facts, Lists};
 use std::fmt::Write as _;
 
-/// The text of the header of a model. `about` is a comment that says what the model is.
+/// The text of the header of a model. `about` is a comment that describes the model.
 pub(super) fn header(lists: &Lists, name: &str, about: &str, functions: &[Function]) -> String {
     let upper = name.to_ascii_uppercase();
     let mut text = format!(

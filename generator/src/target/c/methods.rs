@@ -1,4 +1,4 @@
-//! The functions of a model: their heads for the header, their bodies for the source.
+//! The functions of a model: their declarations for the header, their definitions for the source.
 
 use super::body::{Body, body};
 use super::number;
@@ -9,17 +9,17 @@ use std::fmt::Write as _;
 
 /// A function that the header declares.
 pub(super) struct Function {
-    /// A comment that says what it does, ending in a newline.
+    /// A comment that says what it does. It ends in a newline.
     pub about: String,
-    /// Its head, without a semicolon.
+    /// Its declaration without a semicolon.
     pub head: String,
-    /// Its body with braces, and functions that it alone calls before its head.
+    /// Functions that only this one calls. They stand before it; `body` is its body with braces.
     pub before: String,
     pub body: String,
 }
 
 impl Function {
-    /// Whether its text has this word.
+    /// Whether its text contains this word.
     pub fn mentions(&self, word: &str) -> bool {
         let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
         [&self.before, &self.body].iter().any(|text| {
@@ -29,7 +29,7 @@ impl Function {
     }
 }
 
-/// A method whose results go to an array as they are.
+/// A method whose results are written to an array without change.
 struct Plain {
     method: Method,
     name: &'static str,
@@ -130,7 +130,7 @@ pub(super) struct Methods<'a> {
 }
 
 impl Methods<'_> {
-    /// All functions, those behind that others call.
+    /// All functions, in the order in which the header declares them.
     pub fn all(&mut self) -> Vec<Function> {
         let mut functions = vec![self.new_model(), self.initial_state()];
         for plain in &PLAIN {
@@ -156,8 +156,8 @@ impl Methods<'_> {
         body(self.lists.list(method), &curve, self.support)
     }
 
-    /// The statements of a method that are wrapped by others, as a static function of `NAME_…_at`, and the call of it at (m, t, y) that
-    /// puts the results into `results`.
+    /// The statements of a method, as a static function `NAME_…_at`, for methods that need more than these statements. Also returns the
+    /// call of it at (m, t, y), which writes the results to `results`.
     fn inner(&mut self, method: Method, short: &str, results: &str) -> [String; 2] {
         let (name, upper) = (self.name, self.name.to_ascii_uppercase());
         let start = self.lists.routine(method).start;
@@ -483,7 +483,7 @@ impl Methods<'_> {
     }
 }
 
-/// Mentions arguments that a function does not use, so that no compiler warns.
+/// Statements that mention unused arguments of a function, so that no compiler warns.
 fn silent(body: &Body, start: Start) -> String {
     let unused = [
         (body.uses_model, "m"),

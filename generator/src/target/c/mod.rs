@@ -1,4 +1,4 @@
-//! C99: a header and a source with the methods of a model, which need nothing but `math.h`.
+//! C99: a header and a source with the methods of a model. They need nothing but `math.h`.
 //!
 //! | file | what |
 //! |---|---|
@@ -9,9 +9,9 @@
 //! | `support` | laws and curves as static functions; their text is in the folder of that name |
 //! | `names` | identifiers |
 //!
-//! Results have the bits of the Rust text over `f64`, where the compiler keeps to IEEE 754 (no `-ffast-math`), both round a·b + c
-//! alike (once where the instruction is there, twice elsewhere), and the platform's `atan2` and `pow` are the same. GCC that
-//! optimises takes −(a·b + c) for −a·b − c where it fuses: where that is 0, its sign is another.
+//! Results have the bits of the Rust text over `f64` under three conditions: the compiler obeys IEEE 754 (no `-ffast-math`); both
+//! round a·b + c alike (once if the instruction exists, twice otherwise); and the platform's `atan2` and `pow` are the same. When GCC optimises and
+//! fuses, it turns −(a·b + c) into −a·b − c; if that is 0, its sign differs.
 
 mod body;
 mod curve;
@@ -29,7 +29,7 @@ use support::Support;
 /// A model as C99.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// What its names begin with, and the name of its files without `.h` and `.c`.
+    /// The prefix of its names, and the name of its files without `.h` and `.c`.
     pub name: String,
     /// The text of the header.
     pub header: String,
@@ -37,7 +37,7 @@ pub struct Source {
     pub source: String,
 }
 
-/// Why there is no C of a model: forces that call functions of the user's, which are Rust.
+/// Why a model cannot be written in C: its forces call functions of the user, which are Rust.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NoC {
     /// The names of the functions.
@@ -57,10 +57,10 @@ impl std::fmt::Display for NoC {
 
 impl std::error::Error for NoC {}
 
-/// A model as C99. `about` says what the model is, in lines.
+/// Writes a model as C99. `about` describes the model, in lines.
 ///
 /// # Errors
-/// Functions of the user's, which are Rust.
+/// If the model calls functions of the user, which are Rust.
 pub fn source(lists: &Lists, about: &[String]) -> Result<Source, NoC> {
     let functions = functions_of_users(lists);
     if !functions.is_empty() {
@@ -109,11 +109,11 @@ pub fn source(lists: &Lists, about: &[String]) -> Result<Source, NoC> {
     })
 }
 
-/// A list as a function of its own, with all that it calls: `void NAME(double t, const double y[], double results[])`, for lists that start
-/// from time and state alone. `curves` are those of the model.
+/// A list as a function of its own, with everything that it calls: `void NAME(double t, const double y[], double results[])`. The list must
+/// start from time and state alone. `curves` are those of the model.
 ///
 /// # Errors
-/// Functions of the user's, which are Rust.
+/// If the list calls functions of the user, which are Rust.
 pub fn function(list: &List, curves: &[Curve], name: &str) -> Result<String, NoC> {
     let of_user = list.operations.iter().any(|operation| {
         matches!(
@@ -150,7 +150,7 @@ pub fn function(list: &List, curves: &[Curve], name: &str) -> Result<String, NoC
     Ok(text)
 }
 
-/// Names and units as arrays.
+/// Names and units as C arrays.
 fn tables(lists: &Lists, name: &str) -> String {
     let upper = name.to_ascii_uppercase();
     let mut text = String::new();
@@ -164,7 +164,7 @@ fn tables(lists: &Lists, name: &str) -> String {
     text
 }
 
-/// The names of the functions of the user's that a model calls.
+/// The names of the functions of the user that a model calls.
 fn functions_of_users(lists: &Lists) -> Vec<String> {
     let mut found = Vec::new();
     for routine in &lists.routines {
@@ -183,7 +183,7 @@ fn functions_of_users(lists: &Lists) -> Vec<String> {
     found
 }
 
-/// A number as C writes it: the shortest text that reads back as the same double.
+/// A number in C: the shortest text that reads back as the same double.
 fn number(value: f64) -> String {
     match value {
         f64::INFINITY => "INFINITY".to_owned(),
@@ -194,7 +194,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// Words that end no comment, and continue no line.
+/// Text that neither ends a comment nor continues a line.
 fn comment(words: &str) -> String {
     let printable = |c: char| match c {
         '\\' => '/',
@@ -206,7 +206,7 @@ fn comment(words: &str) -> String {
     words.replace("??", "? ?")
 }
 
-/// A string of C.
+/// A string literal.
 fn quoted(words: &str) -> String {
     let mut text = String::from("\"");
     for c in words.chars() {
@@ -220,7 +220,7 @@ fn quoted(words: &str) -> String {
     text
 }
 
-/// A statement, broken at commas where it is long.
+/// A statement, broken at commas if it is long.
 fn indented(statement: &str) -> String {
     const WIDTH: usize = 120;
     let mut text = String::from("   ");

@@ -1,9 +1,9 @@
-//! Identifiers of C, each used once.
+//! C identifiers, each used only once.
 
 use rustc_hash::FxHashSet;
 
-/// Letters, digits and single underscores of words such as "man/head.angle": `man_head_angle`. It may begin with a digit, and may be
-/// empty: it stands behind a prefix.
+/// Letters, digits and single underscores from words such as "man/head.angle": `man_head_angle`. It stands behind a prefix, so it
+/// may begin with a digit, and may be empty.
 pub(super) fn snake(words: &str) -> String {
     let letter = |c: char| match c.is_ascii_alphanumeric() {
         true => c.to_ascii_lowercase(),
@@ -14,7 +14,7 @@ pub(super) fn snake(words: &str) -> String {
     parts.collect::<Vec<_>>().join("_")
 }
 
-/// The name of a model: `model` where nothing of the words is left.
+/// The name of a model; `model` if nothing of the words is left.
 pub(super) fn model(words: &str) -> String {
     let name = snake(words);
     match name.chars().next() {
@@ -24,12 +24,12 @@ pub(super) fn model(words: &str) -> String {
     }
 }
 
-/// Enumerators given so far.
+/// The enumerators used so far.
 #[derive(Default)]
 pub(super) struct Enumerators(FxHashSet<String>);
 
 impl Enumerators {
-    /// The enumerator of these words, or the first of `NAME_2`, `NAME_3`, … that is free.
+    /// The enumerator for these words, or the first of `NAME_2`, `NAME_3`, … that is unused.
     pub fn take(&mut self, prefix: &str, words: &str) -> String {
         let wanted = format!("{prefix}_{}", snake(words)).to_ascii_uppercase();
         let mut name = wanted.clone();

@@ -1,8 +1,8 @@
 //! Functions that generated C calls: laws and curves, as small static functions, each in a file of its own.
 //!
-//! They do what the runtime's functions of the same names do for one double, operation for operation.
+//! Each does the same as the function of the runtime with the same name does for one double, operation for operation.
 
-/// A function with the names of those that it calls.
+/// A function and the names of the functions that it calls.
 struct Part {
     name: &'static str,
     needs: &'static [&'static str],
@@ -19,7 +19,7 @@ macro_rules! parts {
     };
 }
 
-/// All parts; each stands behind those that it needs.
+/// All parts. Each stands after those that it needs.
 const PARTS: &[Part] = parts! {
     "multiply_add";
     "sin_cos" ["multiply_add"];
@@ -49,14 +49,14 @@ const PARTS: &[Part] = parts! {
     "kink_after" ["curve"];
 };
 
-/// The text of parts and of all that they need.
+/// The text of some parts and of all parts that they need.
 #[derive(Default)]
 pub(super) struct Support {
     wanted: Vec<&'static str>,
 }
 
 impl Support {
-    /// Takes a part in.
+    /// Adds a part.
     pub fn want(&mut self, name: &'static str) {
         let Some(part) = PARTS.iter().find(|part| part.name == name) else {
             unreachable!("there is a part for each function");
@@ -67,12 +67,12 @@ impl Support {
         }
     }
 
-    /// Whether a part was taken in.
+    /// Whether a part was added.
     pub fn has(&self, name: &str) -> bool {
         self.wanted.contains(&name)
     }
 
-    /// All parts taken in, in an order in which a compiler can read them.
+    /// All added parts, in an order that a compiler accepts.
     pub fn text(&self) -> String {
         let wanted = PARTS.iter().filter(|part| self.has(part.name));
         wanted.map(|part| format!("{}\n", part.text)).collect()

@@ -1,15 +1,16 @@
-//! How a function is called, and how it finds its memory.
+//! The calling convention, and the memory of a function.
 //!
-//! The function is `extern "sysv64" fn(*const Pointers)`. [`Pointers`](Base) is a struct of pointers, one for each [`Base`], in their order. Those that a
-//! function needs are kept in general registers; where there are more than registers, the rest is read from the struct at each use.
+//! The function is `extern "sysv64" fn(*const Pointers)`. [`Pointers`](Base) is a struct of pointers, one for each [`Base`], in their order. The
+//! pointers that a function needs are kept in general registers. If there are more pointers than registers, the others are read from the struct at
+//! each use.
 //!
-//! A function that is called has the signature `extern "sysv64" fn(context: *const (), arguments: *const S, results: *mut S)`. The functions
-//! of a list are a table of pairs of pointers: the function, then its context.
+//! A called function has the signature `extern "sysv64" fn(context: *const (), arguments: *const S, results: *mut S)`. The functions of a list are a
+//! table of pairs of pointers: the function, then its context.
 
 use super::encode::{Encoder, General, Memory};
 
-/// A region of memory that a function is given, in the order of their pointers. All but the last consist of slots of one scalar each, and no
-/// two of them may overlap where one of them is written.
+/// A region of memory of a function, in the order of the pointers. All regions except the last consist of slots of one scalar each. If one of two
+/// regions is written, they must not overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum Base {
@@ -19,17 +20,17 @@ pub enum Base {
     State,
     /// Accelerations.
     Accelerations,
-    /// Guards.
+    /// Event functions.
     Guards,
-    /// Parameters.
+    /// Parameters of the model.
     Parameters,
     /// Values that depend on parameters alone.
     Derived,
     /// Results, which are written.
     Results,
-    /// Memory for the function to work in, which is written.
+    /// Working memory of the function, which is written.
     Frame,
-    /// Functions that are called, each a pair of pointers.
+    /// The functions that are called, each as a pair of pointers.
     Functions,
 }
 
@@ -48,7 +49,7 @@ impl Base {
     ];
 }
 
-/// Registers that nobody has to keep, without the scratch register and the one with the pointers.
+/// Registers that a function may change, except the scratch register and the one with the pointers.
 const FREE: [General; 7] = [
     General::Rsi,
     General::Rdx,
@@ -58,7 +59,7 @@ const FREE: [General; 7] = [
     General::R10,
     General::R11,
 ];
-/// Registers that functions keep, without the one with the pointers; first those with the shorter encodings.
+/// Registers that a function must restore, except the one with the pointers. Those with shorter encodings come first.
 const KEPT: [General; 5] = [
     General::Rbp,
     General::R14,
@@ -69,19 +70,19 @@ const KEPT: [General; 5] = [
 /// Holds an address for one instruction.
 const SCRATCH: General = General::Rax;
 
-/// Where the pointers are while a function runs.
+/// Where the pointers are while the function runs.
 pub(super) struct Bases {
-    /// Holds the address of the struct.
+    /// The register with the address of the struct.
     pointers: General,
     registers: [Option<General>; Base::ALL.len()],
-    /// Registers to be restored.
+    /// Registers that must be restored.
     saved: Vec<General>,
-    /// The stack must be moved for calls to find it at a multiple of 16.
+    /// Whether the stack must be moved so that calls find it at a multiple of 16.
     align: bool,
 }
 
 impl Bases {
-    /// Gives registers to the bases that are used most, by the number of uses of each.
+    /// Gives registers to the bases that are used most, given the number of uses of each.
     pub fn new(uses: [u32; Base::ALL.len()], calls: bool) -> Self {
         let mut order = Base::ALL;
         order.sort_by_key(|base| std::cmp::Reverse(uses[*base as usize]));
@@ -110,7 +111,7 @@ impl Bases {
         }
     }
 
-    /// The beginning of a function.
+    /// Writes the beginning of a function.
     pub fn enter(&self, encoder: &mut Encoder) {
         for register in &self.saved {
             encoder.push(*register);
@@ -128,7 +129,7 @@ impl Bases {
         }
     }
 
-    /// The end of a function.
+    /// Writes the end of a function.
     pub fn leave(&self, encoder: &mut Encoder) {
         if self.align {
             encoder.lower_stack(-8);
@@ -139,7 +140,7 @@ impl Bases {
         encoder.ret();
     }
 
-    /// A place in a region, for the next instruction alone: its address may need the scratch register.
+    /// A place in a region, valid for the next instruction only, because its address may need the scratch register.
     pub fn memory(&self, encoder: &mut Encoder, base: Base, offset: i32) -> Memory {
         let register = self.registers[base as usize].unwrap_or_else(|| {
             encoder.load_general(SCRATCH, self.pointer(base));
@@ -148,12 +149,12 @@ impl Bases {
         Memory::At(register, offset)
     }
 
-    /// Where the pointer of a base is.
+    /// Where the pointer to a region is stored.
     fn pointer(&self, base: Base) -> Memory {
         Memory::At(self.pointers, 8 * i32::from(base as u8))
     }
 
-    /// Calls a function of the table.
+    /// Writes a call of a function of the table.
     pub fn call(
         &self,
         encoder: &mut Encoder,

@@ -1,14 +1,14 @@
-//! The angle of a point by doubles, written out as steps in place of a call.
+//! `atan2` of doubles, written out as steps in place of a call.
 //!
-//! It is written as the runtime writes it (`runtime/src/real/lanes/elementary/angle.rs`, which explains it), operation by operation, so that it has the same
-//! bits. Points that are nearer or farther than reciprocals reach, which are rare, take a branch to the runtime's function: see `rare`.
+//! The steps follow the runtime (`runtime/src/real/lanes/elementary/angle.rs`, which explains them) operation by operation, so they give the same
+//! bits. Points so near or far that reciprocals leave the range of numbers are rare; they take a branch to the function of the runtime: see `rare`.
 
 use super::encode::{Binary, Bitwise};
 use super::numbers::Signed;
 use super::steps::{Callee, Lowering};
 use super::terms::Term;
 
-/// 2⁸⁹⁹: half of where the runtime takes another point in the same direction.
+/// 2⁸⁹⁹: half of the limit at which the runtime scales the point.
 const LIMIT: f64 = f64::from_bits((1023 + 899) << 52);
 /// Coefficients of arctan t, from t³ on.
 const POLYNOMIAL: [f64; 13] = [
@@ -26,11 +26,11 @@ const POLYNOMIAL: [f64; 13] = [
     0.024_992_876_622_203_33,
     -0.009_206_337_670_391_992,
 ];
-/// π/4: 48 bits, and the rest.
+/// π/4 in two parts: 48 bits, and the rest.
 const EIGHTH_TURN: [f64; 2] = [0.785_398_163_397_445_6, 2.695_151_429_079_059_5e-15];
 
 impl Lowering<'_> {
-    /// The angle of the point (x, y): its slope is (x y′ − y x′)/(x² + y²), and 0 where the point stands still at 0.
+    /// The angle of the point (x, y). Its slope is (x y′ − y x′)/(x² + y²), and 0 where the point stands still at the origin.
     pub fn angle(&mut self, y: Term, x: Term) -> Term {
         let value = self.angle_of_numbers(y.value, x.value);
         let slope = y.slope.zip(x.slope).map(|(of_y, of_x)| {
@@ -55,7 +55,7 @@ impl Lowering<'_> {
         let short = n.select(steep, right, up);
         let long = n.select(steep, up, right);
 
-        // t, the rest of the division, and that of the sum below
+        // t, the remainder of the division, and that of the sum below
         let half = n.number(0.5);
         let half = n.scaled(Binary::Mul, long, half);
         let beyond = [half, short];
@@ -76,7 +76,7 @@ impl Lowering<'_> {
         let of_rest = n.scaled(Binary::Mul, rest, inverse);
         let tail = n.mul_add(cubed, polynomial, of_rest);
 
-        // the other eighth, quarter and half: each time the angle is taken from 0, π/2 or π
+        // the other eighth, quarter and half: the angle is then measured from 0, π/2 or π
         let sign = n.constant(-0.0);
         let [of_x, of_y] = [x, y].map(|side| {
             let side = n.with_sign(side);

@@ -1,7 +1,7 @@
-//! Two ellipsoids or ellipses, of which mostly nothing is asked but that they are far from each other: written out as steps, with a branch for all others.
+//! Two ellipsoids or ellipses that are mostly far from each other: this case is written out as steps, with a branch for all others.
 //!
-//! This is for one lane. The steps are those of the runtime (`touch` in `runtime/src/force/approach/{plane,space}.rs`, which explain them), operation by operation, up to where it knows
-//! whether the line of centres separates the two. Where it does not, a branch calls the runtime: see `rare`.
+//! This is for one lane. The steps follow the runtime (`touch` in `runtime/src/force/approach/{plane,space}.rs`, which explain them) operation by
+//! operation, up to where it knows whether the line of centres separates the two. If it does not, a branch calls the runtime: see `rare`.
 
 use super::numbers::Signed;
 use super::steps::{Callee, Lowering};
@@ -9,9 +9,9 @@ use super::terms::Term;
 use crate::expression::{ApproachCall, Function};
 
 impl Lowering<'_> {
-    /// What the call gives; `None` where it is to be called in any case.
+    /// The results of the call; `None` if it must be called in any case.
     pub fn approach(&mut self, call: ApproachCall, a: &[Term]) -> Option<Vec<Term>> {
-        // of several lanes one is near most of the time; results with their slopes need registers at the same time
+        // of several lanes, one is near most of the time; in space, results with their slopes need too many registers at once
         if !call.early || !self.one_lane || self.slopes && !call.planar {
             return None;
         }
@@ -59,7 +59,7 @@ impl Lowering<'_> {
         sum
     }
 
-    /// Q d, of a symmetric Q by xx, zz, xz or by xx, yy, zz, yz, xz, xy.
+    /// Q d, for a symmetric Q given as xx, zz, xz or as xx, yy, zz, yz, xz, xy.
     fn stretched(&mut self, q: &[Term], d: &[Term]) -> Vec<Term> {
         let rows: &[[usize; 3]] = match d.len() {
             2 => &[[0, 2, 0], [2, 1, 0]],

@@ -1,8 +1,8 @@
-//! An instruction for each step.
+//! Emits an instruction for each step.
 //!
-//! Steps are taken in their order. A value stays in its register until it is not needed any more or another one needs the register; it is
-//! then stored in the frame, unless it is in memory already. An operand that is not in a register is read from memory by the
-//! instruction that needs it, or loaded where it is soon needed again.
+//! Steps are emitted in their order. A value stays in its register until it is no longer needed or another value needs the register. In
+//! the latter case it is stored in the frame, unless it is already in memory. The instruction that needs an operand outside of a register
+//! reads it from memory; if the operand is needed again soon, it is loaded instead.
 
 use super::abi::{Base, Bases};
 use super::encode::{
@@ -16,20 +16,20 @@ use super::steps::{Kind, Origin, Step, Steps};
 use super::{Code, Target};
 use crate::program::{Input, List};
 
-/// A value that is used again within so many steps is loaded.
+/// A value that is used again within this many steps is loaded.
 const SOON: u32 = 12;
 
-/// Where in memory a value is.
+/// The place of a value in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Home {
     Nowhere,
-    /// Bytes behind the beginning of the constants.
+    /// A constant: its offset in bytes from the beginning of the constants.
     Constant(u32),
     /// A slot of a region.
     Slot(Base, u32),
 }
 
-/// The function for these steps, which are those of the list.
+/// The function for these steps, which are the steps of `list`.
 pub(super) fn emit(steps: Steps, list: &List, target: &Target) -> Code {
     let mut emitter = Emitter::new(&steps, target);
     emitter.bases.enter(&mut emitter.encoder);
@@ -55,13 +55,13 @@ pub(super) fn emit(steps: Steps, list: &List, target: &Target) -> Code {
 }
 
 impl Length {
-    /// More than 16 bytes, which old code does not know of.
+    /// Whether it has more than 16 bytes, which code without AVX does not know.
     pub(super) fn is_wide(self) -> bool {
         matches!(self, Length::ThirtyTwo | Length::SixtyFour)
     }
 }
 
-/// Where an input is.
+/// The place of an input.
 fn place(input: Input) -> (Base, u32) {
     match input {
         Input::Time => (Base::Time, 0),
@@ -73,7 +73,7 @@ fn place(input: Input) -> (Base, u32) {
     }
 }
 
-/// Slots that the inputs of a list take.
+/// The number of slots of the inputs of a list.
 fn inputs(list: &List) -> [u32; Base::ALL.len()] {
     let mut slots = [0; Base::ALL.len()];
     for (base, slot) in list.inputs.iter().map(|input| place(*input)) {
@@ -83,7 +83,7 @@ fn inputs(list: &List) -> [u32; Base::ALL.len()] {
     slots
 }
 
-/// The constants, as they stand behind the code, and the home of each value that is in memory from the start.
+/// The constants as bytes, and the home of each value that is in memory from the start.
 fn homes(steps: &Steps, target: &Target) -> (Vec<u8>, Vec<Home>) {
     let mut constants = Vec::new();
     let homes = steps.origins.iter().map(|origin| match origin {
@@ -101,10 +101,10 @@ fn homes(steps: &Steps, target: &Target) -> (Vec<u8>, Vec<Home>) {
     (constants, homes)
 }
 
-/// Puts a constant behind the others, in as many copies as instructions read, and returns where it begins.
+/// Appends a constant, in as many copies as instructions read, and returns its offset.
 fn add_constant(constants: &mut Vec<u8>, number: f64, target: &Target) -> u32 {
     let at = constants.len() as u32;
-    // of 64 bytes, one number is broadcast
+    // for 64 bytes, one number is broadcast
     let copies = match target.length {
         Length::ThirtyTwo => 32 / target.precision.bytes(),
         Length::Sixteen => 16 / target.precision.bytes(),
@@ -119,7 +119,7 @@ fn add_constant(constants: &mut Vec<u8>, number: f64, target: &Target) -> u32 {
     at
 }
 
-/// For each value its first use, and for each operand of each step and each argument the next use after that step.
+/// For each value its first use; for each operand of each step and each argument the next use after that step.
 struct Uses {
     first: Vec<u32>,
     of_operands: Vec<[u32; 4]>,
@@ -151,7 +151,7 @@ fn uses(steps: &Steps) -> Uses {
     }
 }
 
-/// How often each region is used, about.
+/// About how often each region is used.
 fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
     let mut uses = [0; Base::ALL.len()];
     let operands = steps.steps.iter().flat_map(Step::operands);
@@ -161,7 +161,7 @@ fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
         }
     }
     uses[Base::Results as usize] = steps.results.len() as u32;
-    // most loads and stores are those of values that found no register
+    // most loads and stores are those of values without a register
     uses[Base::Frame as usize] = u32::MAX;
     for step in &steps.steps {
         if let Kind::Call { .. } | Kind::Rare { .. } = step.kind {
@@ -174,7 +174,7 @@ fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
 pub(super) struct Emitter<'a> {
     pub steps: &'a Steps,
     pub shape: Shape,
-    /// Comparisons go to mask registers.
+    /// Whether comparisons write to mask registers.
     pub masks: bool,
     pub encoder: Encoder,
     pub bases: Bases,
@@ -182,14 +182,14 @@ pub(super) struct Emitter<'a> {
     homes: Vec<Home>,
     constants: Vec<u8>,
     slots: Slots,
-    /// `None` where no number is rare.
+    /// `None` if no number is rare.
     pub rare: Option<Rare>,
-    /// Slots to be given back after this step.
+    /// Slots that become free after this step.
     vacated: Vec<u32>,
     uses: Uses,
-    /// The first result that a value is, or `NEVER`.
+    /// The index of the first result that is this value, or `NEVER`.
     result: Vec<u32>,
-    /// Results that are not written where a step defines them, with their values.
+    /// Results that are not written when a step defines them, with their values.
     remaining: Vec<(u32, u32)>,
     now: u32,
 }
@@ -205,7 +205,7 @@ impl<'a> Emitter<'a> {
         let most_arguments = calls.max();
         let mut slots = Slots::default();
         if let Some(most) = most_arguments {
-            // slot 0 on: arguments
+            // from slot 0 on: arguments
             slots.take_several(most.max(1));
         }
         let mut result = vec![NEVER; steps.origins.len()];
@@ -310,7 +310,7 @@ impl<'a> Emitter<'a> {
         let keep = keep.map_or(Set::default(), |register| Set::default().with(register));
         let source = self.loaded(first, keep);
         let keep = keep.with(source);
-        // 16 bytes are read of a scalar, which are there of a constant
+        // a scalar in memory has less than the 16 bytes that are read, except for constants
         let whole = self.shape.length != Length::Scalar
             || matches!(self.homes[second as usize], Home::Constant(_));
         let mask = match whole {
@@ -324,16 +324,16 @@ impl<'a> Emitter<'a> {
         self.define(defines, result);
     }
 
-    /// ±(a · b) ± c. The instruction overwrites one operand.
+    /// Emits ±(a · b) ± c. The instruction overwrites one operand.
     fn fused(&mut self, signs: Signs, operands: [u32; 3], defines: u32) {
         let keep = self.at_most_one_in_memory(operands);
         let registers = operands.map(|value| self.registers.of(value));
         let dies = |i: usize| registers[i].is_some() && self.after(i) == NEVER;
-        // the addend first: the factors may change places
+        // the addend first, because the factors may be exchanged
         let dying = [2, 0, 1].into_iter().find(|i| dies(*i));
         let overwritten = match dying {
             Some(index) => index,
-            // a copy is made of what is in memory, or else of the addend
+            // copies an operand that is in memory, or otherwise the addend
             None => (0..3).find(|i| registers[*i].is_none()).unwrap_or(2),
         };
         let others = match overwritten {
@@ -364,7 +364,7 @@ impl<'a> Emitter<'a> {
         self.define(defines, result);
     }
 
-    /// `then` where a < b, otherwise the other: a comparison and a choice by it.
+    /// Emits `then` where a < b, `otherwise` elsewhere: a comparison and a selection.
     fn select(&mut self, operands: [u32; 4], defines: u32) {
         let mut keep = Set::default();
         for register in operands
@@ -377,7 +377,7 @@ impl<'a> Emitter<'a> {
         keep = keep.with(first);
         let otherwise = self.loaded(operands[3], keep);
         keep = keep.with(otherwise);
-        // of scalars whole registers are chosen from, and memory has no more than the number
+        // for scalars, the selection reads whole registers, but memory has only one number
         let scalar = self.shape.length == Length::Scalar;
         if scalar || !self.masks {
             keep = keep.with(self.loaded(operands[2], keep));
@@ -407,7 +407,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Loads operands until one at most, and no two that are the same, are in memory alone. Returns the registers of the others.
+    /// Loads operands until at most one of them, and no value twice, is only in memory. Returns the registers of the others.
     fn at_most_one_in_memory(&mut self, operands: [u32; 3]) -> Set {
         let mut keep = Set::default();
         for register in operands
@@ -427,7 +427,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The next use of an operand of this step after it.
+    /// The next use of an operand after this step.
     fn after(&self, operand: usize) -> u32 {
         self.uses.of_operands[self.now as usize][operand]
     }
@@ -448,7 +448,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The register of a value, which is loaded where it is not in one. `keep` stays where it is.
+    /// The register of a value. If it is in none, it is loaded. The registers in `keep` are not used for it.
     pub(super) fn loaded(&mut self, value: u32, keep: Set) -> Vector {
         if let Some(register) = self.registers.of(value) {
             return register;
@@ -459,7 +459,7 @@ impl<'a> Emitter<'a> {
         register
     }
 
-    /// A value as the last operand of an instruction: it may stay in memory.
+    /// A value as the last operand of an instruction; it may be in memory.
     fn operand(&mut self, value: u32, keep: Set, index: usize) -> Operand {
         if let Some(register) = self.registers.of(value) {
             return Operand::Register(register);
@@ -477,7 +477,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Counts the uses of this step, and lets go of what is not needed any more.
+    /// Counts the uses of this step, and drops values that are no longer needed.
     pub(super) fn used(&mut self) {
         let steps = self.steps;
         let step = &steps.steps[self.now as usize];
@@ -499,7 +499,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Lets go of a value that is not needed any more. Its slot may still be read by the instruction that comes next.
+    /// Drops a value that is no longer needed. The next instruction may still read its slot.
     fn forget(&mut self, value: u32) {
         self.registers.remove(value);
         if let Home::Slot(Base::Frame, slot) = self.homes[value as usize] {
@@ -508,19 +508,19 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Gives back the slots of values that were let go.
+    /// Frees the slots of dropped values.
     fn give_back(&mut self) {
         for slot in self.vacated.drain(..) {
             self.slots.give_back(slot);
         }
     }
 
-    /// A register for a result: what is in it may be an operand.
+    /// A register for a result; it may be the register of an operand.
     fn destination(&mut self) -> Vector {
         self.make_room(Set::default())
     }
 
-    /// A free register.
+    /// A free register; if there is none, one is freed.
     pub(super) fn make_room(&mut self, keep: Set) -> Vector {
         if let Some(register) = self.registers.free() {
             return register;
@@ -533,7 +533,7 @@ impl<'a> Emitter<'a> {
         self.make_room(keep)
     }
 
-    /// Sees to it that a value that is in a register is in memory, too.
+    /// Ensures that a value in a register is also in memory.
     fn store(&mut self, value: u32) {
         if self.homes[value as usize] != Home::Nowhere {
             return;
@@ -568,12 +568,12 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Where in memory a value is.
+    /// The place of a value in memory.
     pub(super) fn home(&self, value: u32) -> Home {
         self.homes[value as usize]
     }
 
-    /// Where a constant is, in bytes behind the beginning of the constants.
+    /// The offset of a constant in bytes from the beginning of the constants.
     pub(super) fn constant(&self, value: u32) -> u32 {
         match self.homes[value as usize] {
             Home::Constant(at) => at,
@@ -581,7 +581,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Where a value is, for the next instruction.
+    /// The memory operand of a place, valid for the next instruction.
     fn memory(&mut self, home: Home) -> Memory {
         match home {
             Home::Constant(at) => Memory::Constant(at),
@@ -599,7 +599,7 @@ impl<'a> Emitter<'a> {
         (slot * self.shape.bytes()).cast_signed()
     }
 
-    /// A value that is in a register now: a result is written.
+    /// Records that a value is now in a register, and writes it if it is a result.
     pub(super) fn define(&mut self, value: u32, register: Vector) {
         let result = self.result[value as usize];
         if result != NEVER {
@@ -611,7 +611,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Results that are inputs, constants, or other results.
+    /// Writes results that are inputs, constants, or other results.
     fn remaining_results(&mut self) {
         let register = Vector(0);
         for (result, value) in std::mem::take(&mut self.remaining) {
@@ -620,7 +620,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Calls a function. Whatever is in registers is stored before, because functions keep no vector register.
+    /// Emits a call. All values in registers are stored before, because functions may change every vector register.
     fn call(&mut self, callee: u32, arguments: std::ops::Range<usize>, defines: u32, results: u32) {
         let given = self.arguments(arguments.clone());
         for argument in arguments.clone() {
@@ -656,7 +656,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A value that a call has written to a slot.
+    /// Records a value that a call has written to a slot.
     fn called(&mut self, value: u32, (base, slot): (Base, u32)) {
         self.homes[value as usize] = Home::Slot(base, slot);
         let result = self.result[value as usize];
@@ -671,7 +671,8 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Puts the arguments of a call side by side and returns where. What stands side by side in memory stays there.
+    /// Places the arguments of a call side by side and returns their place. Arguments that already stand side by side in memory are not
+    /// moved.
     fn arguments(&mut self, arguments: std::ops::Range<usize>) -> (Base, u32) {
         let steps = self.steps;
         let values = &steps.arguments[arguments.clone()];

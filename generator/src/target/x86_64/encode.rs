@@ -1,7 +1,7 @@
-//! The encoding of the instructions that are needed.
+//! The encoding of the instructions that this target needs.
 //!
-//! Instructions on vector registers are encoded with a VEX prefix where that is possible and with an EVEX prefix elsewhere: with 64-byte
-//! registers, with registers 16 to 31, and where memory is broadcast. Layouts are those of the Intel manual, volume 2, chapter 2.
+//! Instructions on vector registers have a VEX prefix if possible. They have an EVEX prefix with 64-byte registers, with registers 16 to 31, and
+//! where memory is broadcast. The layouts are those of the Intel manual, volume 2, chapter 2.
 
 /// A general register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,12 +13,12 @@ pub enum General {
     Rcx = 1,
     /// Third argument of a call.
     Rdx = 2,
-    /// Kept by calls.
+    /// Preserved by calls.
     Rbx = 3,
     /// The stack.
     #[cfg_attr(not(test), expect(dead_code, reason = "completes the set"))]
     Rsp = 4,
-    /// Kept by calls.
+    /// Preserved by calls.
     Rbp = 5,
     /// Second argument of a call.
     Rsi = 6,
@@ -32,13 +32,13 @@ pub enum General {
     R10 = 10,
     /// Scratch.
     R11 = 11,
-    /// Kept by calls.
+    /// Preserved by calls.
     R12 = 12,
-    /// Kept by calls.
+    /// Preserved by calls.
     R13 = 13,
-    /// Kept by calls.
+    /// Preserved by calls.
     R14 = 14,
-    /// Kept by calls.
+    /// Preserved by calls.
     R15 = 15,
 }
 
@@ -49,9 +49,9 @@ pub struct Vector(pub u8);
 /// A place in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Memory {
-    /// So many bytes behind the address in a register.
+    /// The address in a register plus this many bytes.
     At(General, i32),
-    /// So many bytes behind the beginning of the constants, which follow the code.
+    /// The beginning of the constants, which follow the code, plus this many bytes.
     Constant(u32),
 }
 
@@ -60,13 +60,13 @@ pub enum Memory {
 pub enum Operand {
     /// A register.
     Register(Vector),
-    /// Memory, as many bytes as the instruction works on.
+    /// Memory: as many bytes as the instruction works on.
     Memory(Memory),
-    /// One number in memory, in every lane.
+    /// One number in memory, used in every lane.
     Broadcast(Memory),
 }
 
-/// How much of a register an instruction works on.
+/// The part of a register that an instruction works on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {
     /// The lowest number.
@@ -89,7 +89,7 @@ pub enum Precision {
 }
 
 impl Precision {
-    /// Bytes of a number.
+    /// Size of a number in bytes.
     pub const fn bytes(self) -> u32 {
         match self {
             Precision::Double => 8,
@@ -101,14 +101,14 @@ impl Precision {
 /// The length and precision of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
-    /// How much of a register it works on.
+    /// The part of a register that it works on.
     pub length: Length,
-    /// What it works on.
+    /// The numbers that it works on.
     pub precision: Precision,
 }
 
 impl Shape {
-    /// Bytes of memory that it reads or writes.
+    /// Number of bytes of memory that it reads or writes.
     pub const fn bytes(self) -> u32 {
         match self.length {
             Length::Scalar => self.precision.bytes(),
@@ -118,7 +118,7 @@ impl Shape {
         }
     }
 
-    /// The whole register that holds it: what moves and bitwise operations of registers work on.
+    /// The whole register that contains it: moves and bitwise operations of registers work on whole registers.
     const fn whole(self) -> Shape {
         match self.length {
             Length::Scalar => Shape {
@@ -141,27 +141,27 @@ pub enum Binary {
     Sub,
     /// first / second
     Div,
-    /// The larger one, the second where either is no number or both are zero.
+    /// The larger one; the second where either is NaN or both are zero.
     Max,
-    /// The smaller one, the second where either is no number or both are zero.
+    /// The smaller one; the second where either is NaN or both are zero.
     Min,
 }
 
 /// An operation on bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bitwise {
-    /// Set where both are.
+    /// Set where both bits are set.
     And,
-    /// Set where one of them is.
+    /// Set where exactly one of the bits is set.
     Xor,
 }
 
-/// What a comparison asks. Either is false or true, and raises nothing, where a number is none.
+/// The condition of a comparison. With a NaN it is false or true as stated, and raises no exception.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comparison {
-    /// first < second; false for what is no number
+    /// first < second; false with a NaN
     Less,
-    /// not first < second; true for what is no number
+    /// not first < second; true with a NaN
     NotLess,
 }
 
@@ -174,7 +174,7 @@ impl Comparison {
     }
 }
 
-/// Which operands a fused operation multiplies: 1 is the destination, 2 the register, 3 the last operand.
+/// The operands that a fused operation multiplies: 1 is the destination, 2 the register, 3 the last operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// 1 · 3 + 2
@@ -188,26 +188,26 @@ pub enum Form {
 /// The signs in a fused operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Signs {
-    /// −(a · b)
+    /// −(a · b) instead of a · b
     pub product: bool,
-    /// − c
+    /// − c instead of + c
     pub addend: bool,
 }
 
-/// What identifies an instruction on vector registers besides its operands.
+/// Everything that identifies an instruction on vector registers, except its operands.
 #[derive(Clone, Copy)]
 struct Opcode {
     /// 1: 0F, 2: 0F 38, 3: 0F 3A.
     map: u8,
     /// 0: none, 1: 66, 2: F3, 3: F2.
     prefix: u8,
-    /// The bit W with VEX and with EVEX.
+    /// The bit W with a VEX and with an EVEX prefix.
     wide: [bool; 2],
     code: u8,
     length: Length,
-    /// What the displacement of EVEX counts, where memory is not broadcast.
+    /// The unit of an EVEX displacement, if memory is not broadcast.
     unit: u32,
-    /// What it counts where memory is broadcast.
+    /// The unit of an EVEX displacement, if memory is broadcast.
     element: u32,
 }
 
@@ -215,21 +215,21 @@ struct Opcode {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place(usize);
 
-/// A jump whose displacement, which stands here in the code, is to be filled in.
+/// A jump whose displacement must still be filled in; it contains the position of the displacement.
 #[derive(Debug)]
 pub struct Jump(usize);
 
-/// Where a displacement to the constants must be filled in.
+/// A displacement to the constants that must still be filled in.
 struct Fixup {
-    /// Of the displacement, in the code.
+    /// Position of the displacement in the code.
     at: usize,
-    /// Of the constant.
+    /// Offset of the constant.
     constant: u32,
-    /// Bytes of the instruction behind the displacement.
+    /// Number of bytes of the instruction after the displacement.
     behind: usize,
 }
 
-/// Code that grows.
+/// The code so far.
 #[derive(Default)]
 pub struct Encoder {
     bytes: Vec<u8>,
@@ -237,7 +237,7 @@ pub struct Encoder {
 }
 
 impl Encoder {
-    /// No code, with room for so many bytes.
+    /// An encoder without code, with room for so many bytes.
     pub fn with_capacity(bytes: usize) -> Self {
         Encoder {
             bytes: Vec::with_capacity(bytes),
@@ -283,7 +283,8 @@ impl Encoder {
         self.vector(arithmetic(shape, code), destination, first, second);
     }
 
-    /// destination = √operand. `first` gives the lanes beyond the first of a scalar; where it is not the operand, it delays the root.
+    /// destination = √operand. For scalars, the lanes beyond the first come from `first`. If `first` is not the operand, the root has to wait
+    /// for it.
     pub fn sqrt(&mut self, shape: Shape, [destination, first]: [Vector; 2], operand: Operand) {
         let first = match shape.length {
             Length::Scalar => first,
@@ -292,7 +293,7 @@ impl Encoder {
         self.vector(arithmetic(shape, 0x51), destination, first, operand);
     }
 
-    /// destination = first ∘ second, bit by bit: of memory a whole register or a broadcast, of scalars 16 bytes.
+    /// destination = first ∘ second, bit by bit. It reads a whole register or a broadcast from memory; for scalars 16 bytes.
     pub fn bits(
         &mut self,
         shape: Shape,
@@ -307,20 +308,20 @@ impl Encoder {
         self.vector(arithmetic(shape.whole(), code), destination, first, second);
     }
 
-    /// destination = the bits of each double, so many places to the left. Of scalars the whole register is shifted.
+    /// destination = the bits of each double, shifted left. For scalars the whole register is shifted.
     pub fn shift_left(&mut self, shape: Shape, destination: Vector, source: Vector, places: u8) {
         let opcode = Opcode {
             prefix: 1,
             wide: [false, true],
             ..arithmetic(shape.whole(), 0x73)
         };
-        // a part of the operation stands where the destination stands elsewhere
+        // a part of the operation code stands where the destination stands elsewhere
         let shift = Vector(6);
         self.vector(opcode, shift, destination, Operand::Register(source));
         self.immediate(places);
     }
 
-    /// The sum of a product of two operands and the third one, with these signs, rounded once.
+    /// The sum of a product of two operands and the third operand, with these signs, rounded once.
     pub fn fused(
         &mut self,
         shape: Shape,
@@ -350,7 +351,7 @@ impl Encoder {
         self.vector(opcode, destination, second, third);
     }
 
-    /// destination = all bits set in each number where the comparison holds, none elsewhere. Not for registers 16 to 31, nor 64 bytes.
+    /// destination = all bits set in each number where the comparison holds, no bits elsewhere. Not for registers 16 to 31, nor 64 bytes.
     pub fn compare(
         &mut self,
         shape: Shape,
@@ -362,8 +363,8 @@ impl Encoder {
         self.immediate(comparison.predicate());
     }
 
-    /// destination = in each number `then` where the first bit of that in `mask` is set, otherwise `otherwise`. Of scalars the whole register is
-    /// used. Not for registers 16 to 31, nor 64 bytes.
+    /// destination = for each number, `then` where the first bit of the same number in `mask` is set, otherwise `otherwise`. For scalars the
+    /// whole register is used. Not for registers 16 to 31, nor 64 bytes.
     pub fn blend(
         &mut self,
         shape: Shape,
@@ -387,7 +388,7 @@ impl Encoder {
         self.immediate(mask.0 << 4);
     }
 
-    /// Mask register 1 = where the comparison holds. With an EVEX prefix.
+    /// Mask register 1 = the lanes where the comparison holds. It has an EVEX prefix.
     pub fn compare_to_mask(
         &mut self,
         shape: Shape,
@@ -400,14 +401,14 @@ impl Encoder {
         self.immediate(comparison.predicate());
     }
 
-    /// Jumps where mask register 1, of sixteen bits at most, holds one; for [`land`](Self::land) to say where to.
+    /// Jumps if mask register 1, of at most sixteen bits, has a bit set; [`land`](Self::land) sets the target.
     pub fn jump_if_masked(&mut self) -> Jump {
         // kortestw k1, k1
         self.bytes.extend([0xc5, 0xf8, 0x98, 0xc9]);
         self.jump_if_not_zero()
     }
 
-    /// Jumps where the sign of any number in a register is set, of a scalar that of the first; for [`land`](Self::land) to say where to. The
+    /// Jumps if the sign of any number in a register is set, for scalars that of the first number; [`land`](Self::land) sets the target. The
     /// scratch register is changed. Not for registers 16 to 31, nor 64 bytes.
     pub fn jump_if_signed(&mut self, shape: Shape, source: Vector) -> Jump {
         let opcode = Opcode {
@@ -434,7 +435,7 @@ impl Encoder {
         self.fill_in(jump, place);
     }
 
-    /// Calls what stands at a place.
+    /// Calls the function at a place in the code.
     pub fn call_place(&mut self, place: Place) {
         self.bytes.push(0xe8);
         let jump = self.displacement();
@@ -447,12 +448,12 @@ impl Encoder {
         jump
     }
 
-    /// Where the next instruction stands.
+    /// The place of the next instruction.
     pub fn here(&self) -> Place {
         Place(self.bytes.len())
     }
 
-    /// Lets a jump go to the next instruction.
+    /// Makes a jump go to the next instruction.
     pub fn land(&mut self, jump: Jump) {
         let here = self.here();
         self.fill_in(jump, here);
@@ -464,7 +465,7 @@ impl Encoder {
         self.bytes[at..end].copy_from_slice(&distance.to_le_bytes());
     }
 
-    /// destination = `then` where mask register 1 says so, `otherwise` elsewhere. Of scalars the whole register is used. With an EVEX prefix.
+    /// destination = `then` where mask register 1 is set, `otherwise` elsewhere. For scalars the whole register is used. It has an EVEX prefix.
     pub fn blend_by_mask(
         &mut self,
         shape: Shape,
@@ -485,7 +486,7 @@ impl Encoder {
         self.vector(opcode, destination, Vector(0), Operand::Register(source));
     }
 
-    /// destination = memory, at any alignment. A scalar makes the rest of the register zero.
+    /// destination = memory, at any alignment. A scalar sets the rest of the register to zero.
     pub fn load(&mut self, shape: Shape, destination: Vector, source: Memory) {
         let opcode = arithmetic(shape, 0x10);
         self.vector(opcode, destination, Vector(0), Operand::Memory(source));
@@ -513,17 +514,17 @@ impl Encoder {
         self.vector(opcode, destination, Vector(0), Operand::Memory(source));
     }
 
-    /// Makes the upper halves of all registers zero, for code that does not know of them.
+    /// Sets the upper halves of all registers to zero, for code that does not know them.
     pub fn zero_upper(&mut self) {
         self.bytes.extend([0xc5, 0xf8, 0x77]);
     }
 
-    /// Puts a register on the stack.
+    /// Pushes a register on the stack.
     pub fn push(&mut self, register: General) {
         self.short(0x50, register);
     }
 
-    /// Takes a register from the stack.
+    /// Pops a register from the stack.
     pub fn pop(&mut self, register: General) {
         self.short(0x58, register);
     }
@@ -540,7 +541,7 @@ impl Encoder {
         self.general(true, 0x8b, destination as u8, source);
     }
 
-    /// destination = address of memory
+    /// destination = address of the memory operand
     pub fn address(&mut self, destination: General, of: Memory) {
         self.general(true, 0x8d, destination as u8, of);
     }
@@ -550,7 +551,7 @@ impl Encoder {
         self.general(false, 0xff, 2, address);
     }
 
-    /// Moves the stack down by so many bytes; up where negative.
+    /// Moves the stack down by so many bytes; up if negative.
     pub fn lower_stack(&mut self, bytes: i8) {
         self.bytes.extend([0x48, 0x83, 0xec, bytes.cast_unsigned()]);
     }
@@ -560,7 +561,7 @@ impl Encoder {
         self.bytes.push(0xc3);
     }
 
-    /// An instruction that has its register in its only byte.
+    /// An instruction whose only byte contains its register.
     fn short(&mut self, code: u8, register: General) {
         let register = register as u8;
         if register > 7 {
@@ -569,7 +570,7 @@ impl Encoder {
         self.bytes.push(code | register & 7);
     }
 
-    /// An instruction of a general register and memory.
+    /// An instruction with a general register and memory.
     fn general(&mut self, wide: bool, code: u8, reg: u8, memory: Memory) {
         let base = base_bit(memory);
         let rex = 0x40 | u8::from(wide) << 3 | reg >> 3 << 2 | base;
@@ -580,7 +581,7 @@ impl Encoder {
         self.memory(reg, memory, 1);
     }
 
-    /// An instruction on vector registers. `reg` is the destination, or what is stored; `second` is 0 where there is none.
+    /// An instruction on vector registers. `reg` is the destination, or the register to store; `second` is 0 if there is none.
     fn vector(&mut self, opcode: Opcode, reg: Vector, second: Vector, last: Operand) {
         let high = |register: Vector| register.0 > 15;
         let evex = opcode.length == Length::SixtyFour
@@ -601,7 +602,7 @@ impl Encoder {
         }
     }
 
-    /// The same with an EVEX prefix in any case, in the numbers that a mask register says; in all of them where that is 0.
+    /// The same, always with an EVEX prefix, for the numbers that a mask register selects; for all of them if `mask` is 0.
     fn with_evex(&mut self, opcode: Opcode, reg: Vector, second: Vector, last: Operand, mask: u8) {
         self.evex(&opcode, reg.0, second.0, last, mask);
         self.bytes.push(opcode.code);
@@ -612,7 +613,7 @@ impl Encoder {
         self.last_operand(reg, last, unit);
     }
 
-    /// The bytes that say the operands that no prefix says.
+    /// The bytes for the operands that are not in the prefix.
     fn last_operand(&mut self, reg: Vector, last: Operand, unit: u32) {
         match last {
             Operand::Register(register) => {
@@ -624,7 +625,7 @@ impl Encoder {
         }
     }
 
-    /// The prefix of two or three bytes. Bits of registers are inverted in it.
+    /// The prefix of two or three bytes. Register bits are inverted in it.
     fn vex(&mut self, opcode: &Opcode, reg: u8, second: u8, last: Operand) {
         let b = match last {
             Operand::Register(register) => register.0 >> 3 & 1,
@@ -642,7 +643,7 @@ impl Encoder {
         }
     }
 
-    /// A number at the end of an instruction.
+    /// An immediate operand at the end of an instruction.
     fn immediate(&mut self, value: u8) {
         if let Some(fixup) = self.fixups.last_mut()
             && fixup.at + 4 == self.bytes.len()
@@ -652,7 +653,7 @@ impl Encoder {
         self.bytes.push(value);
     }
 
-    /// The prefix of four bytes. Bits of registers are inverted in it.
+    /// The prefix of four bytes. Register bits are inverted in it.
     fn evex(&mut self, opcode: &Opcode, reg: u8, second: u8, last: Operand, mask: u8) {
         let (x, b, broadcast) = match last {
             Operand::Register(Vector(register)) => (register >> 4 & 1, register >> 3 & 1, 0),
@@ -674,7 +675,7 @@ impl Encoder {
         ]);
     }
 
-    /// The bytes that say which register and which memory. A displacement of one byte counts in units.
+    /// The bytes that encode a register and a memory operand. A displacement of one byte counts in units.
     fn memory(&mut self, reg: u8, memory: Memory, unit: u32) {
         let reg = (reg & 7) << 3;
         match memory {
@@ -700,7 +701,7 @@ impl Encoder {
                     None => 0x80,
                 };
                 self.bytes.push(mode | reg | base);
-                // rsp and r12 need a second byte, which says that no register is added
+                // rsp and r12 need a second byte, which says that there is no index register
                 if base == 4 {
                     self.bytes.push(0x24);
                 }
@@ -714,7 +715,7 @@ impl Encoder {
     }
 }
 
-/// The fourth bit of the base.
+/// The fourth bit of the number of the base register.
 fn base_bit(memory: Memory) -> u8 {
     match memory {
         Memory::At(base, _) => base as u8 >> 3,
@@ -722,7 +723,7 @@ fn base_bit(memory: Memory) -> u8 {
     }
 }
 
-/// An instruction that has a prefix for each shape: most of them.
+/// The operation code of an instruction that has a prefix for each shape, as most have.
 fn arithmetic(shape: Shape, code: u8) -> Opcode {
     let prefix = match (shape.length, shape.precision) {
         (Length::Scalar, Precision::Double) => 3,

@@ -1,7 +1,7 @@
-//! Force laws and curves of straight lines, written out as steps in place of calls.
+//! Force laws and piecewise linear curves, written out as steps in place of calls.
 //!
-//! Every law is written as the runtime writes it (`runtime/src/force`, `runtime/src/curve/{lines,zigzag}.rs`), operation by operation, so that it gives the
-//! same bits. A call stores all that is in registers and loads it again, which takes longer than most laws.
+//! The steps follow the runtime (`runtime/src/force`, `runtime/src/curve/{lines,zigzag}.rs`) operation by operation, so they give the same bits. A
+//! call stores all values that are in registers and loads them again, which takes longer than most laws.
 
 use super::steps::Lowering;
 use super::terms::Term;
@@ -9,11 +9,11 @@ use crate::expression::Function;
 use crate::model::Extrapolate;
 use crate::program::Curve;
 
-/// Curves with more points are called: the runtime searches them.
+/// Curves with more points are called, because the runtime searches them.
 const MOST_POINTS: usize = 8;
 
 impl Lowering<'_> {
-    /// What a function gives; `None` where it is to be called.
+    /// The result of a function; `None` if it must be called.
     pub fn law(&mut self, function: Function, a: &[Term]) -> Option<Term> {
         match function {
             Function::Coulomb => Some(self.coulomb(a[0], a[1], a[2])),
@@ -46,7 +46,7 @@ impl Lowering<'_> {
         self.quotient(limit, speed)
     }
 
-    /// max(0, elastic + viscous) where penetrated, 0 elsewhere.
+    /// max(0, elastic + viscous) where the penetration is positive, 0 elsewhere.
     fn normal_force(&mut self, penetration: Term, elastic: Term, viscous: Term) -> Term {
         let zero = self.number(0.0);
         let force = self.sum(elastic, viscous);
@@ -55,7 +55,7 @@ impl Lowering<'_> {
         self.select(zero, penetration, force, apart)
     }
 
-    /// `then` where a < b, `otherwise` elsewhere, and NaN where either is not finite and the comparison fails.
+    /// `then` where a < b, `otherwise` elsewhere. NaN where the comparison fails because one of them is not finite.
     fn choose(&mut self, a: Term, b: Term, then: Term, otherwise: Term) -> Term {
         let (of_a, of_b) = (self.taint(a), self.taint(b));
         let of_both = self.sum(of_a, of_b);
@@ -63,12 +63,12 @@ impl Lowering<'_> {
         self.select(a, b, then, otherwise)
     }
 
-    /// 0, or NaN of what is not finite.
+    /// 0, or NaN where `x` is not finite.
     fn taint(&mut self, x: Term) -> Term {
         self.sum(x, x.negated())
     }
 
-    /// A curve of straight lines through few points.
+    /// A piecewise linear curve with few points; `None` for any other curve.
     fn lines(&self, index: u32) -> Option<Lines> {
         let curve = self.curves.get(index as usize)?;
         let few = curve.points.len() <= MOST_POINTS;
@@ -79,7 +79,7 @@ impl Lowering<'_> {
     fn ordinate(&mut self, lines: Lines, x: Term) -> Term {
         let mut y = self.line(&lines, 0, x);
         for (k, [abscissa, _]) in lines.points.iter().enumerate() {
-            // left of the first point is often the line of the first piece
+            // left of the first point the line is often that of the first piece
             if k == 0 && lines.slope_of(0).to_bits() == lines.slope_of(1).to_bits() {
                 continue;
             }
@@ -109,7 +109,7 @@ impl Lowering<'_> {
         self.guarded(&lines, x, slope)
     }
 
-    /// The distance to the nearest kink, with a sign that each of them changes; 1 where there is none.
+    /// The breakpoint indicator: the distance to the nearest kink, with a sign that changes at each kink; 1 if there is none.
     fn zigzag(&mut self, kinks: &[f64], x: Term) -> Term {
         if kinks.is_empty() {
             let (one, taint) = (self.number(1.0), self.taint(x));
@@ -138,7 +138,7 @@ impl Lowering<'_> {
         y
     }
 
-    /// Piece 0 lies left of the first point, piece k + 1 right of point k.
+    /// The ordinate of one piece: piece 0 lies left of the first point, piece k + 1 right of point k.
     fn line(&mut self, lines: &Lines, piece: usize, x: Term) -> Term {
         let [abscissa, ordinate] = lines.points[piece.saturating_sub(1)];
         let (slope, abscissa) = (self.number(lines.slope_of(piece)), self.number(abscissa));
@@ -147,7 +147,7 @@ impl Lowering<'_> {
         self.mul_add(slope, way, ordinate)
     }
 
-    /// NaN outside a curve that must not be left.
+    /// The value `y`, but NaN outside a curve that must not be left.
     fn guarded(&mut self, lines: &Lines, x: Term, y: Term) -> Term {
         if lines.extrapolate != Extrapolate::Error {
             return y;
@@ -160,10 +160,10 @@ impl Lowering<'_> {
     }
 }
 
-/// A curve of straight lines with the slopes of its pieces.
+/// A piecewise linear curve with the slopes of its pieces.
 struct Lines {
     points: Vec<[f64; 2]>,
-    /// Of piece 0, left of the first point, and so on.
+    /// The slopes of all pieces; piece 0 lies left of the first point.
     slopes: Vec<f64>,
     extrapolate: Extrapolate,
 }
@@ -193,7 +193,7 @@ impl Lines {
         self.slopes[piece]
     }
 
-    /// The abscissae at which it is not smooth: where the slope changes by more than rounding, and where a curve that is held is left.
+    /// The abscissae at which it is not smooth: where the slope changes by more than rounding, and the ends of a held curve.
     fn kinks(&self) -> Vec<f64> {
         let last = self.points.len() - 1;
         let held = self.extrapolate == Extrapolate::Hold;
@@ -209,7 +209,7 @@ impl Lines {
         kinks.map(|k| self.points[k][0]).collect()
     }
 
-    /// How far off the slope right of a point may be, as coordinates are rounded.
+    /// A bound of the error in the slope right of a point, due to the rounding of coordinates.
     fn rounding(&self, k: usize) -> f64 {
         let ([x0, y0], [x1, y1]) = (self.points[k], self.points[k + 1]);
         let run = x1 - x0;

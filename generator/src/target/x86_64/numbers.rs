@@ -1,8 +1,8 @@
 //! Steps on numbers and their negatives.
 //!
-//! Negations disappear where the next operation can take them over without changing a bit: a sum becomes a difference, a fused operation one
-//! with other signs, and a product or quotient passes the sign on. −(a + b) is not (−a) + (−b), for the sign of zero differs; so the
-//! sign of a sum is not moved.
+//! A negation disappears if the next operation can absorb it without changing a bit: a sum becomes a difference, a fused operation gets
+//! other signs, and a product or quotient passes the sign on. The sign of a sum is not moved, because −(a + b) and (−a) + (−b) differ in the
+//! sign of zero.
 
 use super::encode::{Binary, Bitwise, Signs};
 use super::steps::{Kind, Origin, Step, Steps};
@@ -24,7 +24,7 @@ impl Signed {
         }
     }
 
-    /// With the other sign.
+    /// The same with the other sign.
     pub fn negated(self) -> Self {
         Signed {
             negative: !self.negative,
@@ -33,13 +33,13 @@ impl Signed {
     }
 }
 
-/// Steps that grow, and what is known of their values.
+/// The steps so far, and known facts about their values.
 pub(super) struct Numbers {
-    /// a · b + c is rounded once.
+    /// Whether a · b + c is rounded once.
     fused: bool,
-    /// The negative of a value, where there is one already.
+    /// The negative of a value, if it already exists.
     negatives: FxHashMap<u32, u32>,
-    /// By their bits.
+    /// The value of each constant, by its bits.
     constants: FxHashMap<u64, u32>,
     pub steps: Steps,
 }
@@ -65,7 +65,7 @@ impl Numbers {
         self.step(Kind::Binary(kind), [first, second, first, first])
     }
 
-    /// (±a) + (±b), where a −0 that is known is not added: it changes nothing.
+    /// (±a) + (±b). A constant −0 is not added, because it changes nothing.
     pub fn sum_of_slopes(&mut self, a: Signed, b: Signed) -> Signed {
         match (self.is_negative_zero(a), self.is_negative_zero(b)) {
             (true, _) => b,
@@ -74,7 +74,7 @@ impl Numbers {
         }
     }
 
-    /// `then` where a < b, `otherwise` elsewhere; nothing is chosen where both are one.
+    /// `then` where a < b, `otherwise` elsewhere. If both are the same value, there is no selection.
     pub fn slope_where(&mut self, ab: [Signed; 2], then: Signed, otherwise: Signed) -> Signed {
         match then == otherwise {
             true => then,
@@ -91,7 +91,7 @@ impl Numbers {
         }
     }
 
-    /// A product or quotient, whose sign is that of its factors.
+    /// A product or quotient; its sign is that of its factors.
     pub fn scaled(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
         Signed {
             negative: a.negative != b.negative,
@@ -99,7 +99,7 @@ impl Numbers {
         }
     }
 
-    /// (±a) · (±b) + (±c), rounded once where the target does that
+    /// (±a) · (±b) + (±c), rounded once if the target can
     pub fn mul_add(&mut self, a: Signed, b: Signed, c: Signed) -> Signed {
         if self.fused {
             return self.fused(a, b, c);
@@ -129,8 +129,8 @@ impl Numbers {
         self.step(Kind::Fused(signs), [a.value, b.value, c.value, a.value])
     }
 
-    /// The larger or smaller one, the first where either is no number. The larger of two negatives is the negative of the smaller. The
-    /// instruction gives its second operand where either is no number.
+    /// The larger or smaller one; the first where either is NaN. The larger of two negatives is the negative of the smaller. The instruction
+    /// returns its second operand where either is NaN.
     pub fn extreme(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
         let (first, second) = (b, a);
         if first.negative && second.negative {
@@ -175,12 +175,12 @@ impl Numbers {
         sum
     }
 
-    /// The bits of a value, so many places to the left.
+    /// The bits of a value, shifted left.
     pub fn shifted_left(&mut self, a: u32, places: u8) -> u32 {
         self.step(Kind::ShiftLeft(places), [a; 4]).value
     }
 
-    /// One more step.
+    /// Adds a step.
     pub fn step(&mut self, kind: Kind, operands: [u32; 4]) -> Signed {
         let value = self.value(Origin::Step);
         self.steps.steps.push(Step {
@@ -191,13 +191,13 @@ impl Numbers {
         Signed::plain(value)
     }
 
-    /// A value that comes from there.
+    /// A value with this origin.
     pub fn value(&mut self, origin: Origin) -> u32 {
         self.steps.origins.push(origin);
         self.steps.origins.len() as u32 - 1
     }
 
-    /// The value of a number.
+    /// The value that holds a constant.
     pub fn constant(&mut self, number: f64) -> u32 {
         if let Some(value) = self.constants.get(&number.to_bits()) {
             return *value;
@@ -207,7 +207,7 @@ impl Numbers {
         value
     }
 
-    /// A number.
+    /// A constant as a signed value.
     pub fn number(&mut self, number: f64) -> Signed {
         Signed::plain(self.constant(number))
     }

@@ -1,8 +1,9 @@
-//! The branch that rare numbers take.
+//! The branch for rare numbers.
 //!
-//! Sine and cosine are written out for angles that are not large, the angle of a point for points that are neither far nor near, two ellipsoids for those that
-//! are far from each other. Where a number in any lane is outside, code jumps behind its end. There all registers are stored, the function is called that serves all numbers, and the registers are
-//! loaded again, but for those that hold the results. So the code that is jumped back to need not know of it.
+//! Some functions are written out only for usual numbers: sine and cosine for angles that are not large, `atan2` for points that are neither far nor
+//! near, two ellipsoids for pairs that are far from each other. If a number in any lane is outside of this range, the code jumps to a part behind its
+//! end. This part stores all registers, calls the function that handles all numbers, and loads all registers again, except those that hold the
+//! results. So the code to which it jumps back need not know of it.
 
 use super::abi::Base;
 use super::emit::{Emitter, Home};
@@ -11,11 +12,11 @@ use super::registers::Set;
 use super::slots::Slots;
 use super::steps::{Kind, Step, Steps};
 
-/// Branches, and what they need.
+/// The branches, and the room that they need.
 pub(super) struct Rare {
-    /// How many vector registers there are.
+    /// The number of vector registers.
     registers: u32,
-    /// Slots of the frame: what a function is given, its results, all registers.
+    /// First slots in the frame for the arguments of a function, its results, and all registers.
     given: u32,
     results: u32,
     kept: u32,
@@ -24,16 +25,16 @@ pub(super) struct Rare {
 
 struct Branch {
     jump: Jump,
-    /// Of the function, in the table.
+    /// Index of the function in the table.
     callee: u32,
-    /// So many slots a number takes.
+    /// Number of slots of a number.
     slots: u32,
     given: Vec<Somewhere>,
     results: Vec<Vector>,
     back: Place,
 }
 
-/// Where a number is.
+/// The place of a number.
 #[derive(Clone, Copy)]
 enum Somewhere {
     Register(Vector),
@@ -41,7 +42,7 @@ enum Somewhere {
 }
 
 impl Rare {
-    /// Takes room for branches, where there are any.
+    /// Reserves room for branches; `None` if there are none.
     pub fn new(steps: &Steps, registers: u32, slots: &mut Slots) -> Option<Rare> {
         let needs = steps.steps.iter().filter_map(|step| match step.kind {
             Kind::Rare {
@@ -63,14 +64,14 @@ impl Rare {
         })
     }
 
-    /// Slots with the registers that they keep.
+    /// The slots in which registers are kept, with these registers.
     fn kept(&self) -> impl Iterator<Item = (u32, Vector)> + use<> {
         (self.kept..).zip((0..self.registers as u8).map(Vector))
     }
 }
 
 impl Emitter<'_> {
-    /// Branches where a size is not below its limit in all lanes, and goes on with the results in the registers where they are.
+    /// Branches if a size is not below its limit in all lanes. The code continues with the results in their registers.
     pub fn rare(&mut self, step: &Step) {
         let Kind::Rare {
             callee,
@@ -143,7 +144,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// What stands behind the end of the code: a way for each branch, and before them what those of one function share.
+    /// The code behind the end of the function: a part for each branch, and before these the parts that branches of one function share.
     pub fn rare_ways(&mut self) {
         let Some(mut rare) = self.rare.take() else {
             return;
@@ -163,7 +164,7 @@ impl Emitter<'_> {
                 let register = match number {
                     Somewhere::Register(register) => register,
                     Somewhere::Memory(home) => {
-                        // a result is to come here
+                        // the result must be in this register
                         self.load_home(branch.results[0], home);
                         branch.results[0]
                     }
@@ -182,7 +183,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// Calls a function, and returns with all vector registers as they were.
+    /// Calls a function and restores all vector registers.
     fn call_with_all_kept(&mut self, rare: &Rare, callee: u32) {
         for (slot, register) in rare.kept() {
             self.store_to(Base::Frame, slot, register);
@@ -190,7 +191,7 @@ impl Emitter<'_> {
         if self.shape.length.is_wide() {
             self.encoder.zero_upper();
         }
-        // what is called finds the stack at a multiple of 16, and this has been called
+        // the called function must find the stack at a multiple of 16, and this part was itself called
         self.encoder.lower_stack(8);
         let [given, results] =
             [rare.given, rare.results].map(|slot| (Base::Frame, self.offset(slot)));

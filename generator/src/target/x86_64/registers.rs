@@ -1,8 +1,8 @@
-//! Which value is in which register, and which one goes where none is free.
+//! Which value is in which register, and which value is evicted if none is free.
 
 use super::encode::Vector;
 
-/// No step.
+/// No step: later than every step.
 pub(super) const NEVER: u32 = u32::MAX;
 /// No register.
 const NONE: u8 = u8::MAX;
@@ -23,7 +23,7 @@ impl Set {
     }
 }
 
-/// What all registers hold.
+/// The contents of all registers.
 pub(super) struct Registers {
     count: usize,
     free: u32,
@@ -57,14 +57,14 @@ impl Registers {
         self.free != 0
     }
 
-    /// A free register, not yet taken.
+    /// A free register; it is not taken by this.
     pub fn free(&self) -> Option<Vector> {
         self.any_free()
             .then(|| Vector(self.free.trailing_zeros() as u8))
     }
 
-    /// The value that is to leave its register: the one that is used last (Belady 1966). `stored` says whether a value is in memory, too;
-    /// such a one may go somewhat earlier, because nothing must be stored.
+    /// The value to evict from its register: the one whose next use is latest (Belady 1966). `stored` says whether a value is also in
+    /// memory. Such a value is preferred even if it is used somewhat earlier, because it needs no store.
     pub fn victim(&self, keep: Set, stored: impl Fn(u32) -> bool) -> u32 {
         let mut victim = (0, EMPTY);
         for register in 0..self.count {
@@ -81,14 +81,14 @@ impl Registers {
         victim.1
     }
 
-    /// Puts a value into a register that is free.
+    /// Puts a value into a free register.
     pub fn put(&mut self, value: u32, register: Vector) {
         self.free &= !(1 << register.0);
         self.held[usize::from(register.0)] = value;
         self.of[value as usize] = register.0;
     }
 
-    /// Takes a value out of its register, if it has one.
+    /// Removes a value from its register, if it has one.
     pub fn remove(&mut self, value: u32) {
         let register = std::mem::replace(&mut self.of[value as usize], NONE);
         if register != NONE {
@@ -103,5 +103,5 @@ impl Registers {
     }
 }
 
-/// So many steps earlier goes a value that needs no store.
+/// A value that needs no store is preferred if its next use is at most this many steps earlier.
 const STORED: u32 = 16;

@@ -1,7 +1,7 @@
 //! Sine and cosine of doubles, written out as steps in place of a call.
 //!
-//! They are written as the runtime writes them (`runtime/src/real/lanes/elementary/circle.rs`, which explains them), operation by operation, so that
-//! they have the same bits. Angles beyond 2¹⁶, which are rare, take a branch to the runtime's function: see `rare`.
+//! The steps follow the runtime (`runtime/src/real/lanes/elementary/circle.rs`, which explains them) operation by operation, so they give the same
+//! bits. Angles beyond 2¹⁶ are rare; they take a branch to the function of the runtime: see `rare`.
 
 use super::encode::{Binary, Bitwise};
 use super::numbers::Signed;
@@ -10,9 +10,9 @@ use super::terms::Term;
 
 /// The square of 2¹⁶.
 const LIMIT: f64 = 4_294_967_296.0;
-/// 1.5 · 2⁵²: added, it rounds to the nearest whole number, whose last bits are the last ones of the sum.
+/// 1.5 · 2⁵²: adding it rounds to the nearest whole number; the last bits of the sum are those of that number.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// π/2: 37 bits, the next 37 bits, and the rest.
+/// π/2 in three parts: 37 bits, the next 37 bits, and the rest.
 const QUARTER_TURN: [f64; 3] = [
     1.570_796_326_792_333_3,
     2.563_344_151_583_955_8e-12,
@@ -38,7 +38,7 @@ const COSINE: [f64; 6] = [
 ];
 
 impl Lowering<'_> {
-    /// Sine and cosine: (sin a)′ = cos a · a′, (cos a)′ = −(sin a · a′).
+    /// Sine and cosine, with slopes (sin a)′ = cos a · a′ and (cos a)′ = −(sin a · a′).
     pub fn sin_cos(&mut self, a: Term) -> [Term; 2] {
         let [sine, cosine] = self.sin_cos_of_number(a.value);
         let mut times = |factor: Signed| {
@@ -61,7 +61,7 @@ impl Lowering<'_> {
     /// (sin x, cos x)
     fn sin_cos_of_number(&mut self, x: Signed) -> [Signed; 2] {
         let n = &mut self.numbers;
-        // k, still in the last bits of a large number, and r = hi − low
+        // k, still in the last bits of a large number; then r = hi − low
         let (turns, round) = (n.number(std::f64::consts::FRAC_2_PI), n.number(ROUND));
         let turned = n.mul_add(x, turns, round);
         let k = n.sum(turned, round.negated());
@@ -78,7 +78,7 @@ impl Lowering<'_> {
         let cubed = n.scaled(Binary::Mul, hi, r2);
         let lost = n.mul_add(cubed, s.negated(), low);
         let sine = n.sum(hi, lost.negated());
-        // 1 − r²/2 with what its rounding took away
+        // 1 − r²/2, and its rounding error
         let c = n.horner(r2, COSINE);
         let (half, one) = (n.number(-0.5), n.number(1.0));
         let large = n.mul_add(r2, half, one);
@@ -89,10 +89,10 @@ impl Lowering<'_> {
         let small = n.mul_add(fourth, c, lost);
         let cosine = n.sum(large, small);
 
-        // k odd: exchanged; the sine is negative for k mod 4 = 2, 3, the cosine for 1, 2
+        // odd k: exchanged; the sine is negative for k mod 4 = 2, 3, the cosine for 1, 2
         let turned = n.with_sign(turned);
         let (second_bit, first_bit) = (n.shifted_left(turned, 62), n.shifted_left(turned, 63));
-        // its only bit is the first one of k
+        // the only bit of this constant is the first bit of k
         let two = n.constant(2.0);
         let odd = Signed::plain(n.bits(Bitwise::And, second_bit, two));
         let sign = n.constant(-0.0);

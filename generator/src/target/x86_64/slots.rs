@@ -1,18 +1,18 @@
-//! Slots of the frame: places for values that find no register.
+//! Slots of the frame: places for values that have no register.
 
 /// Which slots are taken.
 #[derive(Default)]
 pub(super) struct Slots {
     /// A bit for each slot, set where it is free.
     free: Vec<u64>,
-    /// No word before this one has a free slot.
+    /// Index of the first word that may have a free slot.
     first: usize,
-    /// Slots that were ever taken.
+    /// Number of slots that were ever taken.
     count: u32,
 }
 
 impl Slots {
-    /// Slots that were ever taken.
+    /// Number of slots that were ever taken.
     pub fn count(&self) -> u32 {
         self.count
     }
@@ -31,7 +31,7 @@ impl Slots {
         self.take_new(1)
     }
 
-    /// Takes so many slots side by side and returns the first.
+    /// Takes so many neighbouring slots and returns the first.
     pub fn take_several(&mut self, count: u32) -> u32 {
         if count == 1 {
             return self.take();
@@ -53,7 +53,7 @@ impl Slots {
         self.take_new(count)
     }
 
-    /// Gives a slot back.
+    /// Frees a slot.
     pub fn give_back(&mut self, slot: u32) {
         let word = slot as usize / 64;
         self.free[word] |= 1 << (slot % 64);
@@ -64,7 +64,7 @@ impl Slots {
         self.free[slot as usize / 64] >> (slot % 64) & 1 != 0
     }
 
-    /// Slots that nobody has had.
+    /// Takes slots that were never taken before.
     fn take_new(&mut self, count: u32) -> u32 {
         let start = self.count;
         self.count += count;

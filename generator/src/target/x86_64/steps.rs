@@ -1,4 +1,4 @@
-//! A list as steps of the processor: each value of the list becomes a term, that is a number with its sign and, over dual numbers, its slope.
+//! Turns a list into steps of the processor. Each value of the list becomes a term: a number with its sign and, over dual numbers, its slope.
 
 use super::Target;
 use super::encode::{Binary, Bitwise, Length, Precision, Signs};
@@ -11,15 +11,15 @@ use rustc_hash::FxHashMap;
 /// A function that is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Callee {
-    /// Of one argument, with the results sine and cosine.
+    /// A function of one argument, with the results sine and cosine.
     SinCos,
-    /// Of two arguments: the angle of the point (second, first).
+    /// A function of two arguments: the angle of the point (second, first).
     Atan2,
-    /// A function of the runtime or of the user; of several results the first part.
+    /// A function of the runtime or of the user; if it has several results, its first part.
     Function(Function),
 }
 
-/// Where a value comes from.
+/// The origin of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Origin {
     Constant(f64),
@@ -33,19 +33,19 @@ pub(super) enum Origin {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
-    /// Of the first two operands.
+    /// An operation on the first two operands.
     Binary(Binary),
     /// ±(first · second) ± third
     Fused(Signs),
     /// √first
     Sqrt,
-    /// Of the bits of the first two operands.
+    /// A bitwise operation on the first two operands.
     Bits(Bitwise),
-    /// The bits of the first operand, so many places to the left.
+    /// The bits of the first operand, shifted left.
     ShiftLeft(u8),
-    /// The last arguments, but where the first one is not below the limit, which is a constant, in any lane: what a function gives. Arguments, from `first` on,
-    /// are a size, so many numbers that the function is given, and its results for numbers that are not rare, of which this is the last use.
-    /// The function serves all numbers. A number takes so many slots of what it is given and gives.
+    /// The last arguments, unless the first argument is, in any lane, not below the limit, which is a constant; then the results of a function. The
+    /// arguments, from `first` on, are: a size, the numbers that are passed to the function, and its results for numbers that are not rare, of which
+    /// this is the last use. The function handles all numbers. Each number passed or returned takes `slots` slots.
     Rare {
         callee: u32,
         limit: u32,
@@ -56,7 +56,7 @@ pub(super) enum Kind {
     },
     /// The third operand where the first is less than the second, otherwise the fourth.
     Select,
-    /// Operands are `arguments` from `first` on; it defines as many values as the function has results.
+    /// A call. Its operands are `arguments` from `first` on. It defines as many values as the function has results.
     Call {
         callee: u32,
         first: u32,
@@ -65,7 +65,7 @@ pub(super) enum Kind {
     },
 }
 
-/// One instruction, more or less. The operands behind those that it has are the first one.
+/// Roughly one instruction. Unused operands repeat the first one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
     pub kind: Kind,
@@ -75,7 +75,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// The operands, but for arguments.
+    /// The operands, without arguments.
     pub fn operands(&self) -> &[u32] {
         let count = match self.kind {
             Kind::Binary(_) | Kind::Bits(_) => 2,
@@ -87,7 +87,7 @@ impl Step {
         &self.operands[..count]
     }
 
-    /// Where its arguments are.
+    /// The range of its arguments.
     pub fn arguments(&self) -> std::ops::Range<usize> {
         let (first, count) = match self.kind {
             Kind::Call {
@@ -108,18 +108,18 @@ impl Step {
 /// All steps.
 #[derive(Default)]
 pub(super) struct Steps {
-    /// Of each value.
+    /// The origin of each value.
     pub origins: Vec<Origin>,
     pub steps: Vec<Step>,
     /// Arguments of calls.
     pub arguments: Vec<u32>,
-    /// A value for each result of the list, behind it its slope where slopes are asked for.
+    /// A value for each result of the list, each followed by its slope if slopes are computed.
     pub results: Vec<u32>,
-    /// Functions, in the order of their first call.
+    /// The functions, in the order of their first call.
     pub callees: Vec<Callee>,
 }
 
-/// The steps of a list. What no result depends on is left out.
+/// The steps of a list. Operations that no result depends on are left out.
 pub(super) fn steps(list: &List, curves: &[Curve], target: &Target) -> Steps {
     let doubles = target.precision == Precision::Double;
     let mut lowering = Lowering {
@@ -139,7 +139,7 @@ pub(super) fn steps(list: &List, curves: &[Curve], target: &Target) -> Steps {
         is_result[result.0 as usize] = true;
     }
     let leaves = list.constants.len() + list.inputs.len();
-    // what is called at once finds no values in registers, which would have to be stored
+    // a call as early as possible finds few values in registers, which would have to be stored
     let at_once = |operation: &Operation| match operation {
         Operation::SinCos(a) => !doubles && (a.0 as usize) < leaves,
         _ => false,
@@ -154,7 +154,7 @@ pub(super) fn steps(list: &List, curves: &[Curve], target: &Target) -> Steps {
                 continue;
             }
             lowering.operation(*operation, defined.start);
-            // at once, so that it is not kept for later
+            // early, so that it is not kept for later
             for value in defined.filter(|value| is_result[*value]) {
                 let _ = lowering.plain(Value(value as u32));
             }
@@ -167,7 +167,7 @@ pub(super) fn steps(list: &List, curves: &[Curve], target: &Target) -> Steps {
     lowering.numbers.steps
 }
 
-/// Which values of a list its results depend on.
+/// For each value of a list, whether a result depends on it.
 fn live(list: &List) -> Vec<bool> {
     let mut live = vec![false; list.values()];
     for result in &list.results {
@@ -189,15 +189,15 @@ fn live(list: &List) -> Vec<bool> {
 pub(super) struct Lowering<'a> {
     list: &'a List,
     pub curves: &'a [Curve],
-    /// Every value has a slope.
+    /// Whether every value has a slope.
     pub slopes: bool,
-    /// A number is one lane.
+    /// Whether a number is one lane.
     pub one_lane: bool,
-    /// Sine and cosine are steps, not calls.
+    /// Whether sine and cosine are steps, not calls.
     writes_sine: bool,
-    /// The angle of a point is steps, not a call.
+    /// Whether `atan2` is steps, not a call.
     writes_angle: bool,
-    /// What stands for each value of the list.
+    /// The term of each value of the list.
     of: Vec<Option<Term>>,
     callees: FxHashMap<Callee, u32>,
     pub numbers: Numbers,
@@ -300,8 +300,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Results that were found for numbers that are not rare; those of a function where a size is not below a limit in all lanes. Numbers that
-    /// it is given and gives take so many slots.
+    /// Results that were computed for numbers that are not rare. If a size is not below a limit in all lanes, the results of a function replace them.
+    /// Each number passed to the function or returned takes `slots` slots.
     pub fn unless_rare(
         &mut self,
         callee: Callee,
@@ -329,7 +329,7 @@ impl Lowering<'_> {
         found
     }
 
-    /// The index of a function in the table of those that are called.
+    /// The index of a function in the table of called functions.
     pub fn callee(&mut self, callee: Callee) -> u32 {
         let steps = &mut self.numbers.steps;
         *self.callees.entry(callee).or_insert_with(|| {
@@ -338,14 +338,14 @@ impl Lowering<'_> {
         })
     }
 
-    /// What stands for a value of the list.
+    /// The term of a value of the list.
     fn term(&mut self, value: Value) -> Term {
         let index = value.0 as usize;
         if let Some(term) = self.of[index] {
             return term;
         }
         let constants = &self.list.constants;
-        // operations are there before their results are used
+        // operations come before the uses of their results
         let term = match constants.get(index) {
             Some(number) => self.number(*number),
             None => {
@@ -364,7 +364,7 @@ impl Lowering<'_> {
         term
     }
 
-    /// A value of the list with its sign, and its slope where it has one.
+    /// A value of the list with its sign, followed by its slope if it has one.
     fn plain(&mut self, value: Value) -> impl Iterator<Item = u32> + use<> {
         let Term { value, slope } = self.term(value);
         let value = self.numbers.with_sign(value);

@@ -1,15 +1,15 @@
-//! Steps on numbers with their slopes.
+//! Steps on numbers together with their slopes.
 //!
-//! A term is a number and, where code is made for dual numbers, its slope: as many numbers side by side as the number itself, a direction in each
-//! lane. Every operation is written as the runtime writes it for dual numbers (`runtime/src/real/dual.rs`), operation by operation, so that
-//! slopes have the same bits, those of zeros included. The slope of a constant is the constant 0. A product with it stays, because it
-//! says the sign of a zero, and that a factor is not finite; but nothing is added or taken away that cannot change a bit.
+//! A term is a number and, if code is made for dual numbers, its slope. The slope has as many lanes as the number, with a direction in each lane.
+//! The steps follow the runtime for dual numbers (`runtime/src/real/dual.rs`) operation by operation, so slopes have the same bits, also the sign
+//! of zeros. The slope of a constant is the constant 0. A product with it stays, because it decides the sign of a zero, and shows that a factor
+//! is not finite. But nothing is added or subtracted that cannot change a bit.
 
 use super::encode::Binary;
 use super::numbers::Signed;
 use super::steps::Lowering;
 
-/// A number, and its slope where slopes are asked for.
+/// A number, and its slope if slopes are computed.
 #[derive(Clone, Copy)]
 pub(super) struct Term {
     pub value: Signed,
@@ -17,7 +17,7 @@ pub(super) struct Term {
 }
 
 impl Term {
-    /// With the other sign.
+    /// The same with the other sign.
     pub fn negated(self) -> Term {
         Term {
             value: self.value.negated(),
@@ -26,7 +26,7 @@ impl Term {
     }
 }
 
-/// The slopes of several terms; `None` where there are none.
+/// The slopes of several terms; `None` if they have none.
 fn slopes<const N: usize>(of: [Term; N]) -> Option<[Signed; N]> {
     let mut slopes = of.map(|term| term.value);
     for (slope, term) in slopes.iter_mut().zip(of) {
@@ -36,7 +36,7 @@ fn slopes<const N: usize>(of: [Term; N]) -> Option<[Signed; N]> {
 }
 
 impl Lowering<'_> {
-    /// A number, which stands still.
+    /// A constant, whose slope is 0.
     pub fn number(&mut self, number: f64) -> Term {
         let value = self.numbers.number(number);
         let slope = self.slopes.then(|| self.numbers.number(0.0));
@@ -70,7 +70,7 @@ impl Lowering<'_> {
         Term { value, slope }
     }
 
-    /// a b + c, rounded once where the target does that: (a b + c)′ = a′ b + (a b′ + c′).
+    /// a b + c, rounded once if the target can: (a b + c)′ = a′ b + (a b′ + c′).
     pub fn mul_add(&mut self, a: Term, b: Term, c: Term) -> Term {
         let value = self.numbers.mul_add(a.value, b.value, c.value);
         let slope = slopes([a, b, c]).map(|[f, g, h]| {
@@ -80,7 +80,7 @@ impl Lowering<'_> {
         Term { value, slope }
     }
 
-    /// √a, of slope a′/(2√a), which is 0 where a is 0 and stands still.
+    /// √a. Its slope is a′/(2√a), and 0 where both a and a′ are 0.
     pub fn root(&mut self, a: Term) -> Term {
         let value = self.numbers.root(a.value);
         let slope = a.slope.map(|motion| {
@@ -91,7 +91,7 @@ impl Lowering<'_> {
         Term { value, slope }
     }
 
-    /// An argument that is not negative, but 1 where it is 0 and the motion is 0 too.
+    /// An argument that is not negative; but 1 where both it and the motion are 0.
     pub fn away_from_zero(&mut self, argument: Signed, motion: Signed) -> Signed {
         let numbers = &mut self.numbers;
         let (zero, one) = (numbers.number(0.0), numbers.number(1.0));
@@ -100,14 +100,14 @@ impl Lowering<'_> {
         numbers.select([zero, argument], argument, at_zero)
     }
 
-    /// The larger one, `a` where either is no number, with its slope.
+    /// The larger one with its slope; `a` where either is NaN.
     pub fn larger(&mut self, a: Term, b: Term) -> Term {
         let value = self.numbers.extreme(Binary::Max, a.value, b.value);
         let slope = slopes([a, b]).map(|[f, g]| self.numbers.slope_where([a.value, b.value], g, f));
         Term { value, slope }
     }
 
-    /// The smaller one, `a` where either is no number, with its slope.
+    /// The smaller one with its slope; `a` where either is NaN.
     pub fn smaller(&mut self, a: Term, b: Term) -> Term {
         let value = self.numbers.extreme(Binary::Min, a.value, b.value);
         let slope = slopes([a, b]).map(|[f, g]| self.numbers.slope_where([b.value, a.value], g, f));

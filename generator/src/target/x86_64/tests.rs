@@ -1,9 +1,9 @@
-//! Every instruction is read back by another decoder and compared with what was meant, with every kind of operand.
+//! Another decoder reads back every instruction, with every kind of operand. The result is compared with the intended instruction.
 
 use super::encode::*;
 use iced_x86::{Decoder, DecoderOptions, Instruction, Mnemonic, OpKind, Register};
 
-/// What was meant: the name, and the operands.
+/// The intended instruction: its name and operands.
 #[derive(Debug, PartialEq)]
 struct Meant {
     mnemonic: Mnemonic,
@@ -13,12 +13,12 @@ struct Meant {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Meaning {
     Register(Register),
-    /// Base, displacement or address, bytes read or written, lanes that get the same.
+    /// Base register, displacement or address, number of bytes, and whether all lanes get the same number.
     Memory(Register, u64, usize, bool),
     Immediate(u64),
 }
 
-/// Where the code of a test begins.
+/// The address of the code in a test.
 const START: u64 = 0x10_0000;
 
 /// The only instruction of an encoder.
@@ -26,7 +26,7 @@ fn read_back(encode: impl FnOnce(&mut Encoder)) -> Meant {
     read_back_masked(Register::None, encode)
 }
 
-/// The same with a mask register.
+/// The same for an instruction with a mask register.
 fn read_back_masked(mask: Register, encode: impl FnOnce(&mut Encoder)) -> Meant {
     let mut encoder = Encoder::default();
     encode(&mut encoder);
@@ -103,7 +103,7 @@ const SHAPES: [Shape; 8] = {
     ]
 };
 
-/// A vector register as the decoder calls it.
+/// A vector register in the terms of the decoder.
 fn register(length: Length, vector: Vector) -> Meaning {
     let first = match length {
         Length::Scalar | Length::Sixteen => Register::XMM0,
@@ -113,14 +113,14 @@ fn register(length: Length, vector: Vector) -> Meaning {
     Meaning::Register(first + u32::from(vector.0))
 }
 
-/// Registers, each pair of fourth and fifth bits among them.
+/// Registers with every pair of fourth and fifth bits.
 fn vectors() -> impl Iterator<Item = Vector> + Clone {
     [0, 3, 7, 8, 12, 15, 16, 21, 23, 24, 29, 31]
         .into_iter()
         .map(Vector)
 }
 
-/// Displacements around the ends of each way to write them.
+/// Displacements around the ends of each encoding.
 fn displacements() -> Vec<i32> {
     let mut all = vec![0, 1, -1, i32::MAX, i32::MIN, 100_000, -100_000];
     for unit in [1, 4, 8, 16, 32, 64] {
@@ -131,7 +131,7 @@ fn displacements() -> Vec<i32> {
     all
 }
 
-/// Places in memory, and what they mean with so many bytes.
+/// Memory operands, and their meaning for an access of so many bytes.
 fn memories(bytes: u32, broadcast: bool) -> Vec<(Memory, Meaning)> {
     let meant = |base, address| Meaning::Memory(base, address, bytes as usize, broadcast);
     let mut all = Vec::new();
@@ -142,14 +142,14 @@ fn memories(bytes: u32, broadcast: bool) -> Vec<(Memory, Meaning)> {
         }
     }
     for constant in [0, 8, 4000] {
-        // one instruction takes less than 64 bytes
+        // one instruction has less than 64 bytes
         let address = START + 64 + u64::from(constant);
         all.push((Memory::Constant(constant), meant(Register::RIP, address)));
     }
     all
 }
 
-/// Last operands, with what they mean to an instruction of this shape.
+/// Last operands, with their meaning for an instruction of this shape.
 fn operands(length: Length, bytes: u32, element: u32, broadcast: bool) -> Vec<(Operand, Meaning)> {
     let registers = vectors().map(|vector| (Operand::Register(vector), register(length, vector)));
     let mut all: Vec<_> = registers.collect();
@@ -180,7 +180,7 @@ fn named(shape: Shape, [sd, ss, pd, ps]: [Mnemonic; 4]) -> Mnemonic {
     }
 }
 
-/// Goes over registers and last operands of an instruction that compares or chooses, of registers 0 to 15 alone where there is no EVEX prefix.
+/// Tests all registers and last operands of an instruction that compares or selects; only registers 0 to 15 if it has no EVEX prefix.
 fn choice(
     shape: Shape,
     (mask, evex): (Register, bool),
@@ -316,8 +316,9 @@ fn scalars_are_chosen_as_whole_registers() {
     }
 }
 
-/// Goes over destinations, first operands and last operands of an instruction of three. The lists of registers and of memory are long, so
-/// of their combinations those with the first two of the others are taken, and all pairs of registers with the first two of the last.
+/// Tests destinations, first operands and last operands of an instruction with three operands. The lists of registers and of memory are long.
+/// So each destination and first operand is combined with the first two of the others, and all pairs of registers with the first two last
+/// operands.
 fn three(
     shape: Shape,
     last: &[(Operand, Meaning)],
@@ -445,7 +446,7 @@ fn roots_and_signs() {
                 }
             }
         }
-        // of scalars the whole register is used
+        // for scalars the whole register is used
         let whole = Shape {
             length: match shape.length {
                 Length::Scalar => Length::Sixteen,
@@ -486,7 +487,7 @@ fn roots_and_signs() {
     }
 }
 
-/// All instructions of an encoder, with where they begin.
+/// All instructions of an encoder, with their addresses.
 fn all_instructions(encode: impl FnOnce(&mut Encoder)) -> Vec<(u64, Instruction)> {
     let mut encoder = Encoder::default();
     encode(&mut encoder);

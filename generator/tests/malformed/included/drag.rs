@@ -1,4 +1,4 @@
-//! A function of the user's.
+//! A user function.
 
 fn helper() {}
 

@@ -1,20 +1,21 @@
 //! The approach of two ellipses in the plane x–z.
 //!
-//! With n at the angle α, t = dn/dα and primes for derivatives with respect to α:
+//! Let n have the angle α, t = dn/dα, and let primes be derivatives with respect to α:
 //!
 //! h h' = tᵀ Q n,   h'' = ρ − h,   ρ = det Q/h³,   ρ' = −3 ρ h'/h,   φ'' = ρ₁ + ρ₂ − φ
 //!
-//! ρ is the radius of curvature. The root of φ' next to the start is found by Halley's iteration, Δα = −φ'φ''/(φ''² − φ'φ'''/2), which
-//! brings errors to their third power, with Δα as the tangent of an angle. φ' changes its sign between the last n where it was negative and
-//! the last where it was positive: a step that would leave them, or that follows one which did not halve φ', goes half way between.
+//! ρ is the radius of curvature. Halley's iteration finds the root of φ' next to the start: Δα = −φ'φ''/(φ''² − φ'φ'''/2), with Δα as the
+//! tangent of an angle. It raises errors to their third power. φ' changes its sign between the last n where it was negative and the last
+//! where it was positive. If a step would leave this interval, or follows one that did not halve φ', the next n is the middle of the
+//! interval.
 
 use super::{Ending, LONGEST, STEPS, at_end, unless_far};
 use crate::{Mask, Real, Task};
 
 /// \[n_x, n_z, φ, p_x, p_z\] of two ellipses.
 ///
-/// By the matrices Q₁ and Q₂ \[m²\], each as xx, zz, xz, and the vector d from the first centre to the second \[m\]. p is the vector from
-/// the first centre to the middle between the two points that are furthest along n.
+/// Q₁ and Q₂ are matrices \[m²\], each given as xx, zz, xz. d is the vector from the first centre to the second \[m\]. p is the vector from
+/// the first centre to the middle between the two points that are furthest along n \[m\].
 #[expect(
     clippy::too_many_arguments,
     reason = "generated code calls functions of scalars"
@@ -28,8 +29,8 @@ pub fn approach<T: Real>(xx1: T, zz1: T, xz1: T, xx2: T, zz2: T, xz2: T, dx: T, 
     })
 }
 
-/// The same of two ellipses that touch. Of two that do not, n is the normal of a line between them, and −φ, positive, at most their
-/// distance.
+/// The same for two ellipses that touch. If they do not touch, n is the normal of a line between them, and −φ, which is then positive, is
+/// at most their distance.
 #[expect(
     clippy::too_many_arguments,
     reason = "generated code calls functions of scalars"
@@ -56,19 +57,19 @@ pub fn touch<T: Real>(xx1: T, zz1: T, xz1: T, xx2: T, zz2: T, xz2: T, dx: T, dz:
     )
 }
 
-/// A symmetric matrix by xx, zz, xz.
+/// A symmetric matrix, as xx, zz, xz.
 #[derive(Clone, Copy)]
 pub(super) struct Quadric<T>(pub(super) [T; 3]);
 
-/// The search for the smallest φ, as a function of its own: it is too long to be part of others.
+/// The search for the smallest φ. It is a function of its own because it is too long to be inlined.
 pub(super) struct Search<T: Real> {
     pub(super) both: [Quadric<T>; 2],
     pub(super) between: [T; 2],
-    /// Whether a negative φ is enough, and in which lanes nothing is asked.
+    /// `Some`: a negative φ is enough, and the lanes of the mask need no result.
     pub(super) early: Option<T::Mask>,
 }
 
-/// What there is to know in one direction n, of any length: φ and its derivatives are those of a unit vector times |n|.
+/// Everything known in one direction n of any length. φ and its derivatives are those of a unit vector times |n|.
 #[derive(Clone, Copy)]
 struct Overlap<T> {
     /// n
@@ -87,7 +88,8 @@ struct Overlap<T> {
     furthest: [T; 2],
 }
 
-/// Where φ' is known to change its sign: the last n where it was negative, and where it was positive; zero before there is one.
+/// The interval in which φ' changes its sign: the last n where φ' was negative, and the last where it was positive; zero until there is
+/// one.
 #[derive(Clone, Copy)]
 struct Bracket<T>([[T; 2]; 2]);
 
@@ -101,7 +103,7 @@ impl<T: Real> Task for Search<T> {
 }
 
 impl<T: Real> Search<T> {
-    /// The result, and after how many steps.
+    /// The result, and the number of steps.
     #[inline(always)]
     pub(super) fn found(self) -> ([T; 5], u32) {
         let Search {
@@ -154,7 +156,7 @@ impl<T: Real> Search<T> {
     }
 }
 
-/// Where the search begins: (Q₁/h₁ + Q₂/h₂)⁻¹ times the line of centres, a unit vector, as a unit vector.
+/// The start of the search: (Q₁/h₁ + Q₂/h₂)⁻¹ times the unit vector of the line of centres, scaled to a unit vector.
 #[inline(always)]
 fn start<T: Real>(both: &[Quadric<T>; 2], line: [T; 2]) -> [T; 2] {
     let one = T::from_f64(1.0);
@@ -170,7 +172,7 @@ fn start<T: Real>(both: &[Quadric<T>; 2], line: [T; 2]) -> [T; 2] {
     scaled(one / dot(normal, normal).sqrt(), normal)
 }
 
-/// `flat` are det Q₁ and det Q₂.
+/// Evaluates φ and its derivatives in a direction; `flat` are det Q₁ and det Q₂.
 #[inline(always)]
 fn overlap<T: Real>(
     both: &[Quadric<T>; 2],
@@ -184,7 +186,7 @@ fn overlap<T: Real>(
     let squares = [dot(n, stretched[0]), dot(n, stretched[1])];
     let turning = [dot(across, stretched[0]), dot(across, stretched[1])];
     let reach = [squares[0].sqrt(), squares[1].sqrt()];
-    // 1/h², and 1/h without waiting for h
+    // 1/h², and 1/h in a way that does not wait for h
     let inverse = [one / squares[0], one / squares[1]];
     let bend = [reach[0] * inverse[0], reach[1] * inverse[1]];
     let squared = dot(n, n);
@@ -208,7 +210,7 @@ fn overlap<T: Real>(
     }
 }
 
-/// The tangent of the angle of Halley's step, at most the longest; downhill where φ'' is not positive.
+/// The tangent of the angle of Halley's step, limited to the longest step. Where φ'' is not positive the step goes downhill.
 #[inline(always)]
 fn halley<T: Real>(now: &Overlap<T>, small: T) -> T {
     let c = T::from_f64;
@@ -221,14 +223,14 @@ fn halley<T: Real>(now: &Overlap<T>, small: T) -> T {
     (-(above / below)).max(c(-LONGEST)).min(c(LONGEST))
 }
 
-/// n turned by an angle of this tangent.
+/// n turned by the angle whose tangent is given.
 #[inline(always)]
 fn turned<T: Real>([x, z]: [T; 2], tangent: T) -> [T; 2] {
     [(-tangent).mul_add(z, x), tangent.mul_add(x, z)]
 }
 
 impl<T: Real> Bracket<T> {
-    /// With what is known now.
+    /// Narrows the interval by the current n.
     #[inline(always)]
     fn narrow(&mut self, now: &Overlap<T>) {
         let falls = now.slope.lt(T::from_f64(0.0));
@@ -238,7 +240,7 @@ impl<T: Real> Bracket<T> {
         ];
     }
 
-    /// n turned by an angle of this tangent, or half the way to the other end.
+    /// n turned by the angle whose tangent is given, or the middle of the interval.
     #[inline(always)]
     fn inside(&self, now: &Overlap<T>, tangent: T, slow: T::Mask) -> [T; 2] {
         let zero = T::from_f64(0.0);
@@ -246,7 +248,7 @@ impl<T: Real> Bracket<T> {
         let other = pick(falls, self.0[1], self.0[0]);
         let known = zero.lt(dot(other, other));
         let moved = turned(now.direction, tangent);
-        // beyond the other end, which lies in the sense of the step
+        // whether it is beyond the other end, which lies in the direction of the step
         let turn = moved[0] * other[1] - moved[1] * other[0];
         let beyond = T::select(falls, turn, -turn).lt(zero);
         let halved = known.and(slow.or(beyond));
@@ -256,7 +258,7 @@ impl<T: Real> Bracket<T> {
 }
 
 impl<T: Real> Overlap<T> {
-    /// Itself where the mask is true, another elsewhere.
+    /// `self` where the mask is true, `other` elsewhere.
     #[inline(always)]
     fn unless(self, mask: T::Mask, other: Self) -> Self {
         Overlap {
@@ -270,7 +272,7 @@ impl<T: Real> Overlap<T> {
         }
     }
 
-    /// Itself with the derivatives of another, as far as the result needs it.
+    /// `self` with the derivatives of `other`, as far as the result needs them.
     #[inline(always)]
     fn moving_as(self, other: Self) -> Self {
         Overlap {

@@ -1,22 +1,22 @@
 //! The approach of two ellipsoids in space.
 //!
-//! With u_i = Q_i n/h_i, the points of the bodies that are furthest along n, the gap r = u₁ + u₂ − d between them is φ n where φ is
-//! smallest. Newton's step s in the tangent plane of a unit vector n, with P = 1 − n nᵀ:
+//! Let u_i = Q_i n/h_i be the points of the bodies that are furthest along n, and r = u₁ + u₂ − d the gap between them. Where φ is
+//! smallest, r = φ n. Newton's step s in the tangent plane of a unit vector n, with P = 1 − n nᵀ, is
 //!
 //! M s = −P r,   M = K₁ + K₂ − φ P,   K_i = (Q_i − u_i u_iᵀ)/h_i = ∂²h_i/∂n²
 //!
-//! As M n = 0, the inverse of M in the tangent plane is (tr(M) P − M)/m, m the sum of its principal minors, which is the product of
-//! its two other eigenvalues (Cayley and Hamilton). M + σ P takes the place of M, σ making it positive, and larger where a step went uphill
-//! (Levenberg). M is not positive of itself only where the overlap is deeper than the radii of curvature; the smallest φ next to the
-//! start is then found still.
+//! M n = 0, so the inverse of M in the tangent plane is (tr(M) P − M)/m, where m is the sum of the principal minors of M, the product of
+//! its two other eigenvalues (Cayley and Hamilton). The step uses M + σ P in place of M. σ makes it positive definite, and is larger after
+//! a step that went uphill (Levenberg). M itself is not positive only where the overlap is deeper than the radii of curvature. The search
+//! still finds the smallest φ next to the start there.
 
 use super::{Ending, LONGEST, STEPS, at_end, unless_far};
 use crate::{Mask, Real, Task};
 
 /// \[n_x, n_y, n_z, φ, p_x, p_y, p_z\] of two ellipsoids.
 ///
-/// By the matrices Q₁ and Q₂ \[m²\], each as xx, yy, zz, yz, xz, xy, and the vector d from the first centre to the second \[m\]. p is the
-/// vector from the first centre to the middle between the two points that are furthest along n.
+/// Q₁ and Q₂ are matrices \[m²\], each given as xx, yy, zz, yz, xz, xy. d is the vector from the first centre to the second \[m\]. p is the
+/// vector from the first centre to the middle between the two points that are furthest along n \[m\].
 #[expect(
     clippy::too_many_arguments,
     reason = "generated code calls functions of scalars"
@@ -50,8 +50,8 @@ pub fn approach<T: Real>(
     })
 }
 
-/// The same of two ellipsoids that touch. Of two that do not, n is the normal of a plane between them, and −φ, positive, at most their
-/// distance.
+/// The same for two ellipsoids that touch. If they do not touch, n is the normal of a plane between them, and −φ, which is then positive,
+/// is at most their distance.
 #[expect(
     clippy::too_many_arguments,
     reason = "generated code calls functions of scalars"
@@ -98,19 +98,19 @@ pub fn touch<T: Real>(
     )
 }
 
-/// A symmetric matrix by xx, yy, zz, yz, xz, xy.
+/// A symmetric matrix, as xx, yy, zz, yz, xz, xy.
 #[derive(Clone, Copy)]
 pub(super) struct Quadric<T>(pub(super) [T; 6]);
 
-/// The search for the smallest φ, as a function of its own: it is too long to be part of others.
+/// The search for the smallest φ. It is a function of its own because it is too long to be inlined.
 pub(super) struct Search<T: Real> {
     pub(super) both: [Quadric<T>; 2],
     pub(super) between: [T; 3],
-    /// Whether a negative φ is enough, and in which lanes nothing is asked.
+    /// `Some`: a negative φ is enough, and the lanes of the mask need no result.
     pub(super) early: Option<T::Mask>,
 }
 
-/// What there is to know in one direction n, of any length.
+/// Everything known in one direction n of any length.
 #[derive(Clone, Copy)]
 pub(super) struct Overlap<T> {
     /// n
@@ -125,12 +125,12 @@ pub(super) struct Overlap<T> {
     pub(super) furthest: [[T; 3]; 2],
 }
 
-/// A step, and what comes with it.
+/// A step in the tangent plane.
 struct Step<T> {
     along: [T; 3],
-    /// Its length, squared \[rad²\].
+    /// Its squared length \[rad²\].
     squared: T,
-    /// tr(K₁ + K₂), about
+    /// tr(K₁ + K₂), approximately
     stiff: T,
 }
 
@@ -144,7 +144,7 @@ impl<T: Real> Task for Search<T> {
 }
 
 impl<T: Real> Search<T> {
-    /// The result, and after how many steps.
+    /// The result, and the number of steps.
     #[inline(always)]
     pub(super) fn found(self) -> ([T; 7], u32) {
         let Search {
@@ -174,12 +174,12 @@ impl<T: Real> Search<T> {
         while steps < STEPS && !ended.all() {
             let step = newton(&both, between, &now, damping, small);
             let then = overlap(&both, between, moved(&now, &step));
-            // uphill, by more than rounding makes of it
+            // whether φ increases by more than rounding
             let uphill = (now.depth + noise).lt(then.depth);
             let new_damping = T::select(
                 uphill,
                 (c(8.0) * damping).max(c(0.1) * step.stiff),
-                // soon none, so that the last steps are Newton's
+                // it soon becomes 0, so that the last steps are pure Newton steps
                 (c(0.1) * damping - c(1e-3) * step.stiff).max(zero),
             );
             damping = T::select(ended, damping, new_damping);
@@ -200,7 +200,7 @@ impl<T: Real> Search<T> {
     }
 }
 
-/// Where the search begins: (Q₁/h₁ + Q₂/h₂)⁻¹ times the line of centres, a unit vector, as a unit vector.
+/// The start of the search: (Q₁/h₁ + Q₂/h₂)⁻¹ times the unit vector of the line of centres, scaled to a unit vector.
 #[inline(always)]
 fn start<T: Real>(both: &[Quadric<T>; 2], line: [T; 3]) -> [T; 3] {
     let one = T::from_f64(1.0);
@@ -228,7 +228,7 @@ pub(super) fn overlap<T: Real>(both: &[Quadric<T>; 2], between: [T; 3], n: [T; 3
     let stretched = [both[0].times(n), both[1].times(n)];
     let squares = [dot(n, stretched[0]), dot(n, stretched[1])];
     let reach = [squares[0].sqrt(), squares[1].sqrt()];
-    // 1/h, without waiting for h
+    // 1/h, in a way that does not wait for h
     let bend = [reach[0] * (one / squares[0]), reach[1] * (one / squares[1])];
     let scale = one / dot(n, n).sqrt();
     Overlap {
@@ -283,7 +283,7 @@ fn newton<T: Real>(
     }
 }
 
-/// M, for n of any length.
+/// The matrix M, for n of any length.
 #[inline(always)]
 fn stiffness<T: Real>(both: &[Quadric<T>; 2], now: &Overlap<T>, level: T) -> Quadric<T> {
     let (n, [u, w]) = (now.direction, now.furthest);
@@ -300,12 +300,12 @@ fn stiffness<T: Real>(both: &[Quadric<T>; 2], now: &Overlap<T>, level: T) -> Qua
     Quadric([m[0] - level, m[1] - level, m[2] - level, m[3], m[4], m[5]])
 }
 
-/// The direction a step away, at most the longest one.
+/// The direction after the step, which is limited to the longest one.
 #[inline(always)]
 fn moved<T: Real>(now: &Overlap<T>, step: &Step<T>) -> [T; 3] {
     let longest = T::from_f64(LONGEST);
     let mut along = step.along;
-    // of a step that is not too long nothing changes
+    // steps that are short enough stay unchanged
     if !step.squared.lt(longest * longest).all() {
         let limit = longest / step.squared.max(longest * longest).sqrt();
         along = scaled(limit, along);
@@ -314,7 +314,7 @@ fn moved<T: Real>(now: &Overlap<T>, step: &Step<T>) -> [T; 3] {
 }
 
 impl<T: Real> Overlap<T> {
-    /// Itself where the mask is true, another elsewhere.
+    /// `self` where the mask is true, `other` elsewhere.
     #[inline(always)]
     fn unless(self, mask: T::Mask, other: Self) -> Self {
         Overlap {
@@ -332,7 +332,7 @@ impl<T: Real> Overlap<T> {
         }
     }
 
-    /// Itself with the derivatives of another, as far as the result needs it.
+    /// `self` with the derivatives of `other`, as far as the result needs them.
     #[inline(always)]
     fn moving_as(self, other: Self) -> Self {
         Overlap {
@@ -386,7 +386,7 @@ impl<T: Real> Quadric<T> {
     }
 }
 
-// No closures, which nobody can ask to be inlined: each operation would be a call where registers are wide.
+// No closures: the compiler cannot be told to inline them, and each operation on wide registers would become a call.
 
 #[inline(always)]
 fn scaled<T: Real>(by: T, [x, y, z]: [T; 3]) -> [T; 3] {

@@ -1,4 +1,4 @@
-//! Both searches against dense searches, against more digits, across lanes and by their derivatives.
+//! Both searches, compared with dense searches, with more digits, across lanes and by their derivatives.
 
 use super::space::{Quadric, approach, dot, overlap, touch};
 use super::{plane, space};
@@ -8,7 +8,7 @@ use crate::{DoubleDouble, Dual, Real, Several, Task, Width};
 
 type Vector = [f64; 3];
 
-/// Q of semi-axes turned about z, then x.
+/// Q of an ellipsoid with these semi-axes, turned about z, then about x.
 fn quadric(semi: Vector, about_z: f64, about_x: f64) -> [f64; 6] {
     let ((s, c), (t, d)) = (about_z.sin_cos(), about_x.sin_cos());
     let r = [[c, -s, 0.0], [d * s, d * c, -t], [t * s, t * c, d]];
@@ -75,7 +75,7 @@ fn no_direction_overlaps_less() {
         let size = depth(a, b, [0.0; 3], n) + dot(d, d).sqrt();
         let rounding = 16.0 * f64::EPSILON * size;
         assert!((ours - depth(a, b, d, n)).abs() <= rounding);
-        // on a grid of the whole sphere, then downhill from the least of it
+        // on a grid of the whole sphere, then downhill from its smallest φ
         let mut least = (f64::INFINITY, [0.0; 3]);
         const GRID: usize = 60;
         for i in 0..=GRID {
@@ -170,7 +170,7 @@ fn lanes_and_derivatives_pass() {
         moving[i].slope = 1.0;
         let ours = call(still(a), still(b), moving);
         assert!((ours[3].slope + n[i]).abs() <= 1e-12);
-        // and the direction turns as differences say
+        // and the direction turns as finite differences say
         let shifted = |h: f64| {
             let mut d = d;
             d[i] += h;
@@ -184,8 +184,8 @@ fn lanes_and_derivatives_pass() {
     }
 }
 
-/// The gap of the deepest points is φ n: the condition for the least φ, and its derivative by each component of d. `unit` bounds
-/// the relative error of an operation.
+/// The gap of the deepest points is φ n. This is the condition for the smallest φ; its derivative by each component of d holds, too.
+/// `unit` bounds the relative error of an operation.
 fn the_least_is_met_to_all_digits<T: Real>(unit: f64) {
     let constant = |value: f64| Dual::constant(T::from_f64(value));
     for (a, b, d) in pairs() {
@@ -197,8 +197,8 @@ fn the_least_is_met_to_all_digits<T: Real>(unit: f64) {
             let n = [x, y, z];
             let now = overlap(&[Quadric(a), Quadric(b)], d, n);
             let turn = n.iter().map(|x| x.slope.to_f64().abs()).fold(0.0, f64::max);
-            // n is in error by two roundings, and radii of curvature of 10 m each make of that 40 of the gap; some 16
-            // roundings of lengths below 4 m come to that; derivatives move by what n moves
+            // n has an error of two roundings, and radii of curvature of 10 m each turn that into 40 of the gap. Some 16 roundings of
+            // lengths below 4 m give the rest. The derivatives change by as much as n
             let bound = (40.0 + 16.0 * 4.0) * unit;
             for i in 0..3 {
                 let gap = now.furthest[0][i] + now.furthest[1][i] - d[i];
@@ -235,7 +235,7 @@ fn a_common_centre_is_not_the_end() {
         quadric([0.2; 3], 0.5, 0.1),
     );
     let [x, y, z, ours, ..] = call(a, b, [0.0; 3]);
-    // the least there is: both reach least along the smallest axis
+    // the smallest φ: both bodies are shortest along the smallest axis
     assert!((dot([x, y, z], [x, y, z]) - 1.0).abs() < 1e-14 && ours.is_finite());
 }
 
@@ -261,7 +261,7 @@ impl Random {
         }
     }
 
-    /// Q of semi-axes between 0.3 m and that part of it, turned at random, in space or in the plane.
+    /// Q of an ellipsoid with semi-axes between 0.3 m · ratio and 0.3 m, turned at random, in space or in the plane.
     fn shape(&mut self, ratio: f64, planar: bool) -> [f64; 6] {
         let semi: Vector = std::array::from_fn(|_| 0.3 * ratio.powf(-self.next()));
         if planar {
@@ -306,8 +306,8 @@ impl Random {
     }
 }
 
-/// A pair of bodies that would touch at this distance of their centres times `share`, and of which the plane y = 0 is one of symmetry
-/// if so wanted.
+/// A pair of bodies whose centres are `share` times as far apart as when they touch. If asked for, the plane y = 0 is a plane of
+/// symmetry.
 #[derive(Clone, Copy)]
 struct Case {
     first: [f64; 6],
@@ -485,7 +485,7 @@ fn deep_in_each_other_no_direction_beside_overlaps_less() {
     }
 }
 
-/// With twice the digits: the gap of the furthest points is φ n. What is left of it across n is the error of n times a radius of
+/// With twice the digits, the gap of the furthest points is φ n. The remaining component across n is the error of n times a radius of
 /// curvature.
 #[test]
 fn the_direction_is_exact_for_long_shapes_too() {
@@ -506,7 +506,7 @@ fn the_direction_is_exact_for_long_shapes_too() {
                 let both = [Quadric(case.first.map(c)), Quadric(case.second.map(c))];
                 let d = case.between.map(c);
                 let now = overlap(&both, d, [x, y, z].map(c));
-                // the radii of curvature are a²/b at most, 6 m; n is rounded at 10⁻¹⁶, and so is what it comes from
+                // the radii of curvature are at most a²/b, 6 m; n and the numbers that it is computed from are rounded at 10⁻¹⁶
                 let bound = 6.0 * 8.0 * f64::EPSILON + 16.0 * f64::EPSILON * case.size();
                 for (i, n) in [x, y, z].into_iter().enumerate() {
                     let gap = now.furthest[0][i] + now.furthest[1][i] - d[i];
@@ -524,7 +524,7 @@ fn bodies_with_a_common_point_are_never_far() {
     for planar in [false, true] {
         for _ in 0..20_000 {
             let (a, b) = (random.shape(20.0, planar), random.shape(20.0, planar));
-            // a point of each body: its centre and a part of the way to the point that is furthest in some direction
+            // a point inside each body: from its centre a part of the way to the point that is furthest in some direction
             let mut inside = |q: [f64; 6]| {
                 let mut n = random.direction();
                 if planar {
@@ -553,7 +553,7 @@ fn bodies_with_a_common_point_are_never_far() {
 }
 
 #[test]
-fn of_bodies_that_touch_both_say_the_same_and_of_others_there_is_a_plane_between() {
+fn touching_bodies_agree_and_a_plane_separates_others() {
     for planar in [false, true] {
         for case in cases(20.0, planar, [0.7, 1.6], 2000) {
             let (all, early): (Vec<f64>, Vec<f64>) = match planar {
@@ -584,7 +584,7 @@ fn of_bodies_that_touch_both_say_the_same_and_of_others_there_is_a_plane_between
     }
 }
 
-/// Everything in lanes, one case in each.
+/// Runs both searches in lanes, one case in each.
 struct Beside<'a>(&'a [Case]);
 
 /// One call.
@@ -615,7 +615,7 @@ impl OfAnyWidth for Beside<'_> {
             let put = |of: &dyn Fn(&Case) -> f64| {
                 let mut all = T::from_f64(0.0);
                 for lane in 0..T::LANES {
-                    // lanes without a case hold what is no number
+                    // lanes without a case hold NaN
                     let value = cases.get(lane).map_or(f64::NAN, of);
                     all = all.with_lane(lane, value);
                 }
@@ -712,7 +712,7 @@ fn derivatives_are_those_of_differences<const N: usize, const M: usize>(
     }
 }
 
-/// ∂φ/∂d = −n, and so do their derivatives.
+/// ∂φ/∂d = −n, and the derivatives of both sides agree, too.
 #[test]
 fn second_derivatives_agree_with_those_of_the_direction() {
     for planar in [false, true] {
@@ -788,7 +788,7 @@ fn few_steps_are_needed() {
         for found in [doubles, singles] {
             assert!(found.0 <= mean && found.1 <= most, "{found:?}");
         }
-        // of those that do not touch, a plane between is found at once
+        // for bodies that do not touch, a separating plane is found at once
         let apart = cases(ratio, planar, [1.02, 1.5], 2000);
         let early = steps(&apart, |case| match planar {
             true => steps_in_plane::<f64>(case, true),

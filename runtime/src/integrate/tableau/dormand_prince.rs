@@ -105,7 +105,7 @@ impl Tableau for Dopri5 {
 
     #[inline(always)]
     fn counts(stage: usize) -> bool {
-        // k₂ is for the stages behind it alone
+        // only later stages use k₂
         stage != 1
     }
 }

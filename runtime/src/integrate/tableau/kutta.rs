@@ -1,12 +1,12 @@
 //! The historical methods: modified Euler (Heun 1900), the classical one of order 4 (Kutta 1901), Merson's (1957).
 //!
-//! They came without interpolants. Heun's method gets Hermite's cubic through the states and derivatives at both ends.
-//! Those of order 4 get a quartic p (after Shampine, SIAM J. Numer. Anal. 22, 1985): the cubic H, whose error is O(h⁴) inside
-//! the step, gives a state at θ* = (1 − 1/√3)/2, and p has the derivative there that the model has in that state:
+//! They were published without interpolants. Heun's method gets Hermite's cubic through the states and derivatives at both
+//! ends. The methods of order 4 get a quartic p (after Shampine, SIAM J. Numer. Anal. 22, 1985). The error of the cubic H is
+//! O(h⁴) inside the step. H gives a state at θ* = (1 − 1/√3)/2, and p has at θ* the derivative of the model in that state:
 //!
 //! p(θ) = H(θ) + θ²(1−θ)² (h f(H(θ*)) − H′(θ*)) / (2θ*(1−θ*)(1−2θ*)).
 //!
-//! f there errs by O(h⁴), h f by O(h⁵), and so does p. θ* is where the denominator is largest.
+//! The error of f in that state is O(h⁴), so that of h f, and that of p, is O(h⁵). The denominator is largest at this θ*.
 
 use super::{Tableau, hermite};
 use crate::Real;
@@ -89,7 +89,7 @@ impl Tableau for Rk4 {
     }
 }
 
-/// Merson's method of order 4, whose estimate is of order 5 where the model is linear with constant coefficients:
+/// Merson's method of order 4. Its estimate is of order 5 where the model is linear with constant coefficients:
 ///
 /// ```text
 ///   0  |
@@ -161,7 +161,7 @@ fn quartic<T: Real, const ALL: usize>(theta: T, b: &[f64]) -> [T; ALL] {
     let rest = c(1.0) - theta;
     let (inner, outer) = (INSIDE, 1.0 - INSIDE);
     let lift = (theta * rest) * (theta * rest) / c(2.0 * inner * outer * (1.0 - 2.0 * inner));
-    // of H(θ) less what H′(θ*) takes away
+    // the weight of H(θ), less what H′(θ*) subtracts
     let [step, first, last] = hermite(theta);
     let [step, first, last] = [
         step - lift * c(6.0 * inner * outer),

@@ -1,4 +1,5 @@
-//! Coefficients of explicit Runge–Kutta methods, checked by the order conditions of rooted trees (`order.rs`).
+//! Coefficients of explicit Runge–Kutta methods. Tests check them by the order conditions of rooted trees
+//! (`order.rs`).
 //!
 //! | file | methods |
 //! |---|---|
@@ -14,9 +15,9 @@ use crate::Real;
 
 /// A method: nodes, coefficients, weights, error estimate, interpolant.
 pub(crate) trait Tableau {
-    /// Stages of a step, the first among them.
+    /// Number of stages of a step, including the first.
     const STAGES: usize;
-    /// Stages of a step and those that only its interpolant needs.
+    /// Number of stages of a step plus those that only its interpolant needs.
     const ALL: usize;
     /// Nodes of all stages.
     const C: &'static [f64];
@@ -24,31 +25,31 @@ pub(crate) trait Tableau {
     const A: &'static [&'static [f64]];
     /// Weights of the result.
     const B: &'static [f64];
-    /// Weights of the error estimate, and of a second one to compare the first with, or none: see
+    /// Weights of the error estimate, and optionally of a second estimate to compare with: see
     /// [`Explicit::estimate`](super::explicit::Explicit).
     const E: [&'static [f64]; 2];
-    /// Whether the last stage is the derivative at the end, that is, the first of the next step.
+    /// Whether the last stage is the derivative at the end, and so the first stage of the next step.
     const LAST_IS_FIRST: bool;
-    /// The estimate falls like this power of the step; 0 where there is none.
+    /// The error estimate falls like this power of the step; 0 where there is none.
     const ESTIMATE: u32;
-    /// Order of the interpolant: between the ends it errs like this power of the step plus one.
+    /// Order of the interpolant: between the ends its error falls like this power of the step plus one.
     #[cfg(test)]
     const INTERPOLANT: u32;
     /// `[S; ALL]`
     type Stages<S: Copy>: AsRef<[S]> + AsMut<[S]>;
 
-    /// The same in every stage.
+    /// The same value in every stage.
     fn splat<S: Copy>(value: S) -> Self::Stages<S>;
     /// Weights b(θ) of the interpolant: y(t + θh) = y + h Σ b_i(θ) k_i over all stages, for θ in 0..=1.
     fn weights<T: Real>(theta: T) -> Self::Stages<T>;
-    /// Whether the interpolant knows a stage at all: where not, b_i(θ) is 0.
+    /// Whether the interpolant uses a stage; otherwise its b_i(θ) is 0.
     #[inline(always)]
     fn counts(_stage: usize) -> bool {
         true
     }
 }
 
-/// Hermite's cubic through both ends, written as weights: (of Σ b k, of the first rate, of the last).
+/// Hermite's cubic through both ends, as weights of (Σ b k, the first rate, the last rate).
 #[inline(always)]
 pub(crate) fn hermite<T: Real>(theta: T) -> [T; 3] {
     let c = T::from_f64;

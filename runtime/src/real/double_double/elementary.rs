@@ -1,15 +1,16 @@
 //! Elementary functions of [`DoubleDouble`]: argument reduction, and the series of Taylor, Gregory and the inverse hyperbolic
 //! tangent with coefficients computed at compile time.
 //!
-//! Relative errors, by adding up those of the operations on the way (u = 2⁻⁵³): square root 8 u², sine and cosine 16 u²,
-//! exponential 16 u², logarithm 32 u², angle 48 u², power (40 |p ln x| + 16) u², where u² = 1.2·10⁻³².
+//! Relative errors, as sums of the errors of the operations (u = 2⁻⁵³): square root 8 u², sine and cosine 16 u², exponential
+//! 16 u², logarithm 32 u², angle 48 u², power (40 |p ln x| + 16) u², where u² = 1.2·10⁻³².
 
 use super::{DoubleDouble, two_product, two_sum};
 use crate::Real;
 
-/// 1.5 · 2⁵²: added and taken away it rounds to the nearest whole number.
+/// 1.5 · 2⁵²: adding and subtracting it rounds to the nearest whole number.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// π/2 in five parts, 265 bits: an argument may lie next to a multiple to all its digits, and so much is left then.
+/// π/2 in five parts, 265 bits. An argument may be equal to a multiple of π/2 in all its digits; this many bits still leave a
+/// remainder.
 const QUARTER_TURN: [f64; 5] = [
     core::f64::consts::FRAC_PI_2,
     6.123_233_995_736_766e-17,
@@ -73,7 +74,7 @@ pub(super) fn sqrt(a: DoubleDouble) -> DoubleDouble {
     if a.hi > 1e250 {
         return sqrt(a.scaled(-600)).scaled(300);
     }
-    // 1/√a: halving the exponent gets it within 4 %, and Newton's steps square that: 2·10⁻³, 5·10⁻⁶, 3·10⁻¹¹, ε
+    // 1/√a: halving the exponent gives it within 4 %, and each Newton step squares the error: 2·10⁻³, 5·10⁻⁶, 3·10⁻¹¹, ε
     let mut inverse = f64::from_bits(0x5fe6_eb50_c7b5_37a9 - (a.hi.to_bits() >> 1));
     for _ in 0..4 {
         inverse *= 1.5 - 0.5 * a.hi * inverse * inverse;
@@ -91,7 +92,7 @@ pub(super) fn sqrt(a: DoubleDouble) -> DoubleDouble {
 /// (sin, cos); NaN beyond 2⁵⁰.
 #[inline(never)]
 pub(super) fn sin_cos(x: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
-    /// 2⁵⁰: up to here the number of quarter turns is whole, and π/2 has bits enough.
+    /// 2⁵⁰: up to here the number of quarter turns is exact, and π/2 has enough bits.
     const LARGEST: f64 = 1_125_899_906_842_624.0;
     if x.hi.is_nan() || x.hi.abs() > LARGEST {
         return (DoubleDouble::NAN, DoubleDouble::NAN);
@@ -118,8 +119,8 @@ fn sin_cos_of_eighth(r: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     (r + r * sine, DoubleDouble::ONE + cosine)
 }
 
-/// x − `count` · π/2, or whatever else the parts add up to, to all digits even where nothing but the last ones are left:
-/// exact products, sorted out by sums without loss (Ogita, Rump and Oishi 2005, with four passes).
+/// x − `count` · π/2, or another constant that the parts add up to. All digits are exact, even where only the last ones
+/// remain: exact products, added by sums without loss (Ogita, Rump and Oishi 2005, with four passes).
 fn remainder(x: DoubleDouble, count: f64, parts: &[f64]) -> DoubleDouble {
     let mut terms = [0.0; 12];
     let mut last = 0;
@@ -209,7 +210,8 @@ fn ln_of_normal(x: DoubleDouble, shift: i32) -> DoubleDouble {
     remainder(half + half, -f64::from(exponent + shift), &LN_2)
 }
 
-/// `x` to a power: by squaring for whole exponents up to 64, of which halves take a square root besides; e^(p ln x) else.
+/// `x` to the power `power`: by squaring for whole exponents up to 64, with a square root for their halves; otherwise e^(p ln
+/// x).
 #[inline(never)]
 pub(super) fn powf(x: DoubleDouble, power: DoubleDouble) -> DoubleDouble {
     let size = power.hi.abs();
@@ -246,8 +248,8 @@ fn whole_power(x: DoubleDouble, power: u32) -> DoubleDouble {
     result
 }
 
-/// Angle of the point (`x`, `y`). From an angle θ₀ in double precision to the last digits by the point turned back by it:
-/// θ = θ₀ + arctan((y cos θ₀ − x sin θ₀)/(x cos θ₀ + y sin θ₀)).
+/// Angle of the point (`x`, `y`). An angle θ₀ in double precision is refined to the last digits by turning the point back by
+/// θ₀: θ = θ₀ + arctan((y cos θ₀ − x sin θ₀)/(x cos θ₀ + y sin θ₀)).
 #[inline(never)]
 pub(super) fn atan2(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble {
     if y.hi.is_nan() || x.hi.is_nan() {
@@ -279,7 +281,7 @@ pub(super) fn atan2(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble {
 
 /// arctan `t`, 0 ≤ t ≤ 1.
 fn arctan(t: DoubleDouble) -> DoubleDouble {
-    /// arctan t/t by powers of t², relatively within 2·10⁻⁸ (Abramowitz and Stegun 4.4.49).
+    /// arctan t/t by powers of t², with a relative error below 2·10⁻⁸ (Abramowitz and Stegun 4.4.49).
     const START: [f64; 9] = [
         1.0,
         -0.333_331_452_8,
@@ -299,7 +301,7 @@ fn arctan(t: DoubleDouble) -> DoubleDouble {
     let start = DoubleDouble::from_f64(start * t.hi);
     let (sine, cosine) = sin_cos_of_eighth(start);
     let across = (t * cosine - sine) / (cosine + t * sine);
-    // of arctan's series the term of the fifth power is below 10⁻³⁹
+    // the term of the fifth power in the series of arctan is below 10⁻³⁹
     let third = across * across * across * OVER_ODD[1];
     start + (across - third)
 }

@@ -1,4 +1,4 @@
-//! [`DoubleDouble`] against exact integers, identities, and values of another arithmetic.
+//! [`DoubleDouble`] compared with exact integers, identities, and values of another arithmetic.
 
 #![expect(
     clippy::approx_constant,
@@ -110,7 +110,7 @@ fn arithmetic_keeps_its_identities() {
     let mut numbers = numbers();
     for _ in 0..10_000 {
         let (a, b, c) = (numbers.positive(), numbers.positive(), numbers.unit());
-        // bounds are those of the operations added up
+        // the bounds are the sums of those of the operations
         let off = apart((a + b) - b, a);
         assert!(
             off <= (3.0 + 3.0) * U2 * (a.to_f64() + b.to_f64()),
@@ -167,7 +167,7 @@ fn functions_keep_their_identities() {
         let p = numbers.within(2.0);
         let bound = 40.0 * (p * log).to_f64().abs() + 16.0;
         close(size.powf(p) * size.powf(-p), one, (2.0 * bound + 7.0) * U2);
-        // a power by squaring, in two parts by exponentials
+        // a power by squaring, compared with one in two parts by exponentials
         let rest = dd(2.5) - p;
         let size_of_parts = (p.to_f64().abs() + rest.to_f64().abs()) * log.to_f64().abs();
         let bound = (40.0 + 3.0) * size_of_parts + 2.0 * 16.0 + 7.0 + (2.5 * 7.0 + 8.0);
@@ -296,7 +296,7 @@ fn what_is_not_finite_shows_in_the_high_part() {
     ] {
         assert!((x.to_f64() - expected).abs() <= f64::EPSILON, "{x:?}");
     }
-    // far out, the value is still one of at least double precision
+    // far out, the value still has at least double precision
     let product = dd(1.5e308) * dd(0.7);
     assert!(product.is_finite() && (product.to_f64() / 1.05e308 - 1.0).abs() <= f64::EPSILON);
 }
@@ -330,8 +330,8 @@ fn comparison_looks_at_all_digits() {
     assert_eq!([hi, lo], [1.0, 1e-30]);
 }
 
-// The values of the tables come from mpmath 1.3 in 60 digits at the doubles given, each split into a double and the double
-// nearest to the rest.
+// The values of the tables were computed with mpmath 1.3 in 60 digits at the doubles given. Each is split into a double
+// and the double nearest to the rest.
 
 /// x, sin x, cos x
 const SIN_COS: [(f64, [f64; 2], [f64; 2]); 22] = [
@@ -601,7 +601,7 @@ const SQRT: [(f64, [f64; 2]); 20] = [
     (65537.0, [256.0019531175495, -5.420952960447279e-19]),
 ];
 
-/// Multiples of π rounded to a double-double, and their sines: what the rounding left.
+/// Multiples of π rounded to a double-double, and their sines, which are the rounding errors.
 const SINE_NEXT_TO_0: [([f64; 2], [f64; 2]); 5] = [
     (
         [3.141592653589793, 1.2246467991473532e-16],

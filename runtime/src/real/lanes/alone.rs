@@ -1,10 +1,11 @@
-//! A number alone as a register: for processors without wide ones, and to see that width changes nothing.
+//! A single number as a register: for processors without wide registers, and for tests that the width changes
+//! nothing.
 
 use super::elementary::Elementary;
 use super::register::{Doubles, Instructions, MOST_LANES, Register, Singles};
 use crate::real::{Base, Task};
 
-/// One double or single; products and sums are fused where `FUSED` says so, as they are in wide registers.
+/// One double or single. Products and sums are fused if `FUSED` says so, as they are in wide registers.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
 pub struct Alone<F, const FUSED: bool>(F);
@@ -21,9 +22,9 @@ impl<const FUSED: bool> Alone<f64, FUSED> {
     }
 }
 
-/// 1.5 · 2⁵²: added and taken away it rounds to the nearest whole number.
+/// 1.5 · 2⁵²: adding and subtracting it rounds to the nearest whole number.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// From here on every double is whole.
+/// From here on every double is a whole number.
 const WHOLE: f64 = 4_503_599_627_370_496.0;
 
 #[cfg(target_arch = "x86_64")]
@@ -50,7 +51,8 @@ impl<F> Instructions for Alone<F, true> {
     #[inline(always)]
     #[expect(unsafe_code, reason = "the instructions of a certain processor")]
     fn enable<W: Task>(task: W) -> W::Output {
-        // SAFETY: whoever makes the first register has asked `there`; the type cannot be named outside of this crate.
+        // SAFETY: the code that makes the first register has called `there`; the type cannot be named outside of this
+        // crate.
         unsafe { compiled_for_fused(task) }
     }
 
@@ -73,7 +75,7 @@ impl<F> Instructions for Alone<F, false> {
     }
 }
 
-/// A function of its own, as for the others.
+/// A function of its own, as for the other registers.
 #[inline(never)]
 fn plain<W: Task>(task: W) -> W::Output {
     task.run()
@@ -235,7 +237,7 @@ where
 
     #[inline(always)]
     fn round(self) -> Self {
-        // with the sign that it had, as the instruction does
+        // keeps the sign, as the instruction does
         let magnitude = self.0.abs();
         let whole = match magnitude < WHOLE {
             true => magnitude + ROUND - ROUND,

@@ -1,7 +1,7 @@
 //! Four doubles in a register of AVX2.
 //!
-//! Every operation is one instruction or two, once it is inlined into a function that is compiled for AVX2 and fused
-//! multiply-adds ([`Avx2::enable`](super::Instructions::enable)); elsewhere it is a call, slow and right.
+//! Every operation is one or two instructions, if it is inlined into a function that is compiled for AVX2 and fused
+//! multiply-adds ([`Avx2::enable`](super::Instructions::enable)). Elsewhere it is a call: slow, but correct.
 
 use super::register::{Doubles, Instructions, MOST_LANES, Register};
 use crate::real::{Base, Task};
@@ -32,7 +32,8 @@ impl Instructions for Avx2 {
     #[inline(always)]
     #[expect(unsafe_code, reason = "the instructions of a certain processor")]
     fn enable<W: Task>(task: W) -> W::Output {
-        // SAFETY: whoever makes the first register has asked `there`; the type cannot be named outside of this crate.
+        // SAFETY: the code that makes the first register has called `there`; the type cannot be named outside of this
+        // crate.
         unsafe { compiled_for_avx2(task) }
     }
 }
@@ -43,7 +44,7 @@ macro_rules! instruction {
         #[inline(always)]
         #[expect(unsafe_code, reason = "an instruction of AVX2")]
         fn $name(self $(, $argument: Self)*) -> Self {
-            // SAFETY: registers are made where AVX2 is there alone.
+            // SAFETY: a register is made only where AVX2 exists.
             Self(unsafe { $intrinsic(self.0 $(, $argument.0)*) })
         }
     };
@@ -131,14 +132,14 @@ impl Register for Avx2 {
     #[inline(always)]
     #[expect(unsafe_code, reason = "an instruction of AVX2")]
     fn max(self, other: Self) -> Self {
-        // SAFETY: as above. The instruction gives its second operand where either is no number.
+        // SAFETY: as above. The instruction returns its second operand where either is NaN.
         Avx2(unsafe { _mm256_max_pd(other.0, self.0) })
     }
 
     #[inline(always)]
     #[expect(unsafe_code, reason = "an instruction of AVX2")]
     fn min(self, other: Self) -> Self {
-        // SAFETY: as above. The instruction gives its second operand where either is no number.
+        // SAFETY: as above. The instruction returns its second operand where either is NaN.
         Avx2(unsafe { _mm256_min_pd(other.0, self.0) })
     }
 

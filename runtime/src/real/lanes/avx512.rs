@@ -1,7 +1,7 @@
 //! Eight doubles in a register of AVX-512.
 //!
-//! Every operation is one instruction, once it is inlined into a function that is compiled for AVX-512
-//! ([`Avx512::enable`](super::Instructions::enable)); elsewhere it is a call, slow and right.
+//! Every operation is one instruction, if it is inlined into a function that is compiled for AVX-512
+//! ([`Avx512::enable`](super::Instructions::enable)). Elsewhere it is a call: slow, but correct.
 
 use super::register::{Doubles, Instructions, MOST_LANES, Register};
 use crate::real::{Base, Task};
@@ -39,7 +39,8 @@ impl Instructions for Avx512 {
     #[inline(always)]
     #[expect(unsafe_code, reason = "the instructions of a certain processor")]
     fn enable<W: Task>(task: W) -> W::Output {
-        // SAFETY: whoever makes the first register has asked `there`; the type cannot be named outside of this crate.
+        // SAFETY: the code that makes the first register has called `there`; the type cannot be named outside of this
+        // crate.
         unsafe { compiled_for_avx512(task) }
     }
 }
@@ -50,7 +51,7 @@ macro_rules! instruction {
         #[inline(always)]
         #[expect(unsafe_code, reason = "an instruction of AVX-512")]
         fn $name(self $(, $argument: Self)*) -> Self {
-            // SAFETY: registers are made where AVX-512 is there alone.
+            // SAFETY: a register is made only where AVX-512 exists.
             Self(unsafe { $intrinsic(self.0 $(, $argument.0)*) })
         }
     };
@@ -120,14 +121,14 @@ impl Register for Avx512 {
     #[inline(always)]
     #[expect(unsafe_code, reason = "an instruction of AVX-512")]
     fn max(self, other: Self) -> Self {
-        // SAFETY: as above. The instruction gives its second operand where either is no number.
+        // SAFETY: as above. The instruction returns its second operand where either is NaN.
         Avx512(unsafe { _mm512_max_pd(other.0, self.0) })
     }
 
     #[inline(always)]
     #[expect(unsafe_code, reason = "an instruction of AVX-512")]
     fn min(self, other: Self) -> Self {
-        // SAFETY: as above. The instruction gives its second operand where either is no number.
+        // SAFETY: as above. The instruction returns its second operand where either is NaN.
         Avx512(unsafe { _mm512_min_pd(other.0, self.0) })
     }
 

@@ -2,20 +2,20 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `register` | what a register can do; each width implements it |
+//! | `register` | the operations of a register; each width implements them |
 //! | `avx512`, `avx2`, `alone` | eight doubles, four, one; sixteen singles, eight, one |
-//! | `elementary` | sine, exponential and their like, over any register |
-//! | `several` | lanes as the time loop of a batch needs them |
+//! | `elementary` | the elementary functions, over any register |
+//! | `several` | the operations on lanes that the time loop of a batch needs |
 //!
-//! One program holds the code for all of them, and [`Width::widest`] is the widest that the processor has. Instructions that not every
-//! processor has are used in functions that are compiled for them, and a whole evaluation of the equations must be inlined into such
-//! a function: see [`Real::enable`].
+//! One program has the code for all of them, and [`Width::widest`] is the widest that the processor has. Instructions that not every
+//! processor has are used in functions that are compiled for them. A whole evaluation of the equations must be inlined into such a
+//! function: see [`Real::enable`].
 //!
-//! Addition, multiplication, their fusion, division and roots are exact to their rounding in every width, and everything else is
-//! made of them: so a lane has the same bits whatever register it is in and whatever its neighbours hold.
+//! Addition, multiplication, fused multiply-add, division and roots are correctly rounded in every width, and everything else consists
+//! of them. So a lane has the same bits whatever register it is in and whatever its neighbours hold.
 //!
-//! Registers of singles have twice the lanes of the same registers of doubles. Their elementary functions are those of doubles, rounded:
-//! as fast as eight lanes, and no less exact than the last bit.
+//! A register of singles has twice the lanes of the same register of doubles. Its elementary functions are those of doubles, rounded: as
+//! fast as eight lanes, and exact to the last bit.
 
 mod alone;
 #[cfg(target_arch = "x86_64")]
@@ -41,7 +41,7 @@ pub use several::Several;
 use super::{Form, Layout, Mask, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-/// A double as a lane: products and sums are fused as they are by [`Real::mul_add`] of a double.
+/// A double as a lane. Products and sums are fused as in [`Real::mul_add`] of a double.
 type Lane = Alone<f64, { cfg!(any(target_feature = "fma", target_arch = "aarch64")) }>;
 
 /// (sin `x`, cos `x`) as in all lanes.
@@ -60,11 +60,11 @@ pub struct Lanes<R>(pub(crate) R);
 #[derive(Clone, Copy)]
 pub struct LaneMask<R: Register>(pub(crate) R::Mask);
 
-/// A width of registers, by the doubles in one; of singles it has twice as many, if more than one.
+/// A width of registers: the number of doubles in one. If there is more than one, a register holds twice as many singles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Width {
-    /// One double, a product and a sum rounded one after the other: for processors that cannot fuse them. Results differ from those of
-    /// the other widths by rounding.
+    /// One double, where a product and a sum are rounded one after the other: for processors that cannot fuse them. Results differ from
+    /// those of the other widths by rounding.
     Plain,
     /// One double, with fused multiply-adds.
     One,
@@ -78,7 +78,7 @@ impl Width {
     /// All of them, the narrowest first.
     pub const ALL: [Width; 4] = [Width::Plain, Width::One, Width::Four, Width::Eight];
 
-    /// Whether the processor at hand has such registers.
+    /// Whether this processor has such registers.
     pub fn there(self) -> bool {
         match self {
             Width::Plain => true,
@@ -92,7 +92,7 @@ impl Width {
         }
     }
 
-    /// Scenarios side by side, in doubles.
+    /// Number of scenarios side by side, in doubles.
     pub const fn lanes(self) -> usize {
         match self {
             Width::Plain | Width::One => 1,
@@ -101,7 +101,7 @@ impl Width {
         }
     }
 
-    /// Scenarios side by side, in singles.
+    /// Number of scenarios side by side, in singles.
     pub const fn lanes_of_singles(self) -> usize {
         match self {
             Width::Plain | Width::One => 1,
@@ -110,7 +110,7 @@ impl Width {
         }
     }
 
-    /// Whether a product and a sum are rounded once: only results of equal arithmetic are equal to the last bit.
+    /// Whether a product and a sum are rounded once. Only results with equal rounding agree to the last bit.
     pub const fn fuses(self) -> bool {
         !matches!(self, Width::Plain)
     }
@@ -125,28 +125,28 @@ impl Width {
         }
     }
 
-    /// The width of this name.
+    /// The width with this name; `None` if there is none.
     pub fn named(name: &str) -> Option<Width> {
         Self::ALL.into_iter().find(|width| width.name() == name)
     }
 
-    /// The widest that the processor at hand has.
+    /// The widest that this processor has.
     pub fn widest() -> Width {
         let mut there = Self::ALL.into_iter().rev().filter(|width| width.there());
         there.next().unwrap_or(Width::Plain)
     }
 }
 
-/// Something to do with registers of any width: of doubles, or of another `F`.
+/// Work with registers of any width: of doubles, or of another scalar `F`.
 pub trait OfAnyWidth<F: Real = f64> {
-    /// What comes of it.
+    /// Its result.
     type Output;
-    /// Does it. What takes time in it is a [`Task`] for [`Real::enable`] of `T`.
+    /// Does the work. Its expensive part is a [`Task`] for [`Real::enable`] of `T`.
     fn run<T: Several<One = F>>(self) -> Self::Output;
 }
 
-/// Does it with registers of doubles of a width; `None` where the processor at hand has no such. Here, in [`with_one_lane`] and in
-/// [`with_width_of_singles`] alone registers are made, and so none is made where its instructions are not there.
+/// Does the work with registers of doubles of this width; `None` if the processor does not have them. Registers are made only here, in
+/// [`with_one_lane`] and in [`with_width_of_singles`], so none is made on a processor without its instructions.
 pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
     if !width.there() {
         return None;
@@ -163,13 +163,14 @@ pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
     })
 }
 
-/// Does it as [`Width::One`] does, and compiles it for nothing else.
+/// Does the work as [`Width::One`] does, and compiles it only for that width.
 pub fn with_one_lane<W: OfAnyWidth>(task: W) -> Option<W::Output> {
     let there = Width::One.there();
     there.then(|| task.run::<Lanes<Alone<f64, true>>>())
 }
 
-/// Does it with the registers of singles of a width, which have twice as many lanes; `None` where the processor at hand has no such.
+/// Does the work with the registers of singles of this width, which have twice as many lanes; `None` if the processor does not have
+/// them.
 pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Option<W::Output> {
     if !width.there() {
         return None;
@@ -186,7 +187,7 @@ pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Optio
     })
 }
 
-/// The layout of a scalar, where it is one of the registers of any width, or a dual number over one.
+/// The layout of a scalar that is a register of any width, or a dual number over one; `None` for any other scalar.
 pub(super) fn layout<T: Real>() -> Option<Layout> {
     fn is<T: Real, R: Register>(fused: bool) -> Option<Layout> {
         let layout = Layout {
@@ -325,7 +326,7 @@ impl<R: Register> Real for Lanes<R> {
     fn to_f64(self) -> f64 {
         let mut largest = f64::NEG_INFINITY;
         for lane in self.0.lanes().into_iter().take(R::LANES) {
-            // of lanes that are no numbers none is the largest
+            // a lane that is NaN never is the largest
             largest = largest.max(lane.to_f64());
         }
         largest

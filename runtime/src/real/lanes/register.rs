@@ -1,7 +1,7 @@
-//! What a register can do, lane by lane.
+//! The operations of a register, lane by lane.
 //!
-//! Everything is arithmetic as IEEE 754 prescribes it, so that registers of all widths give the same bits. The elementary
-//! functions are written once, over [`Doubles`].
+//! All arithmetic is that of IEEE 754, so registers of all widths give the same bits. The elementary functions are written once, over
+//! [`Doubles`].
 
 use super::elementary::Elementary;
 use crate::real::{Base, Real, Task};
@@ -9,32 +9,32 @@ use core::fmt::Debug;
 
 /// Whether a processor has the instructions of a register, and how to use them.
 pub trait Instructions {
-    /// Whether the processor at hand has them.
+    /// Whether this processor has them.
     fn there() -> bool;
-    /// Runs a task, compiled for them. They must be there.
+    /// Runs a task that is compiled for them. The processor must have them.
     fn enable<W: Task>(task: W) -> W::Output;
 }
 
 /// A register of numbers, one per scenario.
 pub trait Register: Instructions + Elementary + Copy + Debug + 'static {
-    /// A number: a double or a single.
+    /// The number in a lane: a double or a single.
     type One: Real + PartialEq;
     /// One truth value per lane.
     type Mask: Copy;
-    /// Which lane goes where.
+    /// A permutation of lanes.
     type Order: Copy;
-    /// What a lane is.
+    /// The kind of number in a lane.
     const BASE: Base;
-    /// How many there are.
+    /// Number of lanes.
     const LANES: usize;
-    /// What 1 and the next number differ by.
+    /// The distance from 1 to the next number.
     const EPSILON: f64;
 
     /// The nearest number, in every lane.
     fn splat(value: f64) -> Self;
-    /// The first numbers of a slice, one per lane; NaN where it is shorter than the register.
+    /// The first numbers of a slice, one per lane; NaN if the slice is shorter than the register.
     fn load(values: &[Self::One]) -> Self;
-    /// One number per lane, into the first places of a slice; nothing where it is shorter than the register.
+    /// Writes one number per lane to the front of a slice; nothing if the slice is shorter than the register.
     fn store(self, values: &mut [Self::One]);
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
@@ -45,23 +45,23 @@ pub trait Register: Instructions + Elementary + Copy + Debug + 'static {
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
     fn neg(self) -> Self;
-    /// The larger one; `self` where either is no number.
+    /// The larger one; `self` where either is NaN.
     fn max(self, other: Self) -> Self;
-    /// The smaller one; `self` where either is no number.
+    /// The smaller one; `self` where either is NaN.
     fn min(self, other: Self) -> Self;
-    /// False where either is no number.
+    /// `self < other`, per lane; false where either is NaN.
     fn lt(self, other: Self) -> Self::Mask;
     fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
-    /// Bit i: lane i.
+    /// The mask as bits: bit i is lane i.
     fn lanes_of(mask: Self::Mask) -> u32;
-    /// Lane i: bit i.
+    /// The mask from bits: lane i is bit i.
     fn mask_of(lanes: u32) -> Self::Mask;
     fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     fn or(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     fn not(a: Self::Mask) -> Self::Mask;
-    /// The order that puts into each lane what is in the lane named there; of a narrower register the first count.
+    /// The permutation that moves into each lane i the number of the lane `lanes[i]`. A narrower register uses the first entries.
     fn order(lanes: &[u8; MOST_LANES]) -> Self::Order;
-    /// The same numbers in other lanes.
+    /// The numbers, permuted.
     fn ordered(self, order: Self::Order) -> Self;
 
     /// True in at least one lane.
@@ -90,7 +90,7 @@ pub trait Register: Instructions + Elementary + Copy + Debug + 'static {
         self.lanes()[index % MOST_LANES]
     }
 
-    /// The same, with another number in one lane.
+    /// The same register with another number in one lane.
     #[inline(always)]
     fn with_lane(self, index: usize, value: Self::One) -> Self {
         let mut lanes = self.lanes();
@@ -99,12 +99,12 @@ pub trait Register: Instructions + Elementary + Copy + Debug + 'static {
     }
 }
 
-/// A register of doubles, whose bits can be had.
+/// A register of doubles, with access to its bits.
 pub trait Doubles: Register<One = f64> {
     /// 64 bits per lane.
     type Bits: Copy;
 
-    /// To the nearest whole number, to the even one of two.
+    /// Rounds to the nearest whole number, and to the even one of two.
     fn round(self) -> Self;
     fn bits(self) -> Self::Bits;
     fn from_bits(bits: Self::Bits) -> Self;
@@ -115,15 +115,15 @@ pub trait Doubles: Register<One = f64> {
     fn bits_add(a: Self::Bits, b: Self::Bits) -> Self::Bits;
     fn bits_sub(a: Self::Bits, b: Self::Bits) -> Self::Bits;
     fn bits_shl<const N: u32>(a: Self::Bits) -> Self::Bits;
-    /// Zeros come in from the left.
+    /// Shifts right; zeros come in from the left.
     fn bits_shr<const N: u32>(a: Self::Bits) -> Self::Bits;
-    /// Where any bit is set.
+    /// The lanes in which any bit is set.
     fn bits_nonzero(a: Self::Bits) -> Self::Mask;
 }
 
-/// A register of singles, which registers of doubles can hold.
+/// A register of singles, whose numbers registers of doubles can hold.
 pub trait Singles: Register<One = f32> {
-    /// Registers of doubles.
+    /// The registers of doubles that hold them.
     type Wide: Elementary;
     /// The same numbers as doubles.
     fn widened(self) -> Self::Wide;
@@ -131,15 +131,15 @@ pub trait Singles: Register<One = f32> {
     fn narrowed(wide: Self::Wide) -> Self;
 }
 
-/// No register has more lanes.
+/// The largest number of lanes of a register.
 pub const MOST_LANES: usize = 16;
 
-/// Something in the frame of a function that lies where a cache line begins.
+/// A variable in the frame of a function that lies at the beginning of a cache line.
 #[repr(align(64))]
 struct Line(#[expect(dead_code, reason = "its place is what counts")] u8);
 
-/// Makes the function that it is inlined into align its frame to cache lines. The compiler keeps in the frame what no register is
-/// free for, and it decides too late to align the frame for that alone: without this a wide register crosses a line at every store and
+/// Aligns the frame of the function that it is inlined into to cache lines. The compiler keeps in the frame what does not fit into
+/// registers, and it decides that too late to align the frame. Without this a wide register crosses a cache line at every store and
 /// load, which takes twice as long.
 #[inline(always)]
 pub(crate) fn aligned_frame() {

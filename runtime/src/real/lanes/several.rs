@@ -1,39 +1,40 @@
-//! Lanes as the time loop of a batch needs them: what is in one, and how to put something there.
+//! The operations on lanes that the time loop of a batch needs: reading and writing single lanes.
 
 use super::{Lanes, MOST_LANES, Register};
 use crate::Dual;
 use crate::real::Real;
 
-/// Scalars of several scenarios side by side.
+/// A scalar that holds several scenarios side by side.
 pub trait Several: Real {
     /// The scalar of one scenario.
     type One: Real;
-    /// How many there are.
+    /// Number of lanes.
     const LANES: usize;
-    /// What 1 and the next number differ by.
+    /// The distance from 1 to the next number.
     const EPSILON: f64;
-    /// That of a lane.
+    /// The scalar of one lane.
     fn lane(self, index: usize) -> Self::One;
-    /// The same, with another one in a lane.
+    /// The same, with another scalar in one lane.
     fn with_lane(self, index: usize, value: Self::One) -> Self;
 
-    /// Those of all lanes, followed by anything.
+    /// The scalars of all lanes; the entries behind them are arbitrary.
     fn lanes(self) -> [Self::One; MOST_LANES];
-    /// The first of these, one in each lane.
+    /// The first of `lanes`, one in each lane.
     fn of_lanes(lanes: &[Self::One; MOST_LANES]) -> Self;
 
-    /// Which lane goes where.
+    /// A permutation of lanes.
     type Order: Copy;
-    /// The order that puts into each lane what is in the lane named there; of fewer lanes the first count.
+    /// The permutation that moves into each lane i the scalar of the lane `lanes[i]`. With fewer lanes the first
+    /// entries count.
     fn order(lanes: &[u8; MOST_LANES]) -> Self::Order;
-    /// The same scalars in other lanes.
+    /// The scalars, permuted.
     fn ordered(self, order: Self::Order) -> Self;
 
-    /// What a value or a derivative of them is.
+    /// The type of the value, and of its derivative.
     type Part: Real<Mask = Self::Mask>;
-    /// A value alone, or a value and its derivative.
+    /// The number of parts: 1 for a value alone, 2 for a value and its derivative.
     const PARTS: usize;
-    /// The value, which is the first, or its derivative.
+    /// Part 0 is the value, part 1 its derivative.
     fn part(self, index: usize) -> Self::Part;
     /// A value that depends on no parameter.
     fn of_part(value: Self::Part) -> Self;
@@ -90,7 +91,7 @@ impl<R: Register> Several for Lanes<R> {
     }
 }
 
-/// A derivative in another direction in each lane.
+/// Each lane has a derivative in a direction of its own.
 impl<T: Several> Several for Dual<T> {
     type One = Dual<T::One>;
     const LANES: usize = T::LANES;

@@ -1,10 +1,10 @@
-//! Registers of all widths give the same bits, and those of the scalar arithmetic: of doubles, and of singles.
+//! Registers of all widths give the same bits as each other and as scalar arithmetic, for doubles and for singles.
 
 use super::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
 use crate::Task;
 use crate::real::{Mask, Real};
 
-/// Numbers of all kinds.
+/// Numbers of many kinds.
 fn numbers() -> Vec<f64> {
     let mut numbers = vec![
         0.0,
@@ -48,7 +48,7 @@ fn numbers() -> Vec<f64> {
     numbers
 }
 
-/// What all functions make of pairs of numbers, as bits; NaN is one.
+/// The results of all functions for pairs of numbers, as bits; all NaN are equal.
 struct Everything;
 
 impl<F: Real> OfAnyWidth<F> for Everything {
@@ -71,14 +71,14 @@ impl<F: Real> OfAnyWidth<F> for Everything {
     }
 }
 
-/// Numbers of all kinds, two by two.
+/// Numbers of many kinds, in pairs.
 fn pairs<F: Real>() -> impl Iterator<Item = (F, F)> {
     let all: Vec<F> = numbers().into_iter().map(F::from_f64).collect();
     let count = all.len();
     (0..count * 7).map(move |i| (all[i % count], all[(i * 13 + 5) % count]))
 }
 
-/// The bits of a number as a double; NaN is one.
+/// The bits of a number as a double; all NaN are equal.
 fn bits<F: Real>(number: F) -> u64 {
     match number.to_f64() {
         number if number.is_nan() => u64::MAX,
@@ -239,7 +239,7 @@ fn elementary_functions_of_singles_are_those_of_doubles_rounded() {
         }
     }
     for width in Width::ALL {
-        // where both doubles err by 1 ulp, what they are rounded to differs once in 2²⁸ cases
+        // two doubles that both err by 1 ulp round to different singles in one of 2²⁸ cases
         assert_eq!(with_width_of_singles(width, Errors).unwrap_or(0), 0);
     }
 }

@@ -129,7 +129,7 @@ fn a_run_in_pieces_has_the_bits_of_one_in_one_piece() {
 }
 
 #[test]
-fn times_that_are_past_or_beyond_the_end_are_refused_and_change_nothing() {
+fn times_before_now_or_after_the_end_are_refused() {
     let settings = Settings::of(<Oscillator as Model<f64>>::INFO);
     let model = <Oscillator as Model<f64>>::new(ParameterSet::<f64>::defaults());
     let dynamics = Differentiable(&model);
@@ -220,7 +220,7 @@ fn halves(method: Method, at: f64) -> (f64, Vec<f64>) {
 }
 
 #[test]
-fn what_happens_later_is_not_lost_by_a_run_that_begins_in_between() {
+fn a_run_that_begins_later_meets_all_later_kinks() {
     // the pulse has its kinks before and behind; where steps end on them, Runge-Kutta 4 integrates its straight lines exactly
     let kinks = <Follower as Model<f64>>::INFO.breakpoints;
     let end = kinks[kinks.len() - 1];

@@ -9,14 +9,8 @@ use super::{TimeLoop, finest_of};
 use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::Pace;
-use crate::simulate::event::{self, Which, Within};
+use crate::simulate::event::{self, WIDTH, Which, Within};
 use crate::simulate::excursion::{heads_for, overshoot};
-
-/// Steps in a row that guards may cut down to nothing; then one goes on. Far more than a law has guards at one time.
-pub(super) const STUCK: u32 = 100;
-
-/// A step of so many times the finest length of time is nothing: the time goes on by a few roundings.
-pub(super) const STANDS: f64 = 4.0;
 
 /// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
 pub(super) const HOP: f64 = 1e-9;
@@ -190,7 +184,6 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     /// The part of a step that lies before the first change of a guard, which has changed at `end`, and a trifle.
     pub(super) fn way_to_guard(&mut self, step: &mut dyn Stepper<T>, end: f64) -> f64 {
         step.complete(&mut self.f);
-        self.within(step, Which::Guards)
-            .first_change(end, event::WIDTH)
+        self.within(step, Which::Guards).first_change(end, WIDTH)
     }
 }

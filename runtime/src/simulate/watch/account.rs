@@ -1,8 +1,8 @@
 //! What a run is watched for in plain numbers, the same for a single run and for a lane: whether the balances of energy and momentum close, and
 //! whether fixed steps are above the limit of stability.
 
+use crate::Info;
 use crate::integrate::control::root;
-use crate::{Info, StateKind};
 
 /// Steps in a row above the limit of stability before it is said, and below it before they are forgotten (Hairer & Wanner).
 const ABOVE: u32 = 15;
@@ -18,22 +18,22 @@ const SMALLEST_SQUARE: f64 = 1e-24;
 
 /// A balance that does not close.
 #[derive(Clone, Copy, Debug)]
-struct Gap {
+pub(super) struct Gap {
     /// Since when it was more than allowed, if it is.
-    since: Option<f64>,
+    pub since: Option<f64>,
     /// The largest since then.
-    largest: f64,
+    pub largest: f64,
 }
 
 impl Gap {
-    const NONE: Gap = Gap {
+    pub const NONE: Gap = Gap {
         since: None,
         largest: 0.0,
     };
 
     /// Takes the gap at the end of a step that began at `t`; true where more than what is `allowed` begins.
     #[inline(always)]
-    fn observe(&mut self, t: f64, gap: f64, allowed: f64) -> bool {
+    pub fn observe(&mut self, t: f64, gap: f64, allowed: f64) -> bool {
         if gap > allowed {
             self.largest = self.largest.max(gap);
             if self.since.is_none() {
@@ -47,10 +47,6 @@ impl Gap {
     }
 }
 
-/// Places in a step, and the weight of each, at which accelerations are summed up: Gauss's rule of two points, exact for a polynomial of degree 3.
-pub(crate) const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
-pub(crate) const WEIGHT_OF_GAUSS: f64 = 0.5;
-
 /// The balances of energy and momentum.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Account {
@@ -58,10 +54,6 @@ pub(crate) struct Account {
     limit: f64,
     energy: Gap,
     momentum: Gap,
-    /// What velocities, angular velocities and the coordinates of either have changed by beyond what their rates give.
-    unexplained: [Gap; 4],
-    /// Largest velocity and largest angular velocity so far.
-    speeds: [f64; 2],
     /// Largest kinetic energy and largest work of an effect so far \[J\].
     fastest: f64,
     largest: f64,
@@ -75,23 +67,6 @@ pub(crate) struct Account {
     steps: f64,
     /// Largest distance from the origin so far, squared \[m²\].
     distance: f64,
-}
-
-/// What velocities may change by beyond what accelerations give, as a share of the largest speed and of the limit of energy. Steps across kinks leave
-/// some of it that is not lost: child-seat by rk4 in steps of 1 ms more than 1 % of an angular velocity, and its outputs err by 0.4 %.
-const UNEXPLAINED: f64 = 2.5;
-/// Speeds of one kind below this share of those of the other \[1/m, m\] are measured by it: what hardly turns and flies fast is not judged by how it turns.
-const SLOW: f64 = 1e-3;
-/// How far a coordinate may be carried in a step beyond what its rate gives, as a share of the way of the fastest.
-const CARRIED: f64 = 0.2;
-
-/// An entry of the state at the end of a step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Explained {
-    /// Its value.
-    pub value: f64,
-    /// What it has changed by beyond what its rate gives: of a coordinate in this step, of a velocity in all.
-    pub owed: f64,
 }
 
 /// Energies at the end of a step \[J\].
@@ -112,8 +87,6 @@ impl Account {
             limit,
             energy: Gap::NONE,
             momentum: Gap::NONE,
-            unexplained: [Gap::NONE; 4],
-            speeds: [0.0; 2],
             fastest: 0.0,
             largest: 0.0,
             tolerated: 0.0,
@@ -175,61 +148,6 @@ impl Account {
         // where nothing moves there are roundings of large numbers
         let rounding = self.steps * epsilon * size / mass;
         self.momentum.observe(t, gap, allowed + rounding)
-    }
-
-    /// What the coordinates and velocities of a model have changed by in a step of this length from `t`, beyond what their rates within it give: of each
-    /// entry of the state its value, its change that is unexplained, and of velocities the sum of these. The entry that is farthest off where
-    /// more than may be begins to be.
-    ///
-    /// A coordinate may be carried [`CARRIED`] as far as the fastest goes
-    /// in the step: it is not summed up, for a coordinate that was carried away stays there.
-    pub fn explain(
-        &mut self,
-        [t, h]: [f64; 2],
-        info: &Info,
-        entry: impl Fn(usize) -> Explained,
-    ) -> Option<usize> {
-        let coordinates = info.coordinates.len();
-        let mut worst = [(0.0, 0); 4];
-        for i in (0..coordinates + info.velocities.len()).rev() {
-            let Explained { value, owed } = entry(i);
-            let turns = match info.kind(i) {
-                StateKind::Velocity | StateKind::Position => 0,
-                _ => 1,
-            };
-            let velocity = i >= coordinates;
-            if velocity {
-                self.speeds[turns] = self.speeds[turns].max(value.abs());
-            }
-            let place = turns + 2 * usize::from(!velocity);
-            if owed.abs() > worst[place].0 {
-                worst[place] = (owed.abs(), i);
-            }
-        }
-        // what rests does so but for roundings
-        let [moving, turning] = self.speeds;
-        let [moving, turning] = [moving.max(SLOW * turning), turning.max(SLOW * moving)];
-        let share = UNEXPLAINED * self.limit;
-        let carried = CARRIED.max(share) * h;
-        let allowed = [
-            share * moving,
-            share * turning,
-            carried * moving,
-            carried * turning,
-        ];
-        let mut begins = None;
-        for ((gap, allowed), (owed, index)) in self.unexplained.iter_mut().zip(allowed).zip(worst) {
-            if gap.observe(t, owed, allowed) {
-                begins = Some(index);
-            }
-        }
-        begins
-    }
-
-    /// Since when a motion is not what its rates make of it \[s\].
-    pub fn unexplained(&self) -> Option<f64> {
-        let since = self.unexplained.iter().filter_map(|gap| gap.since);
-        since.min_by(f64::total_cmp)
     }
 
     /// Since when energy is missing \[s\], and the largest gap as a share of the largest energy.

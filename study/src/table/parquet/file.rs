@@ -1,6 +1,5 @@
-//! A file of Apache Parquet, as <https://parquet.apache.org/docs/file-format/> says, of the simplest kind: every value is
-//! there, numbers stand one after the other, nothing is compressed. A column of a group is one page. Words, which come again
-//! and again, are numbers of a dictionary.
+//! A file of Apache Parquet by <https://parquet.apache.org/docs/file-format/>, of the simplest kind: every value exists, numbers follow one
+//! after the other, nothing is compressed. A column of a group is one page. Words, which repeat often, are indices into a dictionary.
 //!
 //! ```text
 //! PAR1 | group: column: (dictionary) page … | … | footer | length of the footer | PAR1
@@ -11,7 +10,7 @@ use std::io::{self, Write};
 
 const MAGIC: &[u8; 4] = b"PAR1";
 
-// The numbers of parquet.thrift.
+// numbers from parquet.thrift
 const REQUIRED: i32 = 0;
 const UNCOMPRESSED: i32 = 0;
 const PLAIN: i32 = 0;
@@ -24,29 +23,29 @@ const DICTIONARY_PAGE: i32 = 2;
 pub struct Column<'a> {
     /// Its name.
     pub name: String,
-    /// As many as there are rows.
+    /// One value for each row.
     pub values: Values<'a>,
 }
 
 /// Values of one type.
 pub enum Values<'a> {
-    /// Whole numbers.
+    /// Integers.
     Long(Vec<i64>),
-    /// Numbers.
+    /// Floating-point numbers.
     Double(Vec<f64>),
-    /// Whole numbers from 0.
+    /// Integers from 0.
     Count(Vec<u32>),
-    /// Text, of at most 65 536 words.
+    /// Text, with at most 65 536 different words.
     Word(Vec<&'a str>),
 }
 
 /// A file that is being written.
 pub struct File<W> {
     out: W,
-    /// Bytes written.
+    /// Number of bytes written.
     at: usize,
     rows: usize,
-    /// What the footer says of the columns, and of each group.
+    /// The footer's entries for the columns, and for each group.
     schema: Vec<Fields>,
     groups: Vec<Fields>,
 }
@@ -68,7 +67,7 @@ impl<W: Write> File<W> {
         Ok(file)
     }
 
-    /// Adds rows: the columns of the file, with as many values each.
+    /// Adds rows: all columns of the file, with equally many values.
     pub fn group(&mut self, columns: Vec<Column<'_>>) -> io::Result<()> {
         let start = self.at;
         let rows = columns.first().map_or(0, |column| column.values.len());
@@ -103,7 +102,7 @@ impl<W: Write> File<W> {
         self.write(MAGIC)
     }
 
-    /// A column of a group, and what the footer says of it.
+    /// Writes a column of a group, and returns its entry for the footer.
     fn chunk(&mut self, column: Column<'_>) -> io::Result<Fields> {
         let start = self.at;
         let count = column.values.len();
@@ -166,7 +165,7 @@ impl Column<'_> {
             .int(1, self.values.physical())
             .int(3, REQUIRED)
             .text(4, &self.name);
-        // Each meaning is said twice: as readers before format 2.4 know it, and as later ones do.
+        // Each meaning is stored twice: for readers before format 2.4, and for later ones.
         match self.values {
             Values::Long(_) | Values::Double(_) => schema,
             Values::Word(_) => {
@@ -202,7 +201,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// The number of an encoding, the words of the dictionary, where there is one, and the bytes.
+    /// The number of the encoding, the words of the dictionary if there is one, and the bytes.
     fn encoded(&self) -> (i32, Option<Vec<&'a str>>, Vec<u8>) {
         let plain = |bytes: Vec<u8>| (PLAIN, None, bytes);
         match self {
@@ -220,7 +219,7 @@ impl<'a> Values<'a> {
                     });
                     runs.push((run.len() as u64, number as u16));
                 }
-                // as many bits a number as all need, in whole bytes; runs of one number each, twice their length before it
+                // all indices have the same number of bits, in whole bytes; each run has one index, with twice its length before it
                 let size = if words.len() <= 256 { 1 } else { 2 };
                 let mut bytes = vec![8 * size as u8];
                 for (length, number) in runs {

@@ -1,5 +1,5 @@
-//! The table as Apache Parquet: plain columns, the same bytes whenever it is written; units and what the results are of stand
-//! in the metadata (`units`, `identity`, `model`, `version`, `arithmetic`).
+//! The table as Apache Parquet: plain columns, with the same bytes whenever it is written. Its metadata have the units and the identity of
+//! the results (`units`, `identity`, `model`, `version`, `arithmetic`).
 
 mod file;
 mod thrift;
@@ -12,21 +12,21 @@ use file::{Column, File, Values};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Rows of a group, a multiple of every size of blocks.
+/// Number of rows of a group, a multiple of every block size.
 const GROUP: usize = 1 << 16;
 
 /// A column of numbers.
 pub struct Numbers<'a> {
     /// Its name, unique.
     pub name: &'a str,
-    /// As many as there are rows.
+    /// One value for each row.
     pub values: &'a [f64],
 }
 
-/// Writes a table of numbers, `name` being that of the whole.
+/// Writes a table of numbers; `name` is the name of the table.
 ///
 /// # Errors
-/// As of `out`.
+/// Those of `out`.
 pub fn write_numbers(
     out: &mut dyn Write,
     name: &str,
@@ -90,7 +90,7 @@ fn metadata(results: &Results<'_>) -> [(&'static str, String); 5] {
     ]
 }
 
-/// Some rows, column by column; of no rows, the columns that there are.
+/// Some rows, column by column; without rows, the empty columns.
 fn columns<'a>(results: &Results<'_>, batches: &'a [Batch]) -> Vec<Column<'a>> {
     let mut columns = Vec::new();
     let mut add = |name: &str, values| {
@@ -103,7 +103,7 @@ fn columns<'a>(results: &Results<'_>, batches: &'a [Batch]) -> Vec<Column<'a>> {
         batch.first..batch.first + count
     });
     add("run", Values::Long(indices.map(|row| row as i64).collect()));
-    // Of numbers that lie row by row, each `width`-th.
+    // every `width`-th number of values that are stored row by row
     let of = |lists: &dyn Fn(&Batch) -> Vec<f64>, width: usize, index: usize| {
         let values = batches.iter().flat_map(|batch| {
             let list = lists(batch);

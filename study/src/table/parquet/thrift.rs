@@ -1,7 +1,7 @@
-//! Thrift's compact protocol, as <https://github.com/apache/thrift/blob/master/doc/specs/thrift-compact-protocol.md> says:
-//! what writing the metadata of Parquet takes of it.
+//! The part of Thrift's compact protocol (<https://github.com/apache/thrift/blob/master/doc/specs/thrift-compact-protocol.md>) that the
+//! metadata of Parquet need.
 
-/// Fields of a structure, by rising numbers.
+/// Fields of a structure, by increasing numbers.
 #[derive(Default)]
 pub struct Fields {
     bytes: Vec<u8>,
@@ -17,40 +17,40 @@ pub trait Element {
 }
 
 impl Fields {
-    /// A whole number of 32 bits.
+    /// Adds an integer of 32 bits.
     pub fn int(self, id: u8, value: i32) -> Self {
         self.element(id, &value)
     }
 
-    /// A whole number of 64 bits.
+    /// Adds an integer of 64 bits.
     pub fn long(self, id: u8, value: i64) -> Self {
         self.element(id, &value)
     }
 
-    /// A text.
+    /// Adds a text.
     pub fn text(self, id: u8, value: &str) -> Self {
         self.element(id, &value)
     }
 
-    /// A structure.
+    /// Adds a structure.
     pub fn fields(self, id: u8, value: Fields) -> Self {
         self.element(id, &value)
     }
 
-    /// A whole number of 8 bits.
+    /// Adds an integer of 8 bits.
     pub fn byte(mut self, id: u8, value: u8) -> Self {
         self.key(id, 3);
         self.bytes.push(value);
         self
     }
 
-    /// False.
+    /// Adds the value false.
     pub fn no(mut self, id: u8) -> Self {
         self.key(id, 2);
         self
     }
 
-    /// A list of elements of one type.
+    /// Adds a list of elements of one type.
     pub fn list<T: Element>(mut self, id: u8, elements: &[T]) -> Self {
         self.key(id, 9);
         match elements.len() {
@@ -79,7 +79,7 @@ impl Fields {
         self
     }
 
-    /// The step from the last field, which here is 15 at most, and the type.
+    /// Writes the step from the last field number, which is at most 15 here, and the type.
     fn key(&mut self, id: u8, kind: u8) {
         self.bytes.push((id - self.last) << 4 | kind);
         self.last = id;
@@ -120,12 +120,12 @@ impl Element for Fields {
     }
 }
 
-/// The sign in the lowest bit.
+/// Writes an integer with its sign in the lowest bit.
 fn signed(bytes: &mut Vec<u8>, value: i64) {
     varint(bytes, ((value << 1) ^ (value >> 63)).cast_unsigned());
 }
 
-/// Seven bits a byte, the lowest first.
+/// Writes seven bits in each byte, the lowest first.
 pub fn varint(bytes: &mut Vec<u8>, mut value: u64) {
     while value >= 0x80 {
         bytes.push(value as u8 | 0x80);

@@ -1,4 +1,4 @@
-//! Arithmetic as written in quantities: soups of its words, and expressions whose value is known.
+//! Arithmetic in quantities: random sequences of its words, and expressions with known values.
 
 use super::caught::Tried;
 use crate::bench::{Bench, Trouble};
@@ -10,8 +10,8 @@ use bryant_generator::description::expression::{Expression, Function, Kind, Oper
 pub const QUANTITIES: Case = Case {
     group: Group::Garbage,
     name: "soups of quantities",
-    law: "Any text is an expression, or a mistake with a place inside it; and an expression written at random has the value that \
-          it was written from, within c·κ·ε.",
+    law: "Any text is an expression, or a mistake with a place inside the text. An expression that is written at random has the value from \
+          which it was made, within c·κ·ε.",
     run: quantities,
 };
 
@@ -116,12 +116,12 @@ fn quantities(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "c·κ·ε: 4 ε for each operation on the sum of the absolute values",
     );
     for (what, count) in [("refused", refused), ("read", read)] {
-        bench.at_least(what, count as f64, 1000.0, "", "every way out is taken");
+        bench.at_least(what, count as f64, 1000.0, "", "every outcome occurs");
     }
     Ok(())
 }
 
-/// Whether a text is an expression; an `Err` where a place is not inside it.
+/// Whether a text is an expression; an `Err` if a reported place is not inside it.
 fn within(text: &str) -> Result<bool, String> {
     let characters = text.chars().count();
     match parse(text) {
@@ -142,8 +142,8 @@ fn within(text: &str) -> Result<bool, String> {
     }
 }
 
-/// An expression as text, with its value and the sum of the absolute values that it is made of, each times how far errors of
-/// its operands are carried.
+/// An expression as text, with its value and a bound of its rounding error: the sum of the absolute values of its parts, each times its
+/// amplification of errors of operands.
 struct Written {
     text: String,
     value: f64,
@@ -170,7 +170,7 @@ const UNITS: [(&str, f64); 14] = [
 
 impl Written {
     fn at_random(random: &mut Random, depth: usize) -> Written {
-        // ε of a value that is rounded, on top of what its operands bring
+        // a rounded value adds ε to the errors of its operands
         let made = |text: String, value: f64, carried: f64| Written {
             text,
             value,
@@ -228,7 +228,7 @@ fn agrees(written: &Written) -> Result<(), String> {
     }
     let expression = parse(&written.text).map_err(|mistake| format!("{mistake:?}"))?;
     let value = value(&expression);
-    // where a divisor may be 0 within its error nothing is known
+    // if a divisor may be 0 within its error, nothing is known
     let known = written.error.is_finite() && written.error < 1e-3 * (1.0 + written.value.abs());
     match !known || (value - written.value).abs() <= written.error {
         true => Ok(()),

@@ -1,24 +1,24 @@
-//! Tries inputs, and keeps those that broke something.
+//! Tries inputs, and collects those that cause an error.
 
 use crate::bench::Bench;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What came of many inputs.
+/// The results of many inputs.
 #[derive(Debug, Default)]
 pub struct Tried {
-    /// Inputs.
+    /// Number of inputs.
     pub count: usize,
     /// Panics, each with its input.
     panics: Vec<String>,
-    /// Whatever else must not be, each with its input.
+    /// Other faults, each with its input.
     faults: Vec<String>,
 }
 
-/// Most of an input that is shown \[characters\].
+/// Largest part of an input that is shown \[characters\].
 const SHOWN: usize = 2000;
 
 impl Tried {
-    /// Tries one input; what `check` returns as an error is a fault. `None` after a panic.
+    /// Tries one input; an error from `check` is a fault. `None` after a panic.
     pub fn input<T>(
         &mut self,
         input: &dyn Fn() -> String,
@@ -39,14 +39,14 @@ impl Tried {
         }
     }
 
-    /// Notes what was found: how many inputs there were, panics and faults, of which there is none.
+    /// Records the number of inputs, and that there are no panics and no faults.
     pub fn note(&self, bench: &mut Bench<'_>, least: usize, fault: &str, because: &str) {
         bench.at_least(
             "inputs tried",
             self.count as f64,
             least as f64,
             "",
-            "the budget of the case",
+            "the time allowed for the case",
         );
         let seen = |all: &[String]| match all.first() {
             None => format!("none of {}", self.count),

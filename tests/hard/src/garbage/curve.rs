@@ -1,4 +1,4 @@
-//! Curves of no length, backwards, of one point, and with points at the ends of what a number can be.
+//! Curves of no length, backwards, with one point, and with points near the limits of floating-point numbers.
 
 use super::caught::Tried;
 use crate::bench::{Bench, Trouble};
@@ -7,15 +7,15 @@ use crate::random::Random;
 use crate::scene::Scene;
 use bryant_generator::model::{Curve, Extrapolate};
 
-/// Points at random out of the worst there are.
+/// Curves from random, very bad points.
 pub const CURVES: Case = Case {
     group: Group::Garbage,
     name: "curves of no length",
-    law: "A curve is refused with its place, or goes through its points, from both sides, with finite values between them.",
+    law: "A curve is refused with its place, or it goes through its points from both sides, with finite values between them.",
     run: curves,
 };
 
-/// What a curve may miss its points by, as a share of the ordinates beside: what the reader of models lets pass.
+/// Allowed deviation of a curve from its points, as a share of the neighbouring ordinates; the reader of models allows the same.
 const TOLERANCE: f64 = 1e-9;
 
 /// Abscissae and ordinates.
@@ -71,15 +71,15 @@ fn curves(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         count,
         "refused, or through its points",
-        "what a curve is",
+        "the definition of a curve",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }
 
-/// A curve at random; half of them increase.
+/// A random curve; half of them have increasing abscissae.
 fn written(random: &mut Random) -> String {
     let number = |random: &mut Random| (*random.one_of(&NUMBERS)).to_owned();
     let length = random.below(5);
@@ -87,7 +87,7 @@ fn written(random: &mut Random) -> String {
         .map(|_| [number(random), number(random)])
         .collect();
     if random.one_in(2) {
-        // those that are no numbers come somewhere
+        // texts that are not numbers may come anywhere
         points.sort_by(|a, b| {
             let value = |text: &str| text.parse::<f64>().unwrap_or(0.0);
             value(&a[0]).total_cmp(&value(&b[0]))
@@ -110,7 +110,7 @@ fn written(random: &mut Random) -> String {
     )
 }
 
-/// A model that is pushed by a curve, whatever its unit.
+/// A model that is driven by a curve, whatever its unit.
 fn scene(curve: &str) -> Scene {
     let force = if curve.contains("m/s^2") {
         "{ field: f, acceleration: [c, 0] }"
@@ -126,11 +126,11 @@ fn scene(curve: &str) -> Scene {
     )
 }
 
-/// Whether a curve goes through its points: exactly where a piece begins, within rounding where one ends.
+/// Checks that a curve goes through its points: exactly at the beginning of a piece, within rounding at its end.
 fn through_its_points(curve: &Curve) -> Result<(), String> {
     let last = curve.points.len() - 1;
     for (k, &[x, y]) in curve.points.iter().enumerate() {
-        // where a curve may not be left, its last point is the end of a piece
+        // a curve that may not be extended has its last point at the end of a piece
         let rounding = match curve.extrapolate == Extrapolate::Error && k == last {
             true => TOLERANCE * (y.abs() + curve.points[k - 1][1].abs()),
             false => 0.0,
@@ -143,7 +143,7 @@ fn through_its_points(curve: &Curve) -> Result<(), String> {
     for pair in curve.points.windows(2) {
         let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
         let (before, middle) = (x1.next_down(), x0 + 0.5 * (x1 - x0));
-        // a monotone cubic is at most three times as steep as its secant, and abscissae have an end to their digits
+        // a monotone cubic is at most three times as steep as its secant, and abscissae are rounded
         let slope = 3.0 * ((y1 - y0) / (x1 - x0)).abs();
         let bound = TOLERANCE * (y0.abs() + y1.abs())
             + slope
@@ -163,7 +163,7 @@ fn through_its_points(curve: &Curve) -> Result<(), String> {
     for beyond in [first - 1.0, last + 1.0] {
         let inside = (first..=last).contains(&beyond);
         let value = curve.value(beyond);
-        // a line that goes on may go on to infinity
+        // an extended line may become infinite
         if value.is_nan() != (curve.extrapolate == Extrapolate::Error && !inside) {
             return Err(format!("{value:e} at {beyond:e}"));
         }

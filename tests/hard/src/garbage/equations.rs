@@ -1,5 +1,5 @@
-//! The equations of random models against what is derived another way: Lagrange's equations, virtual power, Cholesky's
-//! factors, and the other coordinates.
+//! The equations of random models against other derivations: Lagrange's equations, virtual power, Cholesky's factors, and the other
+//! coordinates.
 
 use super::caught::Tried;
 use super::sample;
@@ -16,21 +16,21 @@ use bryant_generator::expression::evaluate::Inputs;
 use bryant_generator::expression::{Graph, NodeId, Symbol, sum};
 use bryant_generator::model::{Dimension, Model, Reference};
 
-/// Whole models at random.
+/// Random models.
 pub const RANDOM_MODELS: Case = Case {
     group: Group::Garbage,
     name: "random models",
-    law: "S and r_s are those of Lagrange's equations, which are derived without any of what the equations are derived with; \
-          vᵀ r_k is the power of the forces, and the rate of the kinetic energy their sum; accelerations are those of Cholesky's \
-          factors of S, and the same in quaternions.",
+    law: "S and r_s equal those of Lagrange's equations, which are derived by independent code. vᵀ r_k is the power of the forces, and the \
+          powers together are the rate of the kinetic energy. Accelerations equal those by Cholesky's factors of S, and those in \
+          quaternions.",
     run: random_models,
 };
 
-/// States of each model.
+/// Number of states of each model.
 const STATES: usize = 3;
-/// What eight samples of a scatter say of a largest difference, as in the tests of compiled equations.
+/// Factor from the scatter of eight samples to the largest difference, as in the tests of compiled equations.
 const C: f64 = 20.0;
-/// Roundings of a sum of constants: of the masses of as many elements as a tree has.
+/// Number of roundings in a sum of constants: of the masses of as many elements as a tree has.
 const FOLDED: f64 = 8.0;
 
 fn random_models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
@@ -53,10 +53,10 @@ fn random_models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         count,
         "the same by every derivation",
-        "20 times the scatter of eight evaluations with every operation rounded at random, which is κ·ε of each value; of solving \
-         with S, the componentwise bound of Higham (Accuracy and Stability, 10.1) besides",
+        "20 times the scatter of eight evaluations with every operation rounded at random, which is κ·ε of each value; for the \
+         solution with S, plus the componentwise bound of Higham (Accuracy and Stability, 10.1)",
     );
-    // what the language refuses, such as a belt that begins where it ends, is not compared
+    // models that the language refuses, such as a belt whose ends coincide, are not compared
     bench.at_most(
         format!(
             "refused{}",
@@ -67,7 +67,7 @@ fn random_models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         refused.len() as f64,
         0.2 * count as f64,
         "",
-        "the others must be enough to see something",
+        "enough scenes must remain to prove something",
     );
     Ok(())
 }
@@ -109,14 +109,14 @@ fn values(
     Values { value, scatter }
 }
 
-/// The same but for rounding.
+/// Checks that two results are equal up to rounding.
 fn same(what: &str, names: &dyn Fn(usize) -> String, a: &Values, b: &Values) -> Result<(), String> {
     for i in 0..a.value.len() {
         let (x, y) = (a.value[i], b.value[i]);
-        // constants have been added up where no scatter sees it: the masses of a tree
+        // the scatter does not see sums of constants: the masses of a tree
         let folded = FOLDED * f64::EPSILON * (x.abs() + y.abs());
         let bound = C * (a.scatter[i] + b.scatter[i]) + folded;
-        // what is not finite is no agreement
+        // values that are not finite do not agree
         let agree = (x - y).abs() <= bound;
         if !agree {
             return Err(format!(
@@ -172,7 +172,7 @@ fn compare(
     Ok(())
 }
 
-/// S and r without forces, among which there is the inertia against given accelerations.
+/// Compares S, and r without forces, with Lagrange's equations; r includes the inertia forces of prescribed accelerations.
 fn as_lagrange(
     engine: &dyn Engine,
     model: &Model,
@@ -202,7 +202,7 @@ fn as_lagrange(
     same("S, r_s", &name, &ours, &theirs)
 }
 
-/// vᵀ r_k where nothing moves as given, and dT/dt everywhere.
+/// Compares vᵀ r_k if nothing has a prescribed motion, and dT/dt always.
 fn powers(
     engine: &dyn Engine,
     model: &Model,
@@ -254,7 +254,7 @@ fn powers(
     }
 }
 
-/// v̇ by elimination, and by Cholesky's factors of S.
+/// Compares v̇ by elimination with v̇ by Cholesky's factors of S.
 fn solved(
     engine: &dyn Engine,
     model: &Model,
@@ -281,7 +281,7 @@ fn solved(
             solve(&factor, n, &unit)
         })
         .collect();
-    // |δr| + |δS| |x|, of what is given; and (3 n + 1) ε |L| |Lᵀ| |x| of the solution
+    // |δr| + |δS| |x| for the given values, and (3 n + 1) ε |L| |Lᵀ| |x| for the solution
     let given: Vec<f64> = (0..n)
         .map(|i| {
             let row = (0..n).map(|k| {
@@ -337,9 +337,9 @@ fn solve(l: &[f64], n: usize, r: &[f64]) -> Vec<f64> {
     x
 }
 
-/// The accelerations in Bryant angles turned into those of ω, against those of the model in quaternions.
+/// Converts the accelerations in Bryant angles to those of ω, and compares them with those of the model in quaternions.
 ///
-/// ω = W φ̇, ω̇ = W φ̈ + Ẇ φ̇ with the columns of W x, Rx(φ₁) y and Rx(φ₁) Ry(φ₂) z.
+/// ω = W φ̇, ω̇ = W φ̈ + Ẇ φ̇; the columns of W are x, Rx(φ₁) y and Rx(φ₁) Ry(φ₂) z.
 fn in_quaternions(
     engine: &dyn Engine,
     model: &Model,
@@ -411,7 +411,7 @@ fn in_quaternions(
     )
 }
 
-/// Of A = Rx(φ₁) Ry(φ₂) Rz(φ₃).
+/// The quaternion of A = Rx(φ₁) Ry(φ₂) Rz(φ₃).
 fn quaternion(angles: [f64; 3]) -> [f64; 4] {
     let [x, y, z] = [0, 1, 2].map(|axis| {
         let (sin, cos) = (0.5 * angles[axis]).sin_cos();
@@ -430,7 +430,7 @@ fn quaternion(angles: [f64; 3]) -> [f64; 4] {
     product(product(x, y), z)
 }
 
-/// The state of a model with what force laws and charts of another model of the same scene keep, which may be less.
+/// The state of a model, with the states of force laws and charts from another model of the same scene, which may have fewer.
 fn of_laws(equations: &Equations, others: &Equations, state: &State) -> State {
     let kept = |names: &[LawState], values: &[f64], wanted: &[LawState]| {
         let of = |wanted: &LawState| names.iter().position(|known| known.name == wanted.name);
@@ -445,8 +445,8 @@ fn of_laws(equations: &Equations, others: &Equations, state: &State) -> State {
     }
 }
 
-/// A state at random, second angles away from where they are singular; what force laws remember is what they begin with, or, of
-/// what has not happened, that it has.
+/// A random state with second angles away from their singularity. Memory has its initial value; events that have not happened may instead
+/// have happened.
 fn state(engine: &dyn Engine, model: &Model, equations: &Equations, random: &mut Random) -> State {
     let q = (equations.coordinates.iter())
         .map(|variable| match variable.unit {

@@ -1,7 +1,6 @@
-//! Input that is no model, numbers that are none, models that nobody would write.
+//! Input that is not a model, NaN and infinite numbers, and models that nobody would write.
 //!
-//! Whatever is tried is made by a generator of numbers with a fixed seed, so that a test that fails fails again; the input that
-//! broke something is part of what the check says.
+//! Random inputs have a fixed seed, so that a failing test fails again; the check reports the input that caused a fault.
 
 mod arithmetic;
 mod caught;

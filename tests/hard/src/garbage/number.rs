@@ -1,4 +1,4 @@
-//! Numbers that make no sense, wherever a number may stand.
+//! Meaningless numbers in every place of a number.
 
 use super::caught::Tried;
 use super::sample;
@@ -8,25 +8,25 @@ use crate::case::{Case, Group};
 use crate::random::Random;
 use bryant_generator::description::tree::{Kind, Node, Source, Span};
 
-/// Every scalar of valid models replaced.
+/// Every scalar of valid models is replaced.
 pub const IN_THE_TEXT: Case = Case {
     group: Group::Garbage,
     name: "no numbers in the place of every number",
-    law: "A number that makes no sense is refused with its place, or the equations have a finite value at the start, or their \
-          rates have none, which a run reports before it delivers a sample.",
+    law: "A number that makes no sense is refused with its place. Otherwise the equations have finite values at the start, or a run \
+          reports before its first sample that their rates are not finite.",
     run: in_the_text,
 };
 
-/// Parameters of valid models, set at run time.
+/// Parameters of valid models are set at run time.
 pub const AT_RUN_TIME: Case = Case {
     group: Group::Garbage,
     name: "parameters at the ends of what a number can be",
-    law: "Whatever a parameter is set to within its bounds, the equations have a finite value at the start, or something that a \
-          run looks at has none.",
+    law: "For every value of a parameter within its bounds the equations have finite values at the start, or a quantity that a run checks \
+          is not finite.",
     run: at_run_time,
 };
 
-/// What stands in the place of a number.
+/// The replacements of a number.
 const GARBAGE: [&str; 24] = [
     ".nan",
     "nan",
@@ -54,7 +54,8 @@ const GARBAGE: [&str; 24] = [
     "0x10",
 ];
 
-/// How many of them are tried in a place, and one model in how many is derived of those accepted, where not all are.
+/// Number of replacements that are tried in one place; of the accepted models one in this many is derived. The full case tries and derives
+/// all.
 const TRIED: usize = 6;
 const DERIVED: usize = 6;
 
@@ -90,15 +91,15 @@ fn in_the_text(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         5000,
         "refused with place and remedy, or finite, or reported",
-        "nobody is told a number that is none",
+        "no number that is not finite is reported",
     );
-    // that all of it happens, or the case would show nothing
+    // all of these must happen, or the case would show nothing
     for (what, count) in [
         ("refused", refused),
         ("accepted, finite", finite),
         ("accepted, not finite and reported", reported),
     ] {
-        bench.at_least(what, f64::from(count), 10.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 10.0, "", "every outcome occurs");
     }
     Ok(())
 }
@@ -129,7 +130,7 @@ fn at_run_time(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
         for (i, parameter) in model.parameters.iter().enumerate() {
             let ends = [parameter.min, parameter.max].into_iter().flatten();
-            // what lies outside of its bounds is not accepted by a job
+            // a job does not accept values outside of the bounds
             let within = |value: &f64| {
                 parameter.min.is_none_or(|min| *value >= min)
                     && parameter.max.is_none_or(|max| *value <= max)
@@ -154,15 +155,15 @@ fn at_run_time(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         50,
         "finite, or reported",
-        "nobody is told a number that is none",
+        "no number that is not finite is reported",
     );
     for (what, count) in [("finite", finite), ("not finite and reported", reported)] {
-        bench.at_least(what, f64::from(count), 1.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 1.0, "", "every outcome occurs");
     }
     Ok(())
 }
 
-/// What becomes of a text.
+/// The result of a replaced number.
 enum Judged {
     Refused,
     Accepted,
@@ -191,7 +192,7 @@ fn judge(engine: &dyn Engine, text: &str, derive: bool) -> Result<Judged, String
     }
 }
 
-/// Some garbage, or all.
+/// Some replacements, or all.
 fn chosen(random: &mut Random, all: bool) -> Vec<&'static str> {
     match all {
         true => GARBAGE.to_vec(),
@@ -199,7 +200,7 @@ fn chosen(random: &mut Random, all: bool) -> Vec<&'static str> {
     }
 }
 
-/// Where numbers stand: scalars that begin like one.
+/// The places of numbers: scalars that begin like a number.
 fn numbers(node: &Node, places: &mut Vec<Span>) {
     match &node.kind {
         Kind::Scalar { text, .. } => {
@@ -214,7 +215,7 @@ fn numbers(node: &Node, places: &mut Vec<Span>) {
     }
 }
 
-/// The text with something else in one place.
+/// The text with a replacement in one place.
 fn replaced(text: &str, place: Span, by: &str) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let line: Vec<char> = lines[place.line - 1].chars().collect();

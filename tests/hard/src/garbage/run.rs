@@ -1,4 +1,4 @@
-//! Runs asked for with numbers that make no sense.
+//! Runs with meaningless settings and parameters.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
@@ -7,25 +7,25 @@ use crate::scene::Scene;
 use bryant_runtime::program::{ErrorKind, Job, Scalar};
 use bryant_runtime::{Adaptive, Formula, Method, Pace, Tolerances};
 
-/// Settings.
+/// Settings of runs.
 pub const SETTINGS: Case = Case {
     group: Group::Garbage,
-    name: "runs of no length, steps of none, tolerances of none",
-    law: "A run with settings that make no sense is refused or fails with a message, or ends within its limit of steps with finite \
+    name: "runs with invalid settings",
+    law: "A run with meaningless settings is refused, fails with a message, or ends within its limit of steps with finite \
           numbers.",
     run: settings,
 };
 
-/// Parameters.
+/// Parameters of runs.
 pub const PARAMETERS: Case = Case {
     group: Group::Garbage,
-    name: "runs of denormal masses and of pulses of 1e9 m/s²",
-    law: "A run with parameters that make no sense is refused or fails with a message, or ends within its limit of steps with \
-          finite numbers.",
+    name: "runs with extreme parameters",
+    law: "A run with meaningless parameters is refused, fails with a message, or ends within its limit of steps with finite \
+          numbers.",
     run: parameters,
 };
 
-/// Enough for what makes sense, and soon reached by what does not.
+/// Limit of steps: enough for meaningful settings, and soon reached by others.
 const LIMIT: u64 = 20_000;
 
 const GARBAGE: [f64; 13] = [
@@ -44,7 +44,7 @@ const GARBAGE: [f64; 13] = [
     f64::MAX,
 ];
 
-/// How runs ended.
+/// Counts of the ends of runs.
 #[derive(Default)]
 struct Ends {
     refused: usize,
@@ -100,7 +100,7 @@ impl Ends {
                 ),
                 Some(first) => format!("{} wrong: {first}", self.wrong.len()),
             },
-            "never a hang, a panic or a number that is none",
+            "never a hang, a panic or a number that is not finite",
         );
         for (what, count, least) in [
             ("refused or failed", self.refused + self.failed, least[0]),
@@ -247,7 +247,7 @@ fn parameters(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     for scalar in scalars {
         for name in names {
             for x in GARBAGE {
-                // a mass below zero makes sense to nobody, but is another case
+                // a negative mass makes no sense, but belongs to another case
                 if x < 0.0 && name != "speed" && name != "pull" {
                     continue;
                 }

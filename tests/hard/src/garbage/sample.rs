@@ -1,4 +1,4 @@
-//! Valid models to begin with: among them they have every kind of force, motion, switch and output.
+//! Valid models to begin with; together they have every kind of force, motion, switch and output.
 
 use crate::scene::Scene;
 use bryant_generator::Diagnostics;
@@ -42,7 +42,7 @@ pub const PULSE: &str = include_str!(concat!(
     "/../models/data/pulse.csv"
 ));
 
-/// All as scenes.
+/// All models as scenes.
 pub fn scenes() -> impl Iterator<Item = Scene> {
     ALL.iter().map(|(name, text)| Scene::new(*name, *text))
 }

@@ -1,5 +1,5 @@
-//! The equations of a model at the start of a run, evaluated without compiling: is anything there that is no number, and
-//! does a run look at it?
+//! The equations of a model at the start of a run, evaluated without compilation: whether a value is NaN or infinite, and whether a run
+//! notices it.
 
 use crate::bench::{Engine, functions};
 use bryant_generator::dynamics::{Options, derive_with};
@@ -8,26 +8,26 @@ use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::model::Model;
 
-/// A model with its equations, to be evaluated at its start.
+/// A model with its equations, for evaluation at its start.
 pub struct Start<'a> {
     engine: &'a dyn Engine,
     model: &'a Model,
     equations: Equations,
 }
 
-/// What is found at a start.
+/// The result at a start.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Found {
-    /// Every number is one.
+    /// All values are finite.
     Finite,
-    /// Something is not finite that a run looks at: it ends where it begins, and says so.
+    /// A value is not finite, and a run evaluates it: the run ends at its beginning with a message.
     Reported,
-    /// Something is not finite that no run looks at.
+    /// A value is not finite, and no run evaluates it.
     Silent(String),
 }
 
 impl<'a> Start<'a> {
-    /// Derives the equations, whose functions the engine knows.
+    /// Derives the equations; the engine provides their functions.
     pub fn of(engine: &'a dyn Engine, model: &'a Model) -> Start<'a> {
         let options = Options {
             matrices: false,
@@ -80,7 +80,7 @@ impl<'a> Start<'a> {
             .chain(equations.auxiliaries.iter().map(|z| z.next))
             .collect();
         let finite = |values: &[f64]| values.iter().all(|x| x.is_finite());
-        // a run looks at its initial state and at rates and outputs there, and at memory renewed after its first step
+        // a run evaluates its initial state, the rates and outputs there, and the memory after its first step
         let states = [&q, &v, &z, &m];
         if !(states.into_iter().all(|values| finite(values))
             && finite(&at(&rates))
@@ -88,8 +88,8 @@ impl<'a> Start<'a> {
         {
             return Found::Reported;
         }
-        // A guard that is no number never changes its sign: what waits for it would wait for ever. Energies may overflow, of which
-        // the balance at the end of a run says so.
+        // An event function that is NaN never changes its sign, so its event would never come. Energies may overflow; the balance at the
+        // end of a run reports this.
         let named = equations.guards.iter().chain(&equations.kinks);
         let (names, roots): (Vec<&str>, Vec<NodeId>) = named
             .map(|named| (named.name.as_str(), named.value))

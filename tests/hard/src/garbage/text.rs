@@ -1,4 +1,4 @@
-//! Text that is nearly a model, or nothing like one.
+//! Text that is almost a model, or not a model at all.
 
 use super::caught::Tried;
 use super::sample;
@@ -9,23 +9,24 @@ use bryant_generator::Diagnostics;
 use bryant_generator::description::table::{Column, Fault, Table};
 use bryant_generator::model::Model;
 
-/// Valid models mutilated, and text that is meant to cost time or stack.
+/// Damaged models, and text that is made to cost time or stack.
 pub const MODELS: Case = Case {
     group: Group::Garbage,
     name: "text that is no model",
-    law: "Any text is a model, or gets problems with places inside it, a thousand at most, in messages that do not grow with it.",
+    law: "Any text is a model or gets problems with places inside the text: a thousand problems at most, in messages that do not grow with \
+          the text.",
     run: models,
 };
 
-/// Tables mutilated.
+/// Damaged tables.
 pub const TABLES: Case = Case {
     group: Group::Garbage,
     name: "tables that are none",
-    law: "A text of columns is points with finite numbers, or gets a problem with a place inside it.",
+    law: "A text of columns gives points with finite numbers, or gets a problem with a place inside the text.",
     run: tables,
 };
 
-/// Pieces that mean something in YAML, or in no text at all.
+/// Pieces with a meaning in YAML, and pieces without any meaning.
 const PIECES: [&str; 46] = [
     "&a ",
     "*a",
@@ -117,12 +118,12 @@ fn models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "every error has a place and a remedy",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }
 
-/// Whether a text is a model; an `Err` where what is said of it makes no sense.
+/// Whether a text is a model; an `Err` if a message about it makes no sense.
 fn well_reported(text: &str, read: Result<Model, Diagnostics>) -> Result<bool, String> {
     let Err(problems) = read else {
         return Ok(true);
@@ -145,7 +146,7 @@ fn well_reported(text: &str, read: Result<Model, Diagnostics>) -> Result<bool, S
                 problem.message
             ));
         }
-        // the end of a text is a place too
+        // the end of a text is also a place
         let lines = text
             .split(['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}'])
             .count()
@@ -157,7 +158,7 @@ fn well_reported(text: &str, read: Result<Model, Diagnostics>) -> Result<bool, S
             ));
         }
     }
-    // fifty are drawn, with an excerpt of 2000 characters at most
+    // fifty problems are shown, with an excerpt of at most 2000 characters each
     for drawn in [problems.render(true), problems.render(false)] {
         if drawn.is_empty() || drawn.len() > 2_000_000 {
             return Err(format!("drawn in {} bytes", drawn.len()));
@@ -166,14 +167,14 @@ fn well_reported(text: &str, read: Result<Model, Diagnostics>) -> Result<bool, S
     Ok(false)
 }
 
-/// Some pieces one behind the other.
+/// A random sequence of pieces.
 fn soup(random: &mut Random, pieces: &[&str], most: usize) -> String {
     (0..random.below(most))
         .map(|_| *random.one_of(pieces))
         .collect()
 }
 
-/// A text with a few changes.
+/// A text with a few random changes.
 fn mutilated(random: &mut Random, text: &str) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     for _ in 0..1 + random.below(3) {
@@ -197,7 +198,7 @@ fn mutilated(random: &mut Random, text: &str) -> String {
             }
             8 => lines[at].push_str(&"x".repeat(random.below(3000))),
             9 => {
-                // one character less, or one instead of another
+                // one character is removed or replaced
                 let mut characters: Vec<char> = lines[at].chars().collect();
                 if !characters.is_empty() {
                     let place = random.below(characters.len());
@@ -225,7 +226,7 @@ fn mutilated(random: &mut Random, text: &str) -> String {
     lines.join(if random.one_in(10) { "\r\n" } else { "\n" })
 }
 
-/// Texts that are meant to cost time, memory or stack, with what they are.
+/// Texts that are made to cost time, memory or stack, with descriptions.
 fn hostile() -> Vec<(&'static str, String)> {
     let model = "model: m\ndimension: 2\nsystems:\n  - name: s\n    elements: [{ name: e, mass: 1, cg: [0, 0], inertia: 1 }]\n";
     let mut laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n".to_owned();
@@ -369,10 +370,10 @@ fn tables(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench,
         count,
         "points, or a problem",
-        "no number that is none reaches a curve",
+        "no number that is not finite reaches a curve",
     );
     for (what, count) in [("refused", refused), ("accepted", accepted)] {
-        bench.at_least(what, f64::from(count), 100.0, "", "every way out is taken");
+        bench.at_least(what, f64::from(count), 100.0, "", "every outcome occurs");
     }
     Ok(())
 }

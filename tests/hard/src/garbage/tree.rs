@@ -1,19 +1,19 @@
-//! Valid models at random, as a user would write them: trees of a few elements with whatever the language has.
+//! Random valid models as a user would write them: trees of a few elements with all parts of the language.
 
 use crate::random::Random;
 
-/// What is being written.
+/// The state of writing a model.
 struct Writer<'a> {
     random: &'a mut Random,
     plane: bool,
     /// `system/element`.
     elements: Vec<String>,
     vehicle: bool,
-    /// Joints that have a force already.
+    /// Joints that already have a force.
     jointed: Vec<usize>,
 }
 
-/// A model: in the plane, or in space with angles as coordinates, which the word `bryant` in its text says.
+/// A model in the plane, or in space with Bryant angles if its text has the word `bryant`.
 pub fn model(random: &mut Random) -> String {
     let plane = random.one_in(2);
     let mut writer = Writer {
@@ -76,7 +76,7 @@ impl Writer<'_> {
         let count = if self.plane { 2 } else { 3 };
         let numbers: Vec<String> = (0..count)
             .map(|_| match self.random.below(6) {
-                // what is 0 folds away
+                // terms with 0 vanish
                 0 => "0".to_owned(),
                 _ => self.number(-size, size),
             })
@@ -84,7 +84,7 @@ impl Writer<'_> {
         format!("[{}]", numbers.join(", "))
     }
 
-    /// About each axis there is.
+    /// A rotation about each axis of the dimension.
     fn turns(&mut self, size: f64) -> String {
         match self.plane {
             true => self.number(-size, size),
@@ -92,7 +92,7 @@ impl Writer<'_> {
         }
     }
 
-    /// How a point moves that moves as given.
+    /// The motion of a point with a prescribed motion.
     fn motion(&mut self) -> String {
         let (key, curves) = match self.random.below(3) {
             0 => (
@@ -130,7 +130,7 @@ impl Writer<'_> {
                 _ => format!("on: e{}, at: {}, ", self.random.below(e), self.vector(0.4)),
             };
             let mass = self.random.uniform(0.5, 5.0);
-            // semi-axes of a solid ellipsoid: always realisable
+            // semi-axes of a solid ellipsoid: its moments of inertia are always realisable
             let squares = [0, 1, 2].map(|_| self.random.uniform(0.03, 0.2f64).powi(2));
             let sum: f64 = squares.iter().sum();
             let moments = squares.map(|square| format!("{:e}", mass / 5.0 * (sum - square)));
@@ -155,7 +155,7 @@ impl Writer<'_> {
         text
     }
 
-    /// Somewhere to be attached, and somewhere else.
+    /// Two different places of attachment.
     fn two_bodies(&mut self) -> [String; 2] {
         let first = self.random.below(self.elements.len());
         let mut others = vec!["frame".to_owned()];

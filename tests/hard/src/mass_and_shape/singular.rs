@@ -1,4 +1,4 @@
-//! Models whose S is singular in every position are refused when they are read, and no others.
+//! Models whose S is singular in every position are refused when they are read; other models are not.
 
 use crate::balance::Tree;
 use crate::bench::{Bench, Trouble};
@@ -9,31 +9,32 @@ use crate::random::Random;
 use crate::scene::Scene;
 use bryant_generator::model::{Dimension, Model};
 
-/// Ways to be singular, by hand.
+/// Singular models, made by hand.
 pub const REFUSED: Case = Case {
     group: Group::MassAndShape,
     name: "singular models are refused",
-    law: "What can move without kinetic energy has no acceleration: such a model is refused when it is read, with the element \
-          that moves and the axis that it turns about. A part of it less, and it is accepted.",
+    law: "An element that can move without kinetic energy has no definite acceleration. Such a model is refused when it is read; the \
+          message names the element that moves and the axis that it turns about. A model that differs slightly and is not singular is \
+          accepted.",
     run: refused,
 };
 
-/// Ways to be singular, at random.
+/// Singular models, made at random.
 pub const RANDOM: Case = Case {
     group: Group::MassAndShape,
     name: "refused if and only if singular",
-    law: "Chains of points, needles, plates and bodies, with joints and centres of gravity that coincide or are in line, are \
-          refused exactly where L D Lᵀ of S in double-double, at random positions, has a pivot that is 0 to rounding.",
+    law: "The chains consist of points, needles, plates and bodies, with joints and centres of gravity that coincide or lie in line. A \
+          chain is refused if and only if L D Lᵀ of S in double-double, at random positions, has a pivot that is 0 within rounding.",
     run: random,
 };
 
-/// A model by hand: what it is, its text, what is said of it.
+/// A model made by hand: its description, its text, and the expected message.
 struct Way {
     name: &'static str,
     dimension: u8,
     reference: &'static str,
     elements: &'static [&'static str],
-    /// Words of the message: the element, the axis; none where the model is accepted.
+    /// Words of the message: the element, the axis; empty if the model is accepted.
     said: &'static [&'static str],
 }
 
@@ -259,7 +260,7 @@ fn refused(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                     (said, first_line(&text))
                 }
             };
-            let because = "a motion has no kinetic energy, or one that rounding hides";
+            let because = "a motion has no kinetic energy, or less than the rounding";
             let criterion = format!("refused, saying “{}”", way.said.join(" … "));
             bench.states(criterion, refused, seen, because);
         }
@@ -271,7 +272,7 @@ fn first_line(text: &str) -> String {
     text.lines().next().unwrap_or_default().to_owned()
 }
 
-/// Random numbers of few values, so that what must coincide to be singular does.
+/// Random numbers with few values, so that coincidences that make S singular are frequent.
 fn odd(random: &mut Random, kind: Kind) -> Link {
     let mut pick = |values: &[[f64; 3]]| {
         let at = random.uniform(0.0, values.len() as f64);
@@ -295,7 +296,7 @@ fn odd(random: &mut Random, kind: Kind) -> Link {
     }
 }
 
-/// Zero, by hand: of a scaled pivot, in double-double, in numbers that differ from 1 by no more than 1e3.
+/// A scaled pivot below this counts as zero; it is computed in double-double from numbers between 1e-3 and 1e3.
 const ZERO: f64 = 1e-20;
 
 fn random(bench: &mut Bench<'_>) -> Result<(), Trouble> {
@@ -345,12 +346,12 @@ fn random(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The model of links that would be refused: read with moments that are not zero, which then are put back.
+/// The model of links that would be refused: it is read with moments that are not zero, and then gets the moments of the links.
 fn bodies(setting: Setting, links: &[Link]) -> Result<Model, Trouble> {
     let sound: Vec<Link> = links
         .iter()
         .map(|link| Link {
-            // all different: principal axes that do not matter are forgotten
+            // all values are different, because irrelevant principal axes are dropped
             inertia: [0.1, 0.11, 0.12],
             ..*link
         })

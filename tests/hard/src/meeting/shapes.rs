@@ -1,4 +1,4 @@
-//! The shapes of scenes in which something is met in free flight, or not.
+//! The shapes of scenes in which a free motion meets something, or nothing.
 
 use super::{Case, Met, direction, met, size, speed, stiffness};
 use crate::random::Random;
@@ -35,7 +35,7 @@ fn balls(random: &mut Random) -> Case {
         -before * along[1] + aside * along[0],
     ];
     let velocity = along.map(|x| speed * x);
-    // idle at both ends of the run
+    // the law is idle at both ends of the run
     let clear = |t: f64| (speed * (t - at)).hypot(aside) > r + s;
     let [x, z] = place;
     let [u, w] = velocity;
@@ -73,7 +73,7 @@ outputs:
 run: { duration: 1 s, every: 0.1 s }
 ";
 
-/// Two of one shape that do not turn touch where their centres are an ellipsoid of twice the size apart.
+/// Two ellipsoids of one shape that do not rotate touch when the centre of one is on an ellipsoid of twice the size about the other.
 fn ellipsoids(random: &mut Random) -> Case {
     let a = size(random);
     let axes = [
@@ -87,7 +87,7 @@ fn ellipsoids(random: &mut Random) -> Case {
     along = along.map(|x| x / norm);
     let through = axes.map(|axis| 1.5 * axis * random.uniform(-1.0, 1.0));
     let start: Vec<f64> = (0..3).map(|i| through[i] - speed * at * along[i]).collect();
-    // nearest to the centre where the ellipsoid is a ball of radius 1
+    // the closest approach, in coordinates where the ellipsoid is a ball of radius 1
     let (p, d): (Vec<f64>, Vec<f64>) = (0..3)
         .map(|i| (through[i] / (2.0 * axes[i]), along[i] / (2.0 * axes[i])))
         .unzip();
@@ -98,7 +98,7 @@ fn ellipsoids(random: &mut Random) -> Case {
     };
     let ends = [0.0, 1.0].map(|t| speed * (t - at));
     let way = -dot(&p, &d) / dot(&d, &d);
-    // the run may end before it is there, or begin behind
+    // the run may end before the closest approach, or begin after it
     let nearest = distance(way.clamp(ends[0], ends[1]));
     let least = axes[1].min(axes[2]);
     let velocity = along.map(|x| speed * x);
@@ -137,7 +137,7 @@ outputs:
 run: { duration: 1 s, every: 0.1 s }
 ";
 
-/// With a second plate, which makes a corner with the first.
+/// With a second plate that makes a corner with the first.
 const CORNERS: &str = "
   - contact: wall
     ellipsoid: { on: ball/body, center: [0, 0], semi_axes: [r, r] }
@@ -145,14 +145,14 @@ const CORNERS: &str = "
     elastic: { curve: line, times: k }
 ";
 
-/// How long a motion is between `low` and `high`, of a run from 0 to 1: when it begins and when it ends.
+/// The time that a motion spends between `low` and `high` in a run from 0 to 1: its beginning and end.
 fn while_between(place: f64, speed: f64, [low, high]: [f64; 2]) -> [f64; 2] {
     let times = [(low - place) / speed, (high - place) / speed];
     [times[0].min(times[1]), times[0].max(times[1])]
 }
 
-/// How deep a ball is in a plate at most, along its `normal` and while beside neither of its edges: where it is idle at both ends of the
-/// run, and is there for more than a hundredth of its size; `None` where that is not so.
+/// The largest depth of a ball in a plate along its `normal`, while it is between the edges. It must be idle at both ends of the run and
+/// deeper than a hundredth of its size in between; otherwise `None`.
 fn depth(normal: [f64; 2], along: [f64; 2], r: f64, e: f64) -> Option<f64> {
     let [height, falls] = normal;
     let [from, to] = while_between(along[0], along[1], [-e, e]);
@@ -221,7 +221,7 @@ outputs:
 run: { duration: 1 s, every: 0.1 s }
 ";
 
-/// Thrown up it comes back at the end of the run.
+/// A mass that is thrown up comes back at the end of the run.
 fn belts(random: &mut Random) -> Case {
     let w = speed(random);
     let (g, apex) = (2.0 * w, 0.25 * w);
@@ -264,10 +264,10 @@ fn stops(random: &mut Random) -> Case {
     }
 }
 
-/// How a scene of a shape is made.
+/// A function that makes a scene of a shape.
 pub(super) type Make = fn(&mut Random) -> Case;
 
-/// All shapes: name, model, and what makes a scene.
+/// All shapes: name, model, and the function that makes a scene.
 pub(super) fn all() -> Vec<(&'static str, String, Make)> {
     let corners = PLATES.replace("outputs:", &format!("{CORNERS}outputs:"));
     vec![

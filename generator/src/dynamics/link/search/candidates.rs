@@ -1,4 +1,4 @@
-//! What is tried: units of length, places of a base, turns and places of frames.
+//! The candidates of the search: units of length, origins of a base, rotations and origins of frames.
 
 use super::{Aim, Search, UNITS};
 use crate::dynamics::link::frames::{Choice, Framed};
@@ -7,7 +7,7 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 
 impl Search<'_, '_> {
-    /// Units of length: the components of places that occur most.
+    /// Tries units of length: the components of positions that occur most often.
     pub fn units(&mut self) {
         let graph = Graph::new();
         let tree = self.opened(&graph);
@@ -39,9 +39,10 @@ impl Search<'_, '_> {
         self.attempt(None, units.into_iter().map(with).collect());
     }
 
-    /// Places of the origin of a free base: in the joints of what it carries, or level with them.
+    /// Tries origins of a free base: in the joints of the links that it carries, or level with them.
     pub fn bases(&mut self) {
-        if !self.tree.free || self.aim != Aim::Elimination {
+        let in_space = self.tree.links[0].joint.is_ball();
+        if !self.tree.free || !in_space || self.aim != Aim::Elimination {
             return;
         }
         let mut places = vec![[0.0; 3]];
@@ -61,7 +62,7 @@ impl Search<'_, '_> {
         self.attempt(Some(0), places.into_iter().map(with).collect());
     }
 
-    /// Turns and places of a link's frame at which constants vanish.
+    /// Rotations and origins of a link's frame for which constants vanish.
     pub fn frames(&self, k: usize) -> Vec<(f64, f64)> {
         let mut choice = self.best.clone();
         choice.unit = 1.0;
@@ -74,7 +75,7 @@ impl Search<'_, '_> {
             let part = self.around(&graph, k, &choice);
             let (framed, at, children) = part.framed(k);
             let link = &framed.links[at];
-            // the joint's place along the axis, seen from the link
+            // the joint's position along the axis, seen from the link
             let along = (0..3).map(|i| link.against[i][2] * constant(link.place.0[i]));
             places.push(-along.sum::<f64>());
             places.extend(
@@ -85,7 +86,7 @@ impl Search<'_, '_> {
             let (h, s) = (link.body.first.0.map(constant), &link.body.second);
             for (i, h) in h.into_iter().take(2).enumerate() {
                 let level = constant(s.entry(i, 2)) / h;
-                // h that is almost 0 would move the origin far away, and that loses the digits of the inertia
+                // an h that is almost 0 would move the origin far away, and the inertia would lose digits
                 if level.abs() <= self.reach {
                     places.push(level);
                 }
@@ -120,7 +121,7 @@ impl Search<'_, '_> {
             towards(sigma(0, 2), sigma(1, 2));
             let principal = 0.5 * libm::atan2(2.0 * sigma(0, 1), sigma(0, 0) - sigma(1, 1));
             towards(libm::cos(principal), libm::sin(principal));
-            // the turn that the joint has with its carrier
+            // the rotation of the joint relative to its carrier
             towards(link.against[2][1], link.against[2][0]);
             for &c in &children {
                 let child = &framed.links[c];
@@ -133,8 +134,8 @@ impl Search<'_, '_> {
     }
 }
 
-/// How far from its joint the origin of a link may be \[m\]: four times the largest distance in the tree, between joints, or of a centre of mass
-/// from its joint. An inertia about an origin that is s such distances away is s² times as large, which loses that factor of its digits: 16 is little.
+/// The largest distance of the origin of a link from its joint \[m\]: four times the largest distance in the tree, between joints or between a centre
+/// of mass and its joint. About an origin s such distances away, an inertia is s² times as large and loses that factor in accuracy; 16 is little.
 pub fn reach(tree: &Tree<'_>) -> f64 {
     let constant = |e: Expr<'_>| e.as_constant().unwrap_or(0.0);
     let norm = |v: Vec3<'_>| v.0.map(constant).iter().map(|c| c * c).sum::<f64>().sqrt();

@@ -1,8 +1,8 @@
-//! The search for the frames in which the equations of a tree have fewest operations: descent on the count, choice by choice.
+//! The search for frames in which the equations of a tree have the fewest operations: descent on the count, choice by choice.
 //!
-//! The equations are made in a graph of their own for every trial, and their operations are counted; what depends on parameters alone is free. Only a
-//! part of the tree is made again: the links near the one whose choice is tried, with unknowns for what is beyond. The number of trials depends on the tree alone, so
-//! the same model has the same frames on every machine.
+//! Every trial derives the equations in a graph of its own and counts their operations; those that depend on parameters alone are free. Only a part
+//! of the tree is derived again: the links near the one whose choice is tried, with unknowns in place of the others. The number of trials depends on
+//! the tree alone, so the same model has the same frames on every machine.
 
 mod candidates;
 mod part;
@@ -18,33 +18,33 @@ use part::{Part, matrices};
 use rustc_hash::FxHashMap;
 use std::sync::Mutex;
 
-/// Sweeps over all links.
+/// Number of sweeps over all links.
 const SWEEPS: usize = 2;
 
-/// Units of length that are tried.
+/// Number of units of length that are tried.
 const UNITS: usize = 8;
 
-/// Links of which the part of a tree is made, at least, if there are so many.
+/// The smallest number of links in a part of a tree, if the tree has as many.
 const NEAR: usize = 8;
 
-/// Trees whose choice is kept.
+/// Number of trees whose choice is stored.
 const KEPT: usize = 64;
 
-/// What is to take fewest operations.
+/// The equations that should take the fewest operations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
     /// The accelerations by the articulated-body algorithm.
     Elimination,
     /// S and r_s.
     Matrices,
-    /// The accelerations by S and the forces at a reference motion.
+    /// The accelerations by S and the forces in a reference motion.
     Factorization,
 }
 
-/// The choices of trees met before, by their [signature](Search::signature): many effects and parameters leave the tree as it is.
+/// The choices for earlier trees, by their [signature](Search::signature). Many effects and parameters do not change the tree.
 static KNOWN: Mutex<Vec<(Vec<u64>, Choice)>> = Mutex::new(Vec::new());
 
-/// The best choice that is found.
+/// The best choice that the search finds.
 pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
     let mut search = Search::new(tree, aim);
     let signature = search.signature();
@@ -73,7 +73,7 @@ pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
     search.best
 }
 
-/// The frames of links drawn from those that a search tries; `draw` gives a number below its argument.
+/// Frames of links drawn at random from those that a search tries. `draw` returns a number below its argument.
 #[cfg(test)]
 pub fn drawn(tree: &Tree<'_>, aim: Aim, draw: &mut dyn FnMut(usize) -> usize) -> Choice {
     let mut search = Search::new(tree, aim);
@@ -91,10 +91,10 @@ pub fn drawn(tree: &Tree<'_>, aim: Aim, draw: &mut dyn FnMut(usize) -> usize) ->
 struct Search<'t, 'g> {
     tree: &'t Tree<'g>,
     aim: Aim,
-    /// By node of the tree's graph: whether it changes with the state, and its number as a symbol.
+    /// For each node of the tree's graph: whether it changes with the state, and its number as a symbol.
     inputs: FxHashMap<NodeId, (bool, u32)>,
     natural: Vec<(Matrix, f64)>,
-    /// How far from its joint the origin of a link may be \[m\].
+    /// The largest distance of the origin of a link from its joint \[m\].
     reach: f64,
     best: Choice,
 }
@@ -125,7 +125,7 @@ impl<'t, 'g> Search<'t, 'g> {
         }
     }
 
-    /// All that the choice depends on.
+    /// All data that the choice depends on.
     fn signature(&self) -> Vec<u64> {
         let links = self.tree.links.len() as u64;
         let mut signature = vec![self.aim as u64, u64::from(self.tree.free), links];
@@ -135,11 +135,13 @@ impl<'t, 'g> Search<'t, 'g> {
                 axis,
                 turn,
                 coupled,
+                absolute,
                 ..
             } = &link.joint
             {
                 signature.extend(axis.map(f64::to_bits));
-                signature.extend([turn.to_bits(), u64::from(*coupled), link.row as u64]);
+                let flags = [*coupled, *absolute].map(u64::from);
+                signature.extend([turn.to_bits(), flags[0], flags[1], link.row as u64]);
             }
         }
         let scratch = Graph::new();
@@ -159,7 +161,7 @@ impl<'t, 'g> Search<'t, 'g> {
         signature
     }
 
-    /// Operations of the accelerations around a link, or of all.
+    /// The number of operations of the equations around a link, or of all of them.
     fn count(&self, choice: &Choice, around: Option<usize>) -> usize {
         let graph = Graph::new();
         let part = match around {
@@ -186,7 +188,7 @@ impl<'t, 'g> Search<'t, 'g> {
         operations(&graph, &roots)
     }
 
-    /// Keeps those choices that have fewer operations around a link, or in all.
+    /// Tries choices and keeps the one with the fewest operations around a link, or of all.
     fn attempt(&mut self, around: Option<usize>, changes: Vec<Choice>) {
         let mut least = None;
         for choice in changes {
@@ -212,7 +214,7 @@ impl<'t, 'g> Search<'t, 'g> {
         self.attempt(Some(k), changes);
     }
 
-    /// The choices of one link.
+    /// Tries the choices for one link.
     fn link(&mut self, k: usize) {
         let children = self.tree.links.iter().filter(|l| l.parent == Some(k));
         if children.count() > 1 {
@@ -248,7 +250,7 @@ impl<'t, 'g> Search<'t, 'g> {
         }
     }
 
-    /// The reference accelerations of one link.
+    /// Tries the reference accelerations of one link.
     fn references(&mut self, k: usize) {
         let link = &self.best.links[k];
         let references = [
@@ -264,7 +266,7 @@ impl<'t, 'g> Search<'t, 'g> {
         self.vary(k, references.map(with).to_vec());
     }
 
-    /// Which of its children keeps what of a link.
+    /// Tries which child of a link keeps which component.
     fn keeps(&mut self, k: usize) {
         let links = &self.tree.links;
         let link = &self.best.links[k];
@@ -305,7 +307,7 @@ const ORDERS: [[usize; 3]; 6] = [
     [2, 1, 0],
 ];
 
-/// Whether an expression is a negative, and of what.
+/// Whether an expression is a negative, and its operand.
 fn unsigned(e: Expr<'_>) -> (bool, NodeId) {
     match e.node() {
         Node::Neg(a) => (true, a),
@@ -313,7 +315,7 @@ fn unsigned(e: Expr<'_>) -> (bool, NodeId) {
     }
 }
 
-/// Operations that depend on more than parameters.
+/// The number of operations that depend on more than parameters.
 fn operations(graph: &Graph, roots: &[Expr<'_>]) -> usize {
     let nodes = graph.nodes();
     let mut live = vec![false; nodes.len()];

@@ -1,4 +1,4 @@
-//! A part of a tree, in which one link is tried: the links near it, with unknowns for what is beyond.
+//! A part of a tree for the trial of one link: the links near it, with unknowns in place of the others.
 
 use super::{Aim, NEAR, Search, unsigned};
 use crate::dynamics::link::articulated::Articulated;
@@ -12,17 +12,19 @@ use crate::dynamics::spatial::Wrench;
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph, Symbol};
 
-/// A part of a tree, in which one link is tried.
+/// A part of a tree for the trial of one link.
 pub struct Part<'h> {
     pub tree: Tree<'h>,
     pub natural: Vec<(Matrix, f64)>,
     pub choice: Choice,
-    /// Which links of the whole these are; none is what stands for all that carries them.
+    /// For each link of the part, its index in the whole tree; `None` for the link that stands for all links that
+    /// carry the part.
     pub of: Vec<Option<usize>>,
 }
 
 impl<'h> Part<'h> {
-    /// The part in its frames, where a link of the whole is in it, and where its children are.
+    /// The part in its frames, the index of link k of the whole tree in the part, and the indices of its children
+    /// there.
     pub fn framed(&self, k: usize) -> (Framed<'h>, usize, Vec<usize>) {
         let framed = Framed::of(&self.tree, &self.natural, &self.choice);
         let at = self.of.iter().position(|of| *of == Some(k)).unwrap_or(0);
@@ -34,7 +36,7 @@ impl<'h> Part<'h> {
 }
 
 impl<'g> Search<'_, 'g> {
-    /// The whole tree in a graph of its own, its inputs symbols.
+    /// The whole tree in a graph of its own, with its inputs as symbols.
     pub fn opened<'h>(&self, graph: &'h Graph) -> Tree<'h> {
         self.tree.map(graph, |e| self.symbol(graph, e))
     }
@@ -54,7 +56,8 @@ impl<'g> Search<'_, 'g> {
         }
     }
 
-    /// The links around k: its parent, its children and those behind them, with unknowns for what is beyond.
+    /// The links around k: its parent, its children and further links behind them, with unknowns in place of the
+    /// others.
     pub fn around<'h>(&self, graph: &'h Graph, k: usize, choice: &Choice) -> Part<'h> {
         let links = &self.tree.links;
         let children = |k: usize| (k + 1..links.len()).filter(move |&c| links[c].parent == Some(k));
@@ -67,14 +70,14 @@ impl<'g> Search<'_, 'g> {
         }
         let mut top = k;
         while let Some(parent) = links[top].parent
-            // what keeps its axes is turned together with what carries it
+            // a link that keeps its axes is turned together with its carrier
             && (top == k || chosen.len() < NEAR || choice.links[parent].aligned)
         {
             top = parent;
             chosen.push(top);
         }
         chosen.sort_unstable();
-        // indices above all inputs
+        // indices above those of all inputs
         let mut unknowns = self.inputs.len() as u32;
         let mut unknown = || {
             unknowns += 1;
@@ -87,6 +90,7 @@ impl<'g> Search<'_, 'g> {
                 ground: self.tree.ground.map(|e| self.symbol(graph, e)),
                 free: self.tree.free,
                 base: None,
+                directions: self.tree.directions,
                 carrier: None,
             },
             natural: Vec::new(),
@@ -116,6 +120,7 @@ impl<'g> Search<'_, 'g> {
             part.of.push(None);
             part.tree.free = true;
             part.tree.carrier = Some([vector(), vector(), vector()]);
+            part.tree.ground.angle = vector().0[0];
             let (natural, _) = &self.natural[carrier];
             let turn = choice.links[carrier].turn;
             part.natural.push((turned_axes(natural, turn), 1.0));
@@ -155,7 +160,7 @@ impl<'g> Search<'_, 'g> {
         part
     }
 
-    /// What links that are left out, and what they carry, pass on of S and of forces.
+    /// Unknowns for S and forces, in place of what the omitted links and the links that they carry pass on.
     fn unknown_composite<'h>(
         &self,
         left_out: &[usize],
@@ -173,7 +178,7 @@ impl<'g> Search<'_, 'g> {
         let (first, diagonal, off) = (vector(), vector().0, vector().0);
         let mut body = Body::none(first.0[0].graph());
         // a ball passes no moment, and a hinge no mass of regrouped bodies
-        if left_out.iter().any(|&c| !links[c].joint.is_ball()) {
+        if left_out.iter().any(|&c| !links[c].joint.is_absolute()) {
             (body.first, body.second) = (first, Sym3 { diagonal, off });
         }
         if left_out
@@ -201,6 +206,7 @@ impl<'g> Search<'_, 'g> {
             ground: self.tree.ground,
             free: self.tree.free,
             base: None,
+            directions: self.tree.directions,
             carrier: None,
         };
         part.map(graph, |e| self.symbol(graph, e))
@@ -237,7 +243,7 @@ pub fn matrices<'h>(part: &Part<'h>, framed: &Framed<'h>, reference: Reference) 
     roots
 }
 
-/// What links that are left out pass on of accelerations.
+/// Unknowns for accelerations, in place of what omitted links pass on.
 fn unknown_articulated<'h>(vector: &mut impl FnMut() -> Vec3<'h>) -> Carried<'h> {
     let mut six = || Sym3 {
         diagonal: vector().0,

@@ -78,14 +78,14 @@ impl Register for Avx2Singles {
     #[inline(always)]
     #[expect(unsafe_code, reason = "an instruction of AVX2")]
     fn max(self, other: Self) -> Self {
-        // SAFETY: as above. The instruction gives its second operand where either is no number.
+        // SAFETY: as above. The instruction returns its second operand where either is NaN.
         Avx2Singles(unsafe { _mm256_max_ps(other.0, self.0) })
     }
 
     #[inline(always)]
     #[expect(unsafe_code, reason = "an instruction of AVX2")]
     fn min(self, other: Self) -> Self {
-        // SAFETY: as above. The instruction gives its second operand where either is no number.
+        // SAFETY: as above. The instruction returns its second operand where either is NaN.
         Avx2Singles(unsafe { _mm256_min_ps(other.0, self.0) })
     }
 

@@ -72,14 +72,14 @@ impl Register for Avx512Singles {
     #[inline(always)]
     #[expect(unsafe_code, reason = "an instruction of AVX-512")]
     fn max(self, other: Self) -> Self {
-        // SAFETY: as above. The instruction gives its second operand where either is no number.
+        // SAFETY: as above. The instruction returns its second operand where either is NaN.
         Avx512Singles(unsafe { _mm512_max_ps(other.0, self.0) })
     }
 
     #[inline(always)]
     #[expect(unsafe_code, reason = "an instruction of AVX-512")]
     fn min(self, other: Self) -> Self {
-        // SAFETY: as above. The instruction gives its second operand where either is no number.
+        // SAFETY: as above. The instruction returns its second operand where either is NaN.
         Avx512Singles(unsafe { _mm512_min_ps(other.0, self.0) })
     }
 

@@ -1,12 +1,12 @@
 //! The angle of a point.
 //!
-//! Of |x| and |y|, let a be the shorter one and b the longer one. With t = a/b up to 1/2, and t = (a − b)/(a + b) beyond, the
-//! angle is j π/4 ± arctan t with a whole j from 0 to 4, and
+//! Let a be the shorter and b the longer of |x| and |y|. With t = a/b up to 1/2, and t = (a − b)/(a + b) beyond, the angle is
+//! j π/4 ± arctan t with a whole j from 0 to 4, and
 //!
 //! arctan t = t + t³ A(t²),   |t| ≤ 1/2.
 //!
-//! What t loses to rounding is added at the end. A is interpolated at the 13 roots of Chebyshev's polynomial in 60 digits, and
-//! leaves 2⁻⁶⁰ of arctan t.
+//! The rounding error of t is added at the end. A is interpolated at the 13 roots of Chebyshev's polynomial in 60 digits; its
+//! relative error in arctan t is 2⁻⁶⁰.
 
 use super::super::register::Doubles;
 use super::circle::{SIGN, horner};
@@ -27,7 +27,7 @@ const POLYNOMIAL: [f64; 13] = [
     0.024_992_876_622_203_33,
     -0.009_206_337_670_391_992,
 ];
-/// π/4: 48 bits, and the rest.
+/// π/4 in two parts: 48 bits, and the rest.
 const EIGHTH_TURN: [f64; 2] = [0.785_398_163_397_445_6, 2.695_151_429_079_059_5e-15];
 /// 2⁶⁰⁰ and 2⁹⁰⁰.
 const SCALE: f64 = f64::from_bits((1023 + 600) << 52);
@@ -35,7 +35,7 @@ const FAR: f64 = f64::from_bits((1023 + 900) << 52);
 
 /// Angle of the point (`x`, `y`) \[rad\], in \[−π, π\], within 1 ulp.
 ///
-/// Signs of zeros count, and points at infinity lie on axes and diagonals, as in the C standard (annex F.10.1.4) and Rust's
+/// Signs of zeros count. Points at infinity lie on axes and diagonals, as in the C standard (annex F.10.1.4) and Rust's
 /// `atan2`.
 #[inline(always)]
 pub fn atan2<R: Doubles>(y: R, x: R) -> R {
@@ -45,22 +45,22 @@ pub fn atan2<R: Doubles>(y: R, x: R) -> R {
     let steep = right.lt(up);
     let mut short = R::select(steep, right, up);
     let mut long = R::select(steep, up, right);
-    // almost always: reciprocals exist
+    // almost always: reciprocals of the coordinates exist
     let plain = R::and(num(1.0 / FAR).lt(long), long.lt(num(FAR)));
     if R::any(R::not(plain)) {
-        // another point in the same direction; NaN stays
+        // scales to another point in the same direction; NaN stays NaN
         let (most, least) = (num(f64::MAX), num(f64::from_bits(1)));
         let diagonal = R::select(most.lt(short), one, short.mul(zero));
         let infinite = most.lt(long);
         short = R::select(infinite, diagonal, short);
         long = R::select(R::or(infinite, long.lt(least)), one, long);
-        // to where reciprocals exist
+        // scales down to where reciprocals exist
         let down = R::select(num(FAR).lt(long), num(1.0 / SCALE), one);
         let scale = R::select(long.lt(num(1.0 / FAR)), num(SCALE), down);
         (short, long) = (short.mul(scale), long.mul(scale));
     }
 
-    // t, the rest of the division, and that of the sum below
+    // t, the remainder of the division, and that of the sum below
     let beyond = long.mul(num(0.5)).lt(short);
     let above = R::select(beyond, short.sub(long), short);
     let below = R::select(beyond, short.add(long), long);
@@ -71,7 +71,7 @@ pub fn atan2<R: Doubles>(y: R, x: R) -> R {
     let z = t.mul(t);
     let tail = t.mul(z).mul_add(horner(z, POLYNOMIAL), rest.mul(inverse));
 
-    // the other eighth, quarter and half: each time the angle is taken from 0, π/2 or π
+    // the other eighth, quarter and half: the angle is then measured from 0, π/2 or π
     let left = R::bits_and(x.bits(), R::splat_bits(SIGN));
     let eighths = R::select(beyond, one, zero);
     let eighths = R::select(steep, num(2.0).sub(eighths), eighths);

@@ -1,20 +1,21 @@
-//! Sine and cosine together.
+//! Sine and cosine, computed together.
 //!
-//! x = k π/2 + r with |r| ≤ π/4. π/2 is taken in three parts, of which the first two have 37 bits, so that their products
-//! with k are exact up to |x| = 2¹⁶ (Cody and Waite 1980); r is a sum hi − low of two doubles. Then
+//! x = k π/2 + r with |r| ≤ π/4. π/2 has three parts, of which the first two have 37 bits, so that their products with k are
+//! exact up to |x| = 2¹⁶ (Cody and Waite 1980). r is a sum hi − low of two doubles. Then
 //!
 //! sin r ≈ r + r³ S(r²),   cos r ≈ 1 − r²/2 + r⁴ C(r²),
 //!
-//! with the coefficients of fdlibm 5.3 (`k_sin.c`, `k_cos.c`; relatively 2⁻⁵⁸), which k mod 4 exchanges and negates.
+//! with the coefficients of fdlibm 5.3 (`k_sin.c`, `k_cos.c`; relative error 2⁻⁵⁸). k mod 4 exchanges and negates them.
 
 use super::super::register::Doubles;
 use super::far::far;
 
-/// \[rad\]; up to here r is good to all its digits: next to a multiple of π/2 it is 2⁻⁵⁵ at least, and errs by 2⁻¹¹¹.
+/// Up to this angle \[rad\] r is accurate to all its digits: next to a multiple of π/2 it is at least 2⁻⁵⁵, and its error is
+/// 2⁻¹¹¹.
 pub(super) const REACH: f64 = 65_536.0;
-/// 1.5 · 2⁵²: added, it rounds to the nearest whole number, whose last bits are the last ones of the sum.
+/// 1.5 · 2⁵²: adding it rounds to the nearest whole number; the last bits of the sum are those of that number.
 pub(super) const ROUND: f64 = 6_755_399_441_055_744.0;
-/// π/2: 37 bits, the next 37 bits, and the rest.
+/// π/2 in three parts: 37 bits, the next 37 bits, and the rest.
 const QUARTER_TURN: [f64; 3] = [
     1.570_796_326_792_333_3,
     2.563_344_151_583_955_8e-12,
@@ -43,16 +44,16 @@ pub(super) const SIGN: u64 = 1 << 63;
 
 /// (sin `x`, cos `x`), `x` in radians; NaN where `x` is not finite.
 ///
-/// Either errs by 1 ulp at most, for all `x`, next to multiples of π/2 too. sin(−0) = −0, and both functions are exactly odd
-/// and even.
+/// The error of either is at most 1 ulp for all `x`, also next to multiples of π/2. sin(−0) = −0; the sine is exactly odd
+/// and the cosine exactly even.
 #[inline(always)]
 pub fn sin_cos<R: Doubles>(x: R) -> (R, R) {
     let num = R::splat;
 
-    // k, still in the last bits of a large number, and r = hi − low
+    // k, still in the last bits of a large number; then r = hi − low
     let mut turned = x.mul_add(num(core::f64::consts::FRAC_2_PI), num(ROUND));
     let k = turned.sub(num(ROUND));
-    // exact, and so is the difference of the second product
+    // the first product is exact, and so is the difference of the second one
     let first = k.neg().mul_add(num(QUARTER_TURN[0]), x);
     let second = k.mul(num(QUARTER_TURN[1]));
     let mut hi = first.sub(second);
@@ -62,18 +63,18 @@ pub fn sin_cos<R: Doubles>(x: R) -> (R, R) {
         (turned, hi, low) = far(x, turned, hi, low);
     }
 
-    // of hi − low the sine loses low, but for the factor cos r: less than 0.15 ulp
+    // the sine uses all of low except for the factor cos r: an error of less than 0.15 ulp
     let r2 = hi.mul(hi);
     let s = horner(r2, SINE);
     let sine = hi.sub(hi.mul(r2).mul_add(s.neg(), low));
-    // 1 − r²/2 with what its rounding took away
+    // 1 − r²/2, and its rounding error
     let c = horner(r2, COSINE);
     let large = r2.mul_add(num(-0.5), num(1.0));
     let lost = r2.mul_add(num(-0.5), num(1.0).sub(large));
     let small = r2.mul(r2).mul_add(c, hi.mul_add(low, lost));
     let cosine = large.add(small);
 
-    // k odd: exchanged; the sine is negative for k mod 4 = 2, 3, the cosine for 1, 2
+    // odd k: exchanged; the sine is negative for k mod 4 = 2, 3, the cosine for 1, 2
     let bits = turned.bits();
     let odd = R::bits_nonzero(R::bits_and(bits, R::splat_bits(1)));
     let of_sine = R::bits_and(R::bits_shl::<62>(bits), R::splat_bits(SIGN));

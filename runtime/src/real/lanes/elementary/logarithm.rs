@@ -4,7 +4,7 @@
 //!
 //! ln m = f − f²/2 + s (f²/2 + R(s²)),
 //!
-//! where R is the polynomial of fdlibm 5.3 (`e_log.c`; relatively 2⁻⁵⁸).
+//! where R is the polynomial of fdlibm 5.3 (`e_log.c`; relative error 2⁻⁵⁸).
 
 use super::super::register::Doubles;
 use super::circle::horner;
@@ -31,7 +31,7 @@ const COUNT: f64 = 4_503_599_627_370_496.0;
 /// 2⁵⁴, which makes subnormal numbers normal.
 const UP: f64 = 1.801_439_850_948_198_4e16;
 
-/// ln `x`, within 1 ulp; −∞ of ±0, NaN below.
+/// ln `x`, within 1 ulp; −∞ for ±0, NaN for negative `x`.
 #[inline(always)]
 pub fn ln<R: Doubles>(x: R) -> R {
     let num = R::splat;
@@ -42,7 +42,7 @@ pub fn ln<R: Doubles>(x: R) -> R {
     let z = s.mul(s);
     let rest = z.mul_add(horner(z, POLYNOMIAL), half_square);
 
-    // k ln 2 + f with what its rounding took away; the product is exact
+    // k ln 2 + f, and its rounding error; the product is exact
     let first = k.mul(num(LN_2[0]));
     let large = first.add(f);
     let lost = first.sub(large).add(f);
@@ -62,7 +62,7 @@ pub(super) fn exponent_and_fraction<R: Doubles>(x: R) -> (R, R) {
     let num = R::splat;
     let subnormal = x.lt(num(f64::MIN_POSITIVE));
     let bits = R::select(subnormal, x.mul(num(UP)), x).bits();
-    // above the exponent's bits of this is k + 1023
+    // the bits above those of the fraction are k + 1023
     let raised = R::bits_add(bits, R::splat_bits(ONE - ROOT_OF_HALF));
     let count = R::bits_or(R::bits_shr::<52>(raised), R::splat_bits(COUNT.to_bits()));
     let of_zero = R::select(subnormal, num(COUNT + 1023.0 + 54.0), num(COUNT + 1023.0));

@@ -1,20 +1,21 @@
-//! Sine, exponential and their like over any [`Doubles`](super::register::Doubles), written once.
+//! The elementary functions over any [`Doubles`], written once.
 //!
 //! | file | functions | largest error |
 //! |---|---|---|
 //! | `circle` | [`sin_cos`] | 1 ulp |
-//! | `far` | what is left of an angle beyond 2¹⁶ | |
+//! | `far` | the reduction of angles beyond 2¹⁶ | |
 //! | `exponential` | [`exp`] | 1 ulp |
 //! | `logarithm` | [`ln`] | 1 ulp |
 //! | `power` | [`powf`] | 1 ulp |
 //! | `angle` | [`atan2`] | 1 ulp |
 //! | `widened` | all of them for singles, by doubles | 0.500 000 01 ulp of singles |
 //!
-//! Everything is arithmetic, bits and selection, so that a lane has the same bits in every register and whatever its
-//! neighbours hold, and nothing of the platform's library is called. Where a rare lane needs another way, a branch asks
-//! whether there is any.
+//! They use only arithmetic, bits and selection. So a lane has the same bits in every register and whatever its
+//! neighbours hold, and no library of the platform is called. Where a rare lane needs another way, a branch asks whether
+//! there is such a lane.
 //!
-//! Where products and sums are rounded one after the other, the bounds hold too, but for an angle's: that is 2 ulp then.
+//! The bounds also hold where products and sums are rounded one after the other, except for `atan2`, whose error is then
+//! 2 ulp.
 
 mod angle;
 mod circle;
@@ -34,7 +35,7 @@ use power::powf;
 
 use super::register::Doubles;
 
-/// What has them, with the meaning that they have in [`Real`](crate::Real).
+/// A type that has these functions, with the meaning that they have in [`Real`](crate::Real).
 pub trait Elementary: Sized {
     fn sin_cos(self) -> (Self, Self);
     /// Angle of the point (`x`, `self`).

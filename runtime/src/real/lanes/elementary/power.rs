@@ -1,11 +1,11 @@
-//! Powers: xʸ = e^(y ln x), with ln x to 65 bits, of which the result keeps 53 where y ln x is as large as it may be.
+//! Powers: xʸ = e^(y ln x), with ln x to 65 bits. Of these the result keeps 53 where y ln x is as large as possible.
 //!
 //! x = 2ᵏ m with √½ ≤ m < √2, and with s = (m − 1)/(m + 1)
 //!
 //! ln m = 2s (1 + w),   w = z/3 + z² Q(z),   z = s².
 //!
-//! Numbers of more than 53 bits are sums head + tail of a double of 26 bits and the rest: products of heads are exact, fused or
-//! not. Q is interpolated at the eight roots of Chebyshev's polynomial in 60 digits, and leaves 2⁻⁷⁰ of ln m.
+//! Numbers of more than 53 bits are sums head + tail, where head is a double of 26 bits. Products of heads are exact, fused or
+//! not. Q is interpolated at the eight roots of Chebyshev's polynomial in 60 digits; its relative error in ln m is 2⁻⁷⁰.
 
 use super::super::register::Doubles;
 use super::circle::horner;
@@ -23,17 +23,17 @@ const POLYNOMIAL: [f64; 8] = [
     0.058_531_242_704_611_93,
     0.058_615_255_140_488_765,
 ];
-/// 1/3 − its double.
+/// 1/3 minus the double nearest to it.
 const THIRD_LOW: f64 = 1.850_371_707_708_594e-17;
 /// All but the last 27 bits.
 const HEAD: u64 = 0xffff_ffff_f800_0000;
-/// 2⁶⁶: with a larger exponent, the power of any number but 1 is 0 or ∞ already.
+/// 2⁶⁶: with a larger exponent, the power of any number but 1 is already 0 or ∞.
 const LARGEST: f64 = 7.378_697_629_483_821e19;
 
-/// `x` to the power `y`, within 1 ulp, where the result is subnormal too.
+/// `x` to the power `y`, within 1 ulp, also where the result is subnormal.
 ///
-/// Zeros, infinities, NaN and negative numbers as in the C standard (annex F.10.4.4) and Rust's `powf`: x⁰ = 1ʸ = 1 even for
-/// NaN, and the power of a negative number is NaN unless the exponent is whole.
+/// Zeros, infinities, NaN and negative numbers are treated as in the C standard (annex F.10.4.4) and Rust's `powf`: x⁰ = 1ʸ = 1
+/// even for NaN, and the power of a negative number is NaN unless the exponent is whole.
 #[inline(always)]
 pub fn powf<R: Doubles>(x: R, y: R) -> R {
     let num = R::splat;
@@ -45,7 +45,7 @@ pub fn powf<R: Doubles>(x: R, y: R) -> R {
     let rest = power.mul_add(log_tail, power_tail.mul(log.add(log_tail)));
     let sum = exact.add(rest);
     let lost = exact.sub(sum).add(rest);
-    // beyond the range of results, the exponential sees their bounds alone
+    // beyond the range of results, the exponential sees the bounds of the range
     let lost = R::select(sum.abs().lt(num(1000.0)), lost, num(0.0));
     let result = exp_of_sum(sum, lost);
 
@@ -65,7 +65,7 @@ fn logarithm<R: Doubles>(x: R) -> (R, R) {
     let one = num(1.0);
     let (k, m) = exponent_and_fraction(x);
 
-    // s = f/d: what its head leaves of f is exact but for a last rounding
+    // s = f/d: the remainder of f after the product with the head of s is exact, except for a last rounding
     let f = m.sub(one);
     let inverse = one.div(m.add(one));
     let d = head(m.add(one));
@@ -116,7 +116,7 @@ fn cut<R: Doubles>(a: R) -> (R, R) {
     (first, a.sub(first))
 }
 
-/// `size` = |`x`|ʸ made xʸ in the lanes where a number is not positive and finite.
+/// Turns `size` = |`x`|ʸ into xʸ in the lanes where a number is not positive and finite.
 #[cold]
 #[inline(never)]
 fn unusual<R: Doubles>(x: R, y: R, size: R) -> R {
@@ -130,7 +130,7 @@ fn unusual<R: Doubles>(x: R, y: R, size: R) -> R {
     result
 }
 
-/// xʸ given |x|ʸ, which is right for finite `x` that are not 0.
+/// xʸ, given |x|ʸ, which is correct for finite `x` other than 0.
 fn unusual_power(x: f64, y: f64, size: f64) -> f64 {
     if y == 0.0 || x == 1.0 {
         return 1.0;

@@ -1,4 +1,4 @@
-//! Each function against [`DoubleDouble`], whose own errors are 10⁻³¹, in units of the last place.
+//! Compares each function with [`DoubleDouble`], whose own errors are 10⁻³¹. Errors are in units of the last place.
 
 mod angle;
 mod circle;
@@ -9,15 +9,15 @@ use crate::real::lanes::alone::Alone;
 use crate::real::lanes::register::Doubles;
 use crate::{DoubleDouble, Real};
 
-/// As registers with fused multiply-adds compute.
+/// The arithmetic of registers with fused multiply-adds.
 type Fused = Alone<f64, true>;
-/// As registers without them do.
+/// The arithmetic of registers without them.
 type Unfused = Alone<f64, false>;
 
-/// How many points, at random, each bound is tried on.
+/// The number of random points on which each bound is tried.
 const POINTS: usize = 1_000_000;
 
-/// Numbers at random, the same in each run (Steele, Lea and Flood 2014, "SplitMix").
+/// Random numbers, the same in each run (Steele, Lea and Flood 2014, "SplitMix").
 struct Random(u64);
 
 impl Random {
@@ -28,7 +28,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Evenly from [−1, 1).
+    /// Uniform in [−1, 1).
     fn even(&mut self) -> f64 {
         (self.bits() as i64) as f64 / 9_223_372_036_854_775_808.0
     }
@@ -49,26 +49,26 @@ fn of<R: Doubles>(function: impl Fn(R) -> R, x: f64) -> f64 {
     function(R::splat(x)).lane(0)
 }
 
-/// The next doubles around `x`, and `x`.
+/// `x` and the next doubles around it.
 fn around(x: f64) -> impl Iterator<Item = f64> {
     (-3_i64..=3).map(move |i| f64::from_bits((x.to_bits() as i64 + i) as u64))
 }
 
-/// The distance of `found` from the exact result, in units of its last place; infinite for what is not a number.
+/// The distance of `found` from the exact result, in units of its last place; infinite for NaN.
 fn ulps(found: f64, exact: DoubleDouble) -> f64 {
     if found.to_bits() == exact.to_f64().to_bits() {
-        // the best there is; an infinite one besides
+        // the best that is possible, as is an infinite one
         return 0.5;
     }
     let size = exact.to_f64().abs();
     let unit = (f64::from_bits(size.to_bits() + 1) - size).max(f64::from_bits(1));
     let error = (DoubleDouble::from_f64(found) - exact).to_f64().abs();
-    // halves of the smallest number are no doubles
+    // half of the smallest number is no double
     let error = error / unit;
     if error.is_nan() { f64::INFINITY } else { error }
 }
 
-/// The largest of some errors, and where it is.
+/// The largest of several errors, and its place.
 #[derive(Debug, Default)]
 struct Worst {
     ulps: f64,

@@ -1,8 +1,8 @@
-//! The elementary functions of singles: those of doubles, of which a register of singles needs two, rounded once more.
+//! The elementary functions of singles: those of doubles, rounded once more. A register of singles needs two registers of doubles.
 //!
-//! A double that errs by 1 ulp is within 2⁻²⁹ ulp of a single, so what is rounded from it is within 0.5 + 2⁻²⁹ of one: the nearest single
-//! but in one of some hundred million cases. All exponents of results are there in a double, and so singles overflow, or become
-//! subnormal, in the last rounding alone.
+//! An error of 1 ulp of a double is 2⁻²⁹ ulp of a single, so the rounded result is within 0.5 + 2⁻²⁹ ulp of a single: it is the nearest
+//! single, except in one of some hundred million cases. A double has all exponents of results, so singles overflow or become subnormal
+//! only in the last rounding.
 
 use super::Elementary;
 use crate::real::lanes::alone::Alone;

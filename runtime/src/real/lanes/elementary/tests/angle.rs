@@ -14,7 +14,8 @@ fn error<R: Doubles>(y: f64, x: f64) -> f64 {
     ulps(angle::<R>(y, x), exact)
 }
 
-/// Over points in a square, points whose coordinates differ in size, and points near the rays where formulas change.
+/// Over points in a square, points whose coordinates differ in size, and points near the rays where the formula
+/// changes.
 fn worst<R: Doubles>() -> Worst {
     let (mut random, mut worst) = (Random(1), Worst::default());
     for i in 0..POINTS / 2 {
@@ -51,14 +52,14 @@ fn points_of_all_sizes_have_angles() {
     for _ in 0..POINTS / 10 {
         let (y, x) = (random.any(), random.any());
         let (found, expected) = (angle::<Fused>(y, x), y.atan2(x));
-        // the library is good to 1 ulp itself, and a subnormal angle to the last bit
+        // the error of the library itself is up to 1 ulp, and a subnormal angle is exact to the last bit
         let bound = (2.0 * f64::EPSILON * expected.abs()).max(2.0 * f64::from_bits(1));
         assert!(
             (found - expected).abs() <= bound,
             "({x:e}, {y:e}): {found:e}, not {expected:e}"
         );
     }
-    // a common factor changes nothing, at either end of the range
+    // a common factor changes nothing, near both ends of the range
     for power in [-1020, -950, -880, 880, 950, 1020] {
         let factor = 2.0_f64.powi(power);
         for (y, x) in [(0.3, 0.7), (0.7, 0.3), (-0.6, 0.65), (0.9, -0.4)] {

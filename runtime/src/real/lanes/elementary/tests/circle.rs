@@ -5,14 +5,14 @@ use super::{Fused, POINTS, Random, Unfused, Worst, around, of, ulps};
 use crate::real::lanes::register::{Doubles, Register};
 use crate::{DoubleDouble, Real};
 
-/// The larger error of both functions.
+/// The larger of the errors of both functions.
 fn error<R: Doubles>(x: f64) -> f64 {
     let (sine, cosine) = Real::sin_cos(DoubleDouble::from_f64(x));
     let found = sin_cos(R::splat(x));
     ulps(found.0.lane(0), sine).max(ulps(found.1.lane(0), cosine))
 }
 
-/// The largest error over angles at random, evenly up to `reach`.
+/// The largest error over random angles, uniform up to `reach`.
 fn worst<R: Doubles>(reach: f64, seed: u64) -> Worst {
     let mut random = Random(seed);
     let mut worst = Worst::default();
@@ -23,7 +23,7 @@ fn worst<R: Doubles>(reach: f64, seed: u64) -> Worst {
     worst
 }
 
-/// The largest error next to multiples of an eighth of a turn, some of each power of two of them.
+/// The largest error next to multiples of an eighth of a turn, with some multiples of each power of two.
 fn worst_at_multiples<R: Doubles>() -> Worst {
     let mut worst = Worst::default();
     let mut random = Random(5);
@@ -42,7 +42,7 @@ fn worst_at_multiples<R: Doubles>() -> Worst {
 
 #[test]
 fn sine_and_cosine_are_within_one_ulp() {
-    // evenly over what machines and bodies turn, over the short reduction, and beyond it
+    // angles of machines and bodies, angles of the short reduction, and angles beyond it
     for (seed, reach) in [0.8, 7.0, 100.0, 65_536.0, 1e15].into_iter().enumerate() {
         worst::<Fused>(reach, seed as u64).is_at_most(1.0);
     }
@@ -102,7 +102,7 @@ fn the_hardest_angles_are_right() {
     for (x, sine, cosine) in known {
         let found = sin_cos(Fused::splat(x));
         let exact = DoubleDouble::from_f64;
-        // the numbers given are rounded themselves
+        // the given numbers are rounded themselves
         assert!(ulps(found.0.lane(0), exact(sine)) <= 1.0, "sin {x:e}");
         assert!(ulps(found.1.lane(0), exact(cosine)) <= 1.0, "cos {x:e}");
     }

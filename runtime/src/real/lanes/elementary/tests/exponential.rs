@@ -13,7 +13,7 @@ fn error_of_ln<R: Doubles>(x: f64) -> f64 {
     ulps(of::<R>(ln, x), Real::ln(DoubleDouble::from_f64(x)))
 }
 
-/// Over arguments whose result and its tail, in the reference, are normal; and over small ones.
+/// Over arguments for which the result and its tail are normal in the reference, and over small arguments.
 fn worst_exp<R: Doubles>() -> Worst {
     let (mut random, mut worst) = (Random(1), Worst::default());
     for _ in 0..POINTS / 2 {

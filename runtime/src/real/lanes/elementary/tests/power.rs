@@ -14,7 +14,8 @@ fn error<R: Doubles>(x: f64, y: f64) -> f64 {
     ulps(power::<R>(x, y), exact)
 }
 
-/// Over bases of all exponents, near 1 and between, with exponents that use the whole range of results, and small ones.
+/// Over bases of all exponents, near 1 and between, with small exponents and exponents that use the whole range of
+/// results.
 fn worst<R: Doubles>() -> Worst {
     let (mut random, mut worst) = (Random(1), Worst::default());
     for i in 0..POINTS / 4 {
@@ -24,7 +25,7 @@ fn worst<R: Doubles>() -> Worst {
             0.7 + random.even().abs() * 0.8,
         ];
         for x in bases {
-            // beyond 10²⁵⁰ the reference loses digits on its way
+            // beyond 10²⁵⁰ the reference loses digits
             if x != 1.0 {
                 let y = random.even() * 575.0 / x.ln();
                 worst.consider(error::<R>(x, y), [x, y]);

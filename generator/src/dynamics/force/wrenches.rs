@@ -1,0 +1,106 @@
+//! The forces and moments on bodies.
+
+use super::Loads;
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Graph};
+use crate::model::{Body, ElementId, Model, System};
+
+/// The force and the moment on one body, absolute axes.
+#[derive(Clone, Copy)]
+pub struct Wrench<'g> {
+    /// Resultant force \[N\].
+    pub force: Vec3<'g>,
+    /// Resultant moment about the element's joint \[N m\].
+    pub moment: Vec3<'g>,
+}
+
+impl Wrench<'_> {
+    /// True where nothing acts.
+    pub fn is_zero(&self) -> bool {
+        self.force.is_zero() && self.moment.is_zero()
+    }
+}
+
+/// What acts on all bodies.
+pub struct Wrenches<'g> {
+    /// By system and element; without the fields common to a whole system.
+    pub elements: Vec<Vec<Wrench<'g>>>,
+    /// By system and element: the moments of laws in its joint, on the element.
+    pub in_joints: Vec<Vec<Vec<Vec3<'g>>>>,
+    /// By system, element and freedom of its joint: the torques and forces of laws on its coordinate.
+    pub on_freedoms: Vec<Vec<Vec<Expr<'g>>>>,
+    /// By vehicle, moments about its origin: what nothing feels, but whatever moves it works against.
+    pub vehicles: Vec<Wrench<'g>>,
+    /// By system: the sum of the fields that act on all of its elements \[m/s²\].
+    pub fields: Vec<Vec3<'g>>,
+    /// By system and element: the sum of the other fields \[m/s²\].
+    pub partial_fields: Vec<Vec<Vec3<'g>>>,
+}
+
+impl<'g> Wrenches<'g> {
+    /// Nothing, on the bodies of a model.
+    pub fn none(graph: &'g Graph, model: &Model) -> Self {
+        let (zero, vector) = (graph.constant(0.0), Vec3::zero(graph));
+        let none = Wrench {
+            force: vector,
+            moment: vector,
+        };
+        let systems = &model.systems;
+        let freedoms = |system: &System| {
+            let elements = system.elements.iter();
+            elements
+                .map(|e| vec![zero; e.joint.freedoms().len()])
+                .collect()
+        };
+        Wrenches {
+            elements: systems
+                .iter()
+                .map(|s| vec![none; s.elements.len()])
+                .collect(),
+            in_joints: systems
+                .iter()
+                .map(|s| vec![Vec::new(); s.elements.len()])
+                .collect(),
+            on_freedoms: systems.iter().map(freedoms).collect(),
+            vehicles: vec![none; model.vehicles.len()],
+            fields: vec![vector; systems.len()],
+            partial_fields: systems
+                .iter()
+                .map(|s| vec![vector; s.elements.len()])
+                .collect(),
+        }
+    }
+}
+
+impl<'g> Loads<'g> {
+    /// Applies a force at an offset from the body's joint.
+    pub(crate) fn apply(&mut self, body: Body, offset: Vec3<'g>, force: Vec3<'g>) {
+        if let Some(wrench) = self.on(body) {
+            wrench.force = wrench.force + force;
+            wrench.moment = wrench.moment + offset.cross(force);
+        }
+    }
+
+    /// Applies a moment.
+    pub(crate) fn turn(&mut self, body: Body, moment: Vec3<'g>) {
+        if let Some(wrench) = self.on(body) {
+            wrench.moment = wrench.moment + moment;
+        }
+    }
+
+    /// Applies a moment in the joint of an element, and the opposite one to its carrier.
+    pub(crate) fn turn_joint(&mut self, child: ElementId, carrier: Body, moment: Vec3<'g>) {
+        self.turn(Body::Element(child), moment);
+        self.turn(carrier, -moment);
+        self.wrenches.in_joints[child.system][child.element].push(moment);
+    }
+
+    /// What acts on a body; `None` for the absolute frame.
+    pub(crate) fn on(&mut self, body: Body) -> Option<&mut Wrench<'g>> {
+        match body {
+            Body::Frame => None,
+            Body::Element(id) => Some(&mut self.wrenches.elements[id.system][id.element]),
+            Body::Vehicle(index) => Some(&mut self.wrenches.vehicles[index]),
+        }
+    }
+}

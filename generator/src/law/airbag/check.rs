@@ -1,0 +1,217 @@
+//! Airbags: an ellipsoid in space, what it meets on other bodies, and its gas.
+
+use super::keys::{Air, Airbag as Written, Inflow as WrittenInflow};
+use crate::description::place::At;
+use crate::diagnostic::quoted;
+use crate::model::resolve::Resolver;
+use crate::model::resolve::quantity::{
+    AREA, GAS_CONSTANT, MASS_FLOW, PRESSURE, PURE, TEMPERATURE, TIME,
+};
+use crate::model::{Curve, Dimension, Ellipsoid, Extrapolate, ForceKind, Number, ScaledCurve};
+
+/// Air: its gas constant \[J/(kg K)\] and ratio of specific heats.
+const OF_AIR: [f64; 2] = [287.0, 1.4];
+
+/// The standard atmosphere \[Pa\], and 20 °C \[K\].
+const AROUND: [f64; 2] = [101_325.0, 293.15];
+
+/// Part of the volume of a bag that gas takes at the start, where it is not full.
+pub const FOLDED: f64 = 1e-3;
+
+/// A bag of gas at one pressure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Airbag {
+    /// Its shape when full.
+    pub bag: Ellipsoid,
+    /// What it meets, on other bodies.
+    pub against: Vec<Ellipsoid>,
+    /// Gas that flows in.
+    pub inflow: Option<Inflow>,
+    /// Area of the jet that flows out, that of the hole times its coefficient \[m²\].
+    pub vent: Option<Number>,
+    /// Gas constant \[J/(kg K)\].
+    pub constant: Number,
+    /// Ratio of specific heats, more than 1.
+    pub gamma: Number,
+    /// Absolute pressure around it \[Pa\].
+    pub ambient_pressure: Number,
+    /// Temperature of what little gas is in it before it fires \[K\].
+    pub ambient_temperature: Number,
+    /// Its gas at the start, where it is full then.
+    pub start: Option<Filled>,
+}
+
+/// A source of gas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inflow {
+    /// Index into [`Model::switches`](crate::model::Model::switches).
+    pub fire: usize,
+    /// Mass flow against the time since then \[s\] → \[kg/s\].
+    pub flow: ScaledCurve,
+    /// Temperature of the gas \[K\].
+    pub temperature: Number,
+}
+
+/// The gas of a full bag.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Filled {
+    /// Absolute pressure \[Pa\].
+    pub pressure: Number,
+    /// Temperature \[K\].
+    pub temperature: Number,
+}
+
+impl Airbag {
+    /// Its ellipsoid and those that it meets.
+    pub fn ellipsoids(&self) -> impl Iterator<Item = &Ellipsoid> {
+        std::iter::once(&self.bag).chain(&self.against)
+    }
+
+    /// The same, to be changed.
+    pub fn ellipsoids_mut(&mut self) -> impl Iterator<Item = &mut Ellipsoid> {
+        std::iter::once(&mut self.bag).chain(&mut self.against)
+    }
+}
+
+impl Resolver<'_> {
+    /// Resolves an airbag.
+    pub fn airbag(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
+        let name = quoted(&written.airbag);
+        if self.dimension() == Dimension::Plane {
+            self.problems.add(at.key("airbag").problem(
+                "in the plane a bag has no volume",
+                "write the scene in space: `dimension: 3`",
+            ));
+            return None;
+        }
+        let bag = self.ellipsoid(&written.ellipsoid, at.key("ellipsoid"));
+        let list = at.key("against");
+        if written.against.is_empty() {
+            self.problems.add(list.problem(
+                format!("airbag {name} meets nothing"),
+                "name ellipsoids of other bodies: `against: [head, torso]`",
+            ));
+        }
+        let mut against = Vec::new();
+        for (index, other) in written.against.iter().enumerate() {
+            let place = list.item(index);
+            let other = self.ellipsoid(other, place);
+            if let (Some(bag), Some(other)) = (&bag, &other)
+                && bag.center.on == other.center.on
+            {
+                self.problems.add(place.key("on").problem(
+                    format!("airbag {name} and what it meets are on the same body"),
+                    "a bag pushes other bodies than that which it is fixed to",
+                ));
+            }
+            against.push(other);
+        }
+        let round = std::iter::once((&written.ellipsoid, at.key("ellipsoid")));
+        let others = written.against.iter().enumerate();
+        for (ellipsoid, place) in round.chain(others.map(|(k, e)| (e, list.item(k)))) {
+            if ellipsoid.degree.is_some() {
+                self.problems.add(place.key("degree").key_problem(
+                    "a bag and what it meets are of degree 2",
+                    "leave `degree` out",
+                ));
+            }
+        }
+        if written.inflow.is_none() && written.start.is_none() {
+            self.problems.add(at.key("airbag").problem(
+                format!("nothing fills airbag {name}"),
+                "add `inflow: { fire: …, flow: …, temperature: … }`, or `start: { pressure: …, temperature: … }` for a bag that is full",
+            ));
+        }
+        let inflow = written.inflow.as_ref();
+        let inflow =
+            inflow.and_then(|inflow| self.inflow(inflow, at.key("inflow"), &written.airbag));
+        // a flow that is 0 everywhere is none, and a folded bag without one does nothing
+        if inflow.is_none() && written.start.is_none() {
+            return None;
+        }
+        let vent = written.vent.as_ref().and_then(|vent| {
+            let at = at.key("vent");
+            let area = self.coefficient(Some(&vent.area), at.key("area"), AREA)?;
+            let part = &vent.coefficient;
+            let part = part
+                .as_ref()
+                .map(|c| self.number(c, at.key("coefficient"), PURE));
+            Some(match part {
+                Some(part) => Number::product(area, part),
+                None => area,
+            })
+        });
+        let gas = written.gas.as_ref();
+        let or = |number: Option<Number>, default: f64| number.unwrap_or(default.into());
+        let constant = gas.and_then(|gas| gas.constant.as_ref());
+        let constant =
+            constant.map(|r| self.number(r, at.key("gas").key("constant"), GAS_CONSTANT));
+        let gamma = gas.and_then(|gas| gas.gamma.as_ref());
+        let gamma = gamma.map(|g| self.number(g, at.key("gas").key("gamma"), PURE));
+        let [pressure, temperature] = self.air(written.ambient.as_ref(), at.key("ambient"));
+        let start = match &written.start {
+            Some(start) => Some(self.filled(start, at.key("start"))?),
+            None => None,
+        };
+        Some(ForceKind::Airbag(Box::new(Airbag {
+            bag: bag?,
+            against: against.into_iter().collect::<Option<Vec<_>>>()?,
+            inflow,
+            vent,
+            constant: or(constant, OF_AIR[0]),
+            gamma: or(gamma, OF_AIR[1]),
+            ambient_pressure: or(pressure, AROUND[0]),
+            ambient_temperature: or(temperature, AROUND[1]),
+            start,
+        })))
+    }
+
+    fn inflow(&mut self, written: &WrittenInflow, at: At<'_>, name: &str) -> Option<Inflow> {
+        let fire = self.switch_id(&written.fire, at.key("fire"));
+        let place = at.key("flow");
+        let owner = format!("airbag {name} inflow");
+        let flow = self.function(&written.flow, place, &owner, TIME, MASS_FLOW);
+        let temperature = self.number(&written.temperature, at.key("temperature"), TEMPERATURE);
+        let flow = flow?;
+        let negative = |(curve, _): (&Curve, _)| {
+            let last = curve.points.len() - 1;
+            let falls = curve.extrapolate == Extrapolate::Linear && curve.tangent(last) < 0.0;
+            falls || curve.points.iter().any(|point| point[1] < 0.0)
+        };
+        if self.curve_of(&flow).is_some_and(negative) {
+            self.problems.add(place.problem(
+                "gas flows in, and the curve is negative somewhere",
+                "let no ordinate be negative, and let no line that goes on beyond the last point fall; what flows out does so through `vent`",
+            ));
+        }
+        Some(Inflow {
+            fire: fire?,
+            flow,
+            temperature,
+        })
+    }
+
+    /// Pressure and temperature as written.
+    fn air(&self, written: Option<&Air>, at: At<'_>) -> [Option<Number>; 2] {
+        let pressure = written.and_then(|air| air.pressure.as_ref());
+        let temperature = written.and_then(|air| air.temperature.as_ref());
+        [
+            pressure.map(|p| self.number(p, at.key("pressure"), PRESSURE)),
+            temperature.map(|t| self.number(t, at.key("temperature"), TEMPERATURE)),
+        ]
+    }
+
+    fn filled(&self, written: &Air, at: At<'_>) -> Option<Filled> {
+        let [pressure, temperature] = self.air(Some(written), at);
+        if pressure.is_none() || temperature.is_none() {
+            self.problems.add(at.problem(
+                "the gas of a full bag has a pressure and a temperature",
+                "write `start: { pressure: 1.2 bar, temperature: 300 K }`, absolute both",
+            ));
+        }
+        Some(Filled {
+            pressure: pressure?,
+            temperature: temperature?,
+        })
+    }
+}

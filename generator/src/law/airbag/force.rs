@@ -1,0 +1,412 @@
+//! Airbag: an ellipsoid of perfect gas at one pressure, which pushes what is in its place.
+//!
+//! V = V₀ − Σ ΔV(δₖ),   p = max(p_a, (γ − 1) U/V),   T = (γ − 1) U/(m R)
+//!
+//! ṁ = ṁ_in − ṁ_out,   U̇ = H − p V̇ while full,  H/γ while slack;   H = c_p (ṁ_in T_in − ṁ_out T)
+//!
+//! F_k = (p − p_a) A(δₖ),   A = dΔV/dδ,   so that Σ F_k δ̇ₖ = −(p − p_a) V̇: the bag gives exactly what its gas does beyond the air around it
+//!
+//! m and U are states. While (γ − 1) U < p_a V the bag is slack: its gas is at p_a, its volume follows from that, and the work against p_a makes H/γ of H.
+//! V₀ is the volume of the ellipsoid. δ is the least overlap with an ellipsoid that it meets, as of a [contact](crate::law::contact::force), and the force acts along its
+//! direction half way between the deepest points. ΔV and A are those of two spheres of the same volumes as the ellipsoids, whose overlap is δ: A is the area of
+//! the circle in which they meet, and once the smaller one is in up to its equator, that of its section.
+//!
+//! With r = max(p_a/p, (2/(γ + 1))^(γ/(γ − 1))), which is choked flow where the second is larger (Saint-Venant and Wantzel, 1839):
+//!
+//! ṁ_out = C A_v p/√(R T) ψ,   ψ² = 2γ/(γ − 1) (r^(2/γ) − r^((γ + 1)/γ)),   and ψ²/√ψ₀² below ψ₀² = 10⁻⁴, a pressure of 5 Pa, where the root is steep
+
+use super::check::FOLDED;
+use super::outputs::AirbagMeasures;
+use crate::dynamics::force::onset::{Pair, absolute};
+use crate::dynamics::force::switch::{Gate, Remembered};
+use crate::dynamics::force::{Loads, Motion, Product, choose};
+use crate::dynamics::numbers::{curve, number, vector};
+use crate::dynamics::time;
+use crate::equations::LEAST_VOLUME;
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Function, Graph};
+use crate::law::contact::force::pair::{direction, on_ellipsoid};
+use crate::law::contact::force::{Touch, begins};
+use crate::law::{Equations, Measures, Setting};
+use crate::model::{Against, Airbag, Contact, Ellipsoid, Inflow, Model};
+use std::f64::consts::PI;
+
+/// ψ₀²
+const STEEP: f64 = 1e-4;
+
+/// Least part of its volume that is left to the gas of a bag. A run in which less would be left says so.
+const LEAST: f64 = LEAST_VOLUME;
+
+/// Least mass of gas that something is divided by \[kg\].
+const LEAST_MASS: f64 = 1e-9;
+
+/// Least distance of two spheres that something is divided by \[m\].
+const LEAST_RADIUS: f64 = 1e-9;
+
+/// Most points of the curve of an inflow that steps end at; those of a curve of more points are passed as smooth.
+const MOST_KINKS: usize = 32;
+
+/// What a bag meets.
+struct Meeting<'g> {
+    touch: Touch<'g>,
+    /// A \[m²\]
+    area: Expr<'g>,
+    /// ΔV \[m³\]
+    volume: Expr<'g>,
+}
+
+impl Equations for Airbag {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        Box::new(apply(self, setting, loads))
+    }
+}
+
+fn apply<'g>(
+    airbag: &Airbag,
+    setting: Setting<'_, 'g>,
+    loads: &mut Loads<'g>,
+) -> AirbagMeasures<'g> {
+    let Setting {
+        graph,
+        model,
+        motion,
+        start,
+        name,
+        ..
+    } = setting;
+    let owner = format!("airbag {name}");
+    let curves = loads.curves_so_far();
+    let meetings: Vec<Meeting<'g>> = airbag
+        .against
+        .iter()
+        .map(|other| {
+            let meeting = meet(graph, model, motion, airbag, other);
+            tell(
+                graph,
+                model,
+                motion,
+                loads,
+                &owner,
+                (airbag, other),
+                &meeting,
+            );
+            meeting
+        })
+        .collect();
+    let at_start = airbag
+        .against
+        .iter()
+        .map(|other| meet(graph, model, start, airbag, other).volume);
+    let [left, left_at_start] = [
+        left(graph, airbag, meetings.iter().map(|m| m.volume)),
+        left(graph, airbag, at_start),
+    ];
+    let shrinking = meetings.iter().fold(graph.constant(0.0), |sum, m| {
+        sum + m.area * m.touch.approach
+    });
+    let gas = Gas::of(graph, loads, &owner, airbag, [left, left_at_start]);
+    let over = gas.pressure - gas.around;
+    // a slack bag has no force whose direction could leap
+    loads.curves_act(curves, over);
+    let taken = meetings
+        .iter()
+        .fold(graph.constant(0.0), |sum, m| sum + m.volume);
+    let share = taken / volume(graph, &airbag.bag);
+    loads.volume(&owner, move || share, over);
+    let outflow = gas.flow(graph, model, loads, &owner, airbag, shrinking);
+    AirbagMeasures {
+        on: push(loads, &owner, airbag, &meetings, over),
+        pressure: gas.pressure,
+        temperature: gas.heat / number(graph, &airbag.constant),
+        mass: gas.mass.1,
+        volume: gas.less * gas.energy.1 / gas.pressure,
+        outflow,
+        area: meetings
+            .iter()
+            .fold(graph.constant(0.0), |sum, m| sum + m.area),
+    }
+}
+
+/// The volume that is left to the gas of a bag which gives up these.
+fn left<'g>(
+    graph: &'g Graph,
+    airbag: &Airbag,
+    displaced: impl Iterator<Item = Expr<'g>>,
+) -> Expr<'g> {
+    let whole = volume(graph, &airbag.bag);
+    let displaced = displaced.fold(graph.constant(0.0), |sum, volume| sum + volume);
+    (whole - displaced).max(graph.constant(LEAST) * whole)
+}
+
+/// Pushes what a bag meets with the overpressure `over`. The force on what the bag is on, and on each that it meets.
+fn push<'g>(
+    loads: &mut Loads<'g>,
+    owner: &str,
+    airbag: &Airbag,
+    meetings: &[Meeting<'g>],
+    over: Expr<'g>,
+) -> Vec<Vec3<'g>> {
+    let mut on = vec![Vec3::zero(over.graph())];
+    for (meeting, other) in meetings.iter().zip(&airbag.against) {
+        let force = over * meeting.area;
+        // the normal is that from what it meets to the bag
+        let push = -(force * meeting.touch.normal);
+        loads.apply(other.center.on, meeting.touch.offset_on_second, push);
+        loads.apply(airbag.bag.center.on, meeting.touch.offset, -push);
+        loads.work(
+            format!("{owner}: gas"),
+            Product::Scalars(-force, meeting.touch.approach),
+        );
+        on[0] = on[0] - push;
+        on.push(push);
+    }
+    on
+}
+
+/// A bag and an ellipsoid that it meets, as a contact without a force.
+fn contact(airbag: &Airbag, other: &Ellipsoid) -> Contact {
+    Contact {
+        ellipsoid: airbag.bag.center.clone(),
+        semi_axes: airbag.bag.semi_axes.clone(),
+        axes: airbag.bag.axes.clone(),
+        degree: 2,
+        against: Against::Ellipsoid(other.clone()),
+        elastic: None,
+        hysteresis: None,
+        damping: None,
+        damping_depth: None,
+        friction: None,
+        bristle: None,
+    }
+}
+
+/// The overlap of a bag with an ellipsoid.
+fn meet<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    motion: &Motion<'g>,
+    airbag: &Airbag,
+    other: &Ellipsoid,
+) -> Meeting<'g> {
+    let contact = contact(airbag, other);
+    let touch = on_ellipsoid(graph, model.dimension, motion, &contact, other);
+    let (area, volume) = lens(graph, radii(graph, airbag, other), touch.penetration);
+    Meeting {
+        touch,
+        area,
+        volume,
+    }
+}
+
+/// Tells where the push of a bag begins and has kinks, and of its direction.
+fn tell<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    motion: &Motion<'g>,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    (airbag, other): (&Airbag, &Ellipsoid),
+    meeting: &Meeting<'g>,
+) {
+    let (contact, touch) = (contact(airbag, other), &meeting.touch);
+    let pair = Pair::of(graph, model.dimension, motion, &contact);
+    begins(loads, owner, Gate::default(), &contact, touch, pair);
+    if let Some(between) = touch.between {
+        loads.direction(owner, direction(model.dimension, touch.normal, between));
+    }
+    let overlap = touch.overlap;
+    loads.kink(format!("{owner}: touches"), move || overlap);
+    let deep = overlap - equator(radii(graph, airbag, other));
+    loads.kink(format!("{owner}: is around what it meets"), move || deep);
+}
+
+/// Radii of spheres of the same volumes as a bag and an ellipsoid \[m\].
+fn radii<'g>(graph: &'g Graph, airbag: &Airbag, other: &Ellipsoid) -> [Expr<'g>; 2] {
+    [&airbag.bag, other].map(|ellipsoid| radius(graph, ellipsoid))
+}
+
+/// (4/3) π a b c \[m³\]
+fn volume<'g>(graph: &'g Graph, ellipsoid: &Ellipsoid) -> Expr<'g> {
+    let [a, b, c] = vector(graph, &ellipsoid.semi_axes).0;
+    graph.constant(4.0 / 3.0 * PI) * (a * b * c)
+}
+
+/// Radius of the sphere of the same volume \[m\].
+fn radius<'g>(graph: &'g Graph, ellipsoid: &Ellipsoid) -> Expr<'g> {
+    let [a, b, c] = vector(graph, &ellipsoid.semi_axes).0;
+    if a.id() == b.id() && b.id() == c.id() {
+        return a;
+    }
+    graph.call(Function::Power, &[a * b * c, graph.constant(1.0 / 3.0)])
+}
+
+/// Overlap δ of two spheres at which the smaller one is in up to its equator, d² = |a² − b²| \[m\].
+fn equator<'g>([a, b]: [Expr<'g>; 2]) -> Expr<'g> {
+    let both = a + b;
+    both - absolute((a - b) * both).sqrt()
+}
+
+/// Area A of the circle in which two spheres meet that overlap by δ, and volume ΔV that the bag gives up, A = dΔV/dδ. 0 where they are apart.
+///
+/// ρ² = (a + b + d)(a + b − d)(d + a − b)(d + b − a)/(2 d)²,  d = a + b − δ, until the smaller one has come in up to its equator, d² = |a² − b²|;
+/// from there on the fabric lies around it, and what it sweeps is a tube of its own section.
+fn lens<'g>(graph: &'g Graph, [a, b]: [Expr<'g>; 2], overlap: Expr<'g>) -> (Expr<'g>, Expr<'g>) {
+    let zero = graph.constant(0.0);
+    let both = a + b;
+    let depth = overlap.max(zero).min(equator([a, b]));
+    let apart = (both - depth).max(graph.constant(LEAST_RADIUS));
+    let square = depth * (both + apart) * (apart + a - b) * (apart + b - a);
+    let area = graph.constant(PI / 4.0) * square / apart.squared();
+    // V = π δ² (d² + 2 d (a + b) − 3 (a − b)²)/(12 d)
+    let sum = apart.squared() + graph.constant(2.0) * apart * both
+        - graph.constant(3.0) * (a - b).squared();
+    let cap = graph.constant(PI / 12.0) * depth.squared() * sum / apart;
+    let tube = area * (overlap.max(zero) - depth);
+    (area, cap + tube)
+}
+
+/// Mass flow into a bag, 0 until it is fired; with a guard at each point of its curve.
+fn flow_in<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    inflow: &Inflow,
+) -> Expr<'g> {
+    let fire: Remembered<'g> = loads.states.switches[inflow.fire];
+    let (zero, now) = (graph.constant(0.0), time(graph));
+    let since = (now - fire.since).max(zero);
+    let points = &model.curves[inflow.flow.curve].points;
+    if points.len() <= MOST_KINKS {
+        for (index, point) in points.iter().enumerate() {
+            let kink = point[0] * number(graph, &inflow.flow.stretch);
+            let guard = format!("{owner}: point {} of the inflow", index + 1);
+            loads.guard(guard, fire.since + kink - now);
+        }
+    }
+    fire.once(curve(graph, &inflow.flow, since), zero)
+}
+
+/// The gas of a bag.
+struct Gas<'g> {
+    /// The state m, its index first \[kg\].
+    mass: (usize, Expr<'g>),
+    /// The state U, its index first \[J\].
+    energy: (usize, Expr<'g>),
+    gamma: Expr<'g>,
+    /// γ − 1
+    less: Expr<'g>,
+    /// Pressure around it \[Pa\].
+    around: Expr<'g>,
+    /// Pressure of what is there in the whole of the volume that is left: less than that around it where the bag is slack \[Pa\].
+    filled: Expr<'g>,
+    /// Its pressure \[Pa\].
+    pressure: Expr<'g>,
+    /// R T \[J/kg\]
+    heat: Expr<'g>,
+}
+
+impl<'g> Gas<'g> {
+    /// The gas in the volume that is left to it \[m³\], now and at the start.
+    fn of(
+        graph: &'g Graph,
+        loads: &mut Loads<'g>,
+        owner: &str,
+        airbag: &Airbag,
+        [left, left_at_start]: [Expr<'g>; 2],
+    ) -> Self {
+        let [constant, gamma, around] = [&airbag.constant, &airbag.gamma, &airbag.ambient_pressure]
+            .map(|given| number(graph, given));
+        let less = gamma - graph.constant(1.0);
+        let (pressure, temperature, size) = match &airbag.start {
+            Some(start) => (
+                number(graph, &start.pressure),
+                number(graph, &start.temperature),
+                left_at_start,
+            ),
+            None => (
+                around,
+                number(graph, &airbag.ambient_temperature),
+                graph.constant(FOLDED) * volume(graph, &airbag.bag),
+            ),
+        };
+        let initial = pressure * size / (constant * temperature);
+        let mass = loads.auxiliary(format!("{owner}: mass of gas"), "kg", initial);
+        let initial = pressure * size / less;
+        let energy = loads.auxiliary(format!("{owner}: energy of gas"), "J", initial);
+        let filled = less * energy.1 / left;
+        Gas {
+            mass,
+            energy,
+            gamma,
+            less,
+            around,
+            filled,
+            pressure: filled.max(around),
+            heat: less * energy.1 / mass.1.max(graph.constant(LEAST_MASS)),
+        }
+    }
+
+    /// Lets gas flow in and out, while the volume left to it shrinks at the rate `shrinking` \[m³/s\]. The mass flow out \[kg/s\].
+    fn flow(
+        &self,
+        graph: &'g Graph,
+        model: &Model,
+        loads: &mut Loads<'g>,
+        owner: &str,
+        airbag: &Airbag,
+        shrinking: Expr<'g>,
+    ) -> Expr<'g> {
+        let (filled, around) = (self.filled, self.around);
+        let (mut into, mut out) = (graph.constant(0.0), graph.constant(0.0));
+        if let Some(area) = &airbag.vent {
+            out = self.outflow(loads, owner, number(graph, area));
+        }
+        // c_p T = γ/(γ − 1) R T
+        let per_mass = self.gamma / self.less;
+        let mut enthalpy = -(per_mass * out * self.heat);
+        if let Some(inflow) = &airbag.inflow {
+            into = flow_in(graph, model, loads, owner, inflow);
+            let hot = number(graph, &airbag.constant) * number(graph, &inflow.temperature);
+            enthalpy = per_mass * into * hot + enthalpy;
+        }
+        let full = enthalpy + self.pressure * shrinking;
+        loads.states.auxiliaries[self.mass.0].next = into - out;
+        loads.states.auxiliaries[self.energy.0].next =
+            choose(around, filled, full, enthalpy / self.gamma);
+        loads.kink(format!("{owner}: is full"), move || filled - around);
+        out
+    }
+
+    /// Mass flow out of a hole whose jet has this area.
+    fn outflow(&self, loads: &mut Loads<'g>, owner: &str, area: Expr<'g>) -> Expr<'g> {
+        let graph = area.graph();
+        let (one, two) = (graph.constant(1.0), graph.constant(2.0));
+        let power = |base, exponent| graph.call(Function::Power, &[base, exponent]);
+        let Gas {
+            gamma,
+            less,
+            around,
+            pressure,
+            heat,
+            ..
+        } = *self;
+        let choked = power(two / (gamma + one), gamma / less);
+        let through = around / pressure;
+        let ratio = through.max(choked);
+        let first = power(ratio, two / gamma);
+        let second = power(ratio, (gamma + one) / gamma);
+        let square = two * gamma / less * (first - second);
+        let steep = graph.constant(STEEP);
+        let psi = square / square.max(steep).sqrt();
+        loads.kink(format!("{owner}: flow out is choked"), move || {
+            through - choked
+        });
+        loads.kink(format!("{owner}: flow out is slow"), move || square - steep);
+        area * pressure / heat.max(graph.constant(f64::MIN_POSITIVE)).sqrt() * psi
+    }
+}

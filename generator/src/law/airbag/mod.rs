@@ -1,0 +1,10 @@
+//! A bag that gas fills.
+
+pub(crate) mod check;
+pub(crate) mod force;
+pub mod keys;
+pub(crate) mod outputs;
+pub(crate) mod terms;
+
+pub use check::*;
+pub use outputs::*;

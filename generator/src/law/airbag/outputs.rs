@@ -1,0 +1,99 @@
+//! What can be asked of an airbag: its gas, and its force on a body.
+
+use super::check::Airbag;
+use crate::description::output::Output as Written;
+use crate::description::place::At;
+use crate::expression::Expr;
+use crate::expression::vector::Vec3;
+use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::model::resolve::Resolver;
+use crate::model::{Body, Quantity};
+
+/// Of an airbag.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AirbagQuantity {
+    /// Absolute pressure \[Pa\].
+    Pressure,
+    /// Temperature \[K\].
+    Temperature,
+    /// Mass of gas \[kg\].
+    Mass,
+    /// Volume of gas \[m³\].
+    Volume,
+    /// Mass that flows out \[kg/s\].
+    Outflow,
+    /// Area that pushes what it meets, all together \[m²\].
+    Area,
+}
+
+impl OfLaw for AirbagQuantity {}
+
+/// The force has a direction.
+const TABLE: [(&str, &str, Option<AirbagQuantity>); 7] = [
+    ("force", "N", None),
+    ("pressure", "Pa", Some(AirbagQuantity::Pressure)),
+    ("temperature", "K", Some(AirbagQuantity::Temperature)),
+    ("mass", "kg", Some(AirbagQuantity::Mass)),
+    ("volume", "m^3", Some(AirbagQuantity::Volume)),
+    ("outflow", "kg/s", Some(AirbagQuantity::Outflow)),
+    ("area", "m^2", Some(AirbagQuantity::Area)),
+];
+
+impl Outputs for Airbag {
+    fn output(
+        &self,
+        resolver: &Resolver<'_>,
+        written: &Written,
+        force: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        resolver.of_law(at, "an airbag");
+        let (what, unit) = resolver.look_up(written, &TABLE, "an airbag", at)?;
+        let quantity = match what {
+            Some(what) => resolver.scalar(force, Asked::Airbag(what), at),
+            None => {
+                let bodies: Vec<Body> = self.ellipsoids().map(|e| e.center.on).collect();
+                resolver.on_points(written, force, &bodies, at)?
+            }
+        };
+        Some((quantity, unit))
+    }
+}
+
+/// Of an airbag.
+pub struct AirbagMeasures<'g> {
+    /// The force on what it is on, and on each that it meets \[N\].
+    pub on: Vec<Vec3<'g>>,
+    /// Absolute pressure \[Pa\].
+    pub pressure: Expr<'g>,
+    /// Temperature \[K\].
+    pub temperature: Expr<'g>,
+    /// Mass of gas \[kg\].
+    pub mass: Expr<'g>,
+    /// Its volume \[m³\].
+    pub volume: Expr<'g>,
+    /// Mass flow out \[kg/s\].
+    pub outflow: Expr<'g>,
+    /// Area that pushes \[m²\].
+    pub area: Expr<'g>,
+}
+
+impl<'g> Measures<'g> for AirbagMeasures<'g> {
+    fn on(&self) -> Vec<Vec3<'g>> {
+        self.on.clone()
+    }
+
+    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
+        let Asked::Airbag(what) = asked else {
+            return None;
+        };
+        Some(Value::Scalar(match what {
+            AirbagQuantity::Pressure => self.pressure,
+            AirbagQuantity::Temperature => self.temperature,
+            AirbagQuantity::Mass => self.mass,
+            AirbagQuantity::Volume => self.volume,
+            AirbagQuantity::Outflow => self.outflow,
+            AirbagQuantity::Area => self.area,
+        }))
+    }
+}

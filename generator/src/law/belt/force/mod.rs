@@ -1,0 +1,612 @@
+//! Belt: a tension along the line between two attachments, or along the lines from one to the next of the rings between them.
+//! \[MADYMO 1980, force model 4\]
+//!
+//! d = p_to − p_from,   L = |d|,   n = d/L,   L̇ = n · ḋ,   ε = (L − ℓ)/ℓ
+//!
+//! T = tension(ε, curve(ε), damping · min((L − ℓ)/stretch, 1) · (L̇ + ṙ))
+//!
+//! +T n acts on `from`, −T n on `to`. The untensioned length ℓ is L₀, given, or the initial distance plus slack, or such that the
+//! belt pulls with its pretension at the initial distance: L₀ = L_start/(1 + ε_p) with curve(ε_p) = pretension; a
+//! retractor, pretensioner or limiter (`webbing`) changes it, taking in webbing at the rate ṙ. Until the retractor
+//! locks T is its spool, and T is never larger than the force of the limiter.
+//!
+//! With rings each line between two of them is a segment with a tension of its own; webbing slips from one to the next (`ring.rs`),
+//! s from the segment on the side of `from`. Of segment i
+//!
+//! ℓᵢ = L₀ᵢ + sᵢ₋₁ − sᵢ,   ε̇ᵢ = (L̇ᵢ − (Lᵢ/ℓᵢ) ℓ̇ᵢ)/ℓᵢ,   Tᵢ = tension(εᵢ, curve(εᵢ), damping · min(…, 1) · L₀ ε̇ᵢ)
+//!
+//! where L₀ = Σ L₀ᵢ: segments of equal strain rate are damped alike, however long they are. The devices change ℓ₁.
+//!
+//! The power −T L̇ on the bodies is told apart: what stretches the webbing, −T (L̇ − ℓ̇), to `elastic`, `damping` and
+//! `limiter`, T ṙ to the `pretensioner`, and all of it to the `retractor` until that locks; what slips, ṡ (T_before − T_behind), to the ring.
+
+mod ring;
+mod webbing;
+
+use super::check::SHORTEST;
+use super::check::must_have_length;
+use super::outputs::{BeltMeasures, SegmentMeasures};
+use crate::dynamics::force::fade::faded;
+use crate::dynamics::force::hysteresis;
+use crate::dynamics::force::onset::{FAR, Onset, absolute, size};
+use crate::dynamics::force::switch::Gate;
+use crate::dynamics::force::{Acts, Loads, Motion, Product, choose};
+use crate::dynamics::kinematics::Point;
+use crate::dynamics::numbers::{curve, inverse, number, vector};
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Function, Graph};
+use crate::law::{Equations, Measures, Setting};
+use crate::model::{Attachment, Belt, BeltLength, Model};
+use ring::Ring;
+use webbing::{Limiter, NOISE, Webbing, webbing};
+
+/// Smallest squared length that a division by the length sees \[m²\]: ends that are closer than 1e-10 m give a direction of (nearly) 0 and so no force,
+/// instead of NaN.
+///
+/// Generated text has no branches, so both sides of "slack or taut" are computed and every divisor must be safe in every state. The other
+/// divisor, the untensioned length, is positive by the rules for its numbers: `terms.rs` of this law, `dynamics/conditions.rs`, and at least
+/// [`SHORTEST`] where a pretensioner takes webbing in.
+const SMALLEST_SQUARED_LENGTH: f64 = 1e-20;
+
+/// A belt that is being applied.
+#[derive(Clone, Copy)]
+pub struct Law<'a, 'g> {
+    /// Of the expressions.
+    pub graph: &'g Graph,
+    /// Which it is of.
+    pub model: &'a Model,
+    /// Its name.
+    pub name: &'a str,
+    /// Whether it acts.
+    pub gate: Gate<'g>,
+    /// What it is.
+    pub belt: &'a Belt,
+}
+
+/// A straight part of a belt, between two points of it.
+pub struct Segment<'g> {
+    /// What messages call it.
+    owner: String,
+    /// Unit vector from its first point to its second.
+    pub direction: Vec3<'g>,
+    /// Velocity of the second point less that of the first \[m/s\].
+    moving: Vec3<'g>,
+    /// Distance of the points \[m\].
+    span: Expr<'g>,
+    /// Its rate \[m/s\].
+    rate: Expr<'g>,
+    /// Its webbing.
+    pub webbing: Webbing<'g>,
+    /// (L − ℓ)/ℓ
+    elongation: Expr<'g>,
+    /// Tension without a bound \[N\].
+    elastic: Expr<'g>,
+    /// Elongation at which the unloading line meets no force.
+    permanent_set: Expr<'g>,
+    /// How many curves had been told of before those of this segment.
+    curves: usize,
+    /// Tension without damping, once a retractor has locked \[N\].
+    undamped: Expr<'g>,
+    /// Rate at which webbing leaves through its rings, and off the reel the other way \[m/s\].
+    leaving: Expr<'g>,
+}
+
+impl Equations for Belt {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        let Setting {
+            graph,
+            model,
+            motion,
+            start,
+            name,
+            gate,
+            ..
+        } = setting;
+        let law = Law {
+            graph,
+            model,
+            name,
+            gate,
+            belt: self,
+        };
+        Box::new(apply(law, motion, start, loads))
+    }
+
+    fn condition<'g>(
+        &self,
+        graph: &'g Graph,
+        start: &Motion<'g>,
+        name: &str,
+    ) -> Option<(String, Expr<'g>)> {
+        let length = length_at_start(graph, start, self);
+        Some((must_have_length(name), length))
+    }
+}
+
+/// Applies a belt; `start` is the motion from which it takes its lengths.
+fn apply<'g>(
+    law: Law<'_, 'g>,
+    motion: &Motion<'g>,
+    start: &Motion<'g>,
+    loads: &mut Loads<'g>,
+) -> BeltMeasures<'g> {
+    let Law { graph, belt, .. } = law;
+    let points: Vec<Point<'g>> = belt
+        .points()
+        .map(|point| motion.attachment(graph, point))
+        .collect();
+    let rings = ring::rings(law, loads);
+    let slipped = |index: Option<usize>| Some(rings.get(index?)?.slipped);
+    let mut segments = Vec::new();
+    let mut initials: Vec<Expr<'g>> = Vec::new();
+    for (index, ends) in points.windows(2).enumerate() {
+        let rigid = between(graph, nth(belt, index), nth(belt, index + 1));
+        let (span, direction, rate) = straight(graph, [&ends[0], &ends[1]], rigid);
+        if initials.is_empty() {
+            initials = initial_lengths(graph, start, belt);
+        }
+        let fed = [slipped(index.checked_sub(1)), slipped(Some(index))];
+        let moving = match rigid {
+            Some(_) => Vec3::zero(graph),
+            None => ends[1].velocity - ends[0].velocity,
+        };
+        let line = (span, direction, rate, moving);
+        segments.push(segment(law, loads, index, line, &initials, fed));
+    }
+    let slips = ring::slip(law, loads, &rings, &mut segments);
+    for segment in &segments {
+        segment.watch(law, loads);
+    }
+    let whole = segments[1..]
+        .iter()
+        .fold(segments[0].webbing.initial, |sum, s| {
+            sum + s.webbing.initial
+        });
+    let mut pulls = Vec::new();
+    let mut measures = Vec::new();
+    for (index, segment) in segments.iter().enumerate() {
+        let whole = (!rings.is_empty()).then_some(whole);
+        let tension = segment.pull(law, loads, whole);
+        let pull = tension * segment.direction;
+        loads.apply(nth(belt, index).on, points[index].offset, pull);
+        loads.apply(nth(belt, index + 1).on, points[index + 1].offset, -pull);
+        pulls.push(pull);
+        measures.push(SegmentMeasures {
+            tension,
+            length: segment.span,
+            elongation: segment.elongation,
+            untensioned: segment.webbing.length,
+            permanent_set: segment.permanent_set,
+        });
+    }
+    ring::works(law, loads, &slips, &measures);
+    let first = &segments[0].webbing;
+    let payout = segments[1..]
+        .iter()
+        .fold(first.length - first.initial, |sum, s| {
+            sum + (s.webbing.length - s.webbing.initial)
+        });
+    BeltMeasures {
+        on: on_points(&pulls),
+        segments: measures,
+        slipped: rings.iter().map(|ring: &Ring<'g>| ring.slipped).collect(),
+        payout,
+    }
+}
+
+/// The force on each point of a belt, of the pulls of its segments along them.
+fn on_points<'g>(pulls: &[Vec3<'g>]) -> Vec<Vec3<'g>> {
+    let last = pulls.len();
+    let on = |index: usize| match index {
+        0 => pulls[0],
+        _ if index == last => -pulls[last - 1],
+        _ => pulls[index] - pulls[index - 1],
+    };
+    (0..=last).map(on).collect()
+}
+
+fn nth(belt: &Belt, index: usize) -> &Attachment {
+    belt.points().nth(index).unwrap_or(&belt.to)
+}
+
+/// Distance of two points of the same body, which never changes; `None` of two bodies.
+fn between<'g>(graph: &'g Graph, from: &Attachment, to: &Attachment) -> Option<Expr<'g>> {
+    let apart = || vector(graph, &to.at) - vector(graph, &from.at);
+    (from.on == to.on).then(|| length(graph, apart().squared()))
+}
+
+/// Distance of two points, unit vector from the first to the second, and the rate of the distance. `rigid` is the distance where both are on the
+/// same body: computed from their motions, its rate would be rounding whose sign changes at every step.
+fn straight<'g>(
+    graph: &'g Graph,
+    [from, to]: [&Point<'g>; 2],
+    rigid: Option<Expr<'g>>,
+) -> (Expr<'g>, Vec3<'g>, Expr<'g>) {
+    let between = to.position - from.position;
+    let span = rigid.unwrap_or_else(|| length(graph, between.squared()));
+    let direction = span.recip() * between;
+    let rate = match rigid {
+        Some(_) => graph.constant(0.0),
+        None => direction.dot(to.velocity - from.velocity),
+    };
+    (span, direction, rate)
+}
+
+/// A segment, with its elastic tension. Webbing has slipped `fed[0]` into it and `fed[1]` out of it.
+fn segment<'g>(
+    law: Law<'_, 'g>,
+    loads: &mut Loads<'g>,
+    index: usize,
+    (span, direction, rate, moving): (Expr<'g>, Vec3<'g>, Expr<'g>, Vec3<'g>),
+    initials: &[Expr<'g>],
+    fed: [Option<Expr<'g>>; 2],
+) -> Segment<'g> {
+    let Law {
+        graph, name, belt, ..
+    } = law;
+    let untensioned = untensioned_length(graph, belt, initials, index);
+    let webbing = match index {
+        0 => webbing(law, loads, [span, initials[0]], untensioned, fed[1]),
+        _ => Webbing::without_devices(untensioned, fed),
+    };
+    let elongation = span / webbing.length - graph.constant(1.0);
+    let owner = match belt.rings.is_empty() {
+        true => format!("belt {name}"),
+        false => format!("belt {name} segment {}", index + 1),
+    };
+    let curves = loads.curves_so_far();
+    let one = graph.constant(1.0);
+    let below = move || webbing.once_locked(elongation, -one);
+    loads.curve_of_state(&owner, "curve", &belt.force, Acts::AboveFirst, below);
+    let (elastic, permanent_set) = elastic(law, loads, &owner, span / webbing.length, below);
+    let mut segment = Segment {
+        owner,
+        direction,
+        moving,
+        span,
+        rate,
+        webbing,
+        elongation,
+        elastic,
+        permanent_set,
+        curves,
+        undamped: graph.constant(0.0),
+        leaving: graph.constant(0.0),
+    };
+    segment.undamped = segment.tension(law, graph.constant(0.0));
+    segment
+}
+
+impl<'g> Segment<'g> {
+    /// Tension \[N\] with a viscous force, once a retractor has locked.
+    fn tension(&self, law: Law<'_, 'g>, viscous: Expr<'g>) -> Expr<'g> {
+        let arguments = [self.elongation, self.elastic, viscous];
+        let tension = law.graph.call(Function::BeltTension, &arguments);
+        let limit = self.webbing.limiter.map(|limiter| limiter.force);
+        law.gate
+            .of(limit.map_or(tension, |limit| tension.min(limit)))
+    }
+
+    /// Tension of what is stretched, or of the reel as long as that is not locked \[N\].
+    pub fn held(&self, law: Law<'_, 'g>) -> Expr<'g> {
+        match self.webbing.retractor {
+            Some((_, spool)) => self.webbing.once_locked(self.undamped, law.gate.of(spool)),
+            None => self.undamped,
+        }
+    }
+
+    /// Watches where the limiter begins and ends, and where a hysteresis turns.
+    fn watch(&self, law: Law<'_, 'g>, loads: &mut Loads<'g>) {
+        let (webbing, graph) = (self.webbing, law.graph);
+        webbing.watch_limiter(loads, law.name, [self.rate, self.leaving]);
+        if law.belt.hysteresis.is_some() {
+            let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+            let ratio = self.span / webbing.length;
+            let growing = self.rate + ratio * (webbing.taken_in + self.leaving);
+            let growing = webbing.once_locked(growing, one);
+            let growing = match law.belt.rings.is_empty() {
+                true => growing,
+                false => self.beyond_noise(loads, growing),
+            };
+            let elongation = (ratio - one).max(zero);
+            hysteresis::watch_turns(loads, &self.owner, elongation, growing);
+        }
+    }
+
+    /// A rate of growth that changes its sign once the segment shortens, or lengthens again, by more than [`NOISE`]; which it did last is
+    /// remembered.
+    fn beyond_noise(&self, loads: &mut Loads<'g>, growing: Expr<'g>) -> Expr<'g> {
+        let graph = growing.graph();
+        let (zero, one, half) = (
+            graph.constant(0.0),
+            graph.constant(1.0),
+            graph.constant(0.5),
+        );
+        let (index, lengthens) = loads.memory(format!("{}: lengthens", self.owner), "", one);
+        let noise = graph.constant(NOISE);
+        let guard = choose(half, lengthens, growing + noise, noise - growing);
+        let turned = choose(half, lengthens, zero, one);
+        loads.states.memory[index].next = choose(guard, zero, turned, lengthens);
+        guard
+    }
+
+    /// Tells where the tension without damping, by which webbing slips, has kinks.
+    pub fn tell_held(&self, loads: &mut Loads<'g>) {
+        let (webbing, elongation, elastic) = (self.webbing, self.elongation, self.elastic);
+        let one = elongation.graph().constant(1.0);
+        loads.kink(format!("{}: goes taut", self.owner), move || {
+            webbing.once_locked(elongation, one)
+        });
+        if let Some(limiter) = webbing.limiter {
+            loads.kink(format!("{}: reaches the limiter", self.owner), move || {
+                webbing.once_locked(elastic - limiter.force, one)
+            });
+        }
+    }
+
+    /// Says that webbing leaves the segment at this rate \[m/s\].
+    pub fn leaves(&mut self, rate: Expr<'g>) {
+        self.leaving = self.leaving + rate;
+    }
+
+    /// The tension, with all that is to be told of it. Of a belt that runs through rings `whole` is its length \[m\].
+    fn pull(&self, law: Law<'_, 'g>, loads: &mut Loads<'g>, whole: Option<Expr<'g>>) -> Expr<'g> {
+        let Law {
+            graph, gate, belt, ..
+        } = law;
+        let (webbing, span, elongation) = (self.webbing, self.span, self.elongation);
+        let one = graph.constant(1.0);
+        let stretching = self.rate + webbing.taken_in + self.leaving;
+        let stretched = match &belt.damping {
+            Some(damping) => {
+                let damped = match whole {
+                    Some(whole) => {
+                        let rate = (self.rate
+                            + span / webbing.length * (webbing.taken_in + self.leaving))
+                            / webbing.length;
+                        whole * rate
+                    }
+                    None => stretching,
+                };
+                self.damped(law, loads, number(graph, damping), damped)
+            }
+            None => {
+                loads.kink(format!("{}: goes taut", self.owner), move || {
+                    webbing.once_locked(elongation, one)
+                });
+                self.undamped
+            }
+        };
+        self.tell(law, loads);
+        let spool = webbing.retractor.map(|(_, spool)| gate.of(spool));
+        let tension = spool.map_or(stretched, |spool| webbing.once_locked(stretched, spool));
+        loads.curves_act(self.curves, tension);
+        let tensions = [self.undamped, stretched];
+        works(graph, loads, self, tensions, spool, stretching);
+        tension
+    }
+
+    /// The tension with the damping `damping` of the rate `rate`.
+    fn damped(
+        &self,
+        law: Law<'_, 'g>,
+        loads: &mut Loads<'g>,
+        damping: Expr<'g>,
+        rate: Expr<'g>,
+    ) -> Expr<'g> {
+        let Law { graph, belt, .. } = law;
+        let (webbing, span, owner) = (self.webbing, self.span, &self.owner);
+        let (elongation, elastic) = (self.elongation, self.elastic);
+        let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+        let fade = faded(
+            graph,
+            span - webbing.undamped,
+            belt.damping_stretch.as_ref(),
+        );
+        // a retractor locks where the webbing is stretched already
+        let fade = match webbing.retractor {
+            Some(_) => fade.max(graph.constant(0.0)),
+            None => fade,
+        };
+        let viscous = damping * fade * rate;
+        // the tension has a kink where it goes taut, and ends while still stretched where damping would push
+        loads.kink(format!("{owner}: pulls"), move || {
+            let pulls = choose(zero, elongation, elastic + viscous, elongation);
+            webbing.once_locked(pulls, one)
+        });
+        if let Some(limiter) = webbing.limiter {
+            loads.kink(
+                format!("{owner}: pulls with the force of the limiter"),
+                move || webbing.once_locked(elastic + viscous - limiter.force, one),
+            );
+        }
+        if let Some(stretch) = belt.damping_stretch.clone() {
+            let beyond = move || span - webbing.undamped;
+            if webbing.retractor.is_some() {
+                loads.kink(format!("{owner}: damping sets in"), move || {
+                    webbing.once_locked(beyond(), one)
+                });
+            }
+            loads.kink(format!("{owner}: damping is full"), move || {
+                webbing.once_locked(beyond() - number(graph, &stretch), one)
+            });
+        }
+        self.tension(law, viscous)
+    }
+
+    /// Tells where its curves have corners, and how far it is from being taut.
+    fn tell(&self, law: Law<'_, 'g>, loads: &mut Loads<'g>) {
+        let Law {
+            graph, gate, belt, ..
+        } = law;
+        let (webbing, span, moving) = (self.webbing, self.span, self.moving);
+        let (elongation, leaving) = (self.elongation, self.leaving);
+        let one = graph.constant(1.0);
+        let below = move || webbing.once_locked(elongation, -one);
+        // nothing leaves where there are no rings and no film spool
+        let speed = move || match leaving.is_zero() {
+            true => size(moving) + absolute(webbing.taken_in),
+            false => size(moving) + absolute(webbing.taken_in) + absolute(leaving),
+        };
+        let unloading = belt.hysteresis.as_ref().map(|law| &law.unloading);
+        let belt_curves = [
+            (Some(&belt.force), "curve"),
+            (unloading.and_then(Option::as_ref), "unloading curve"),
+        ];
+        for (curve, which) in belt_curves {
+            let Some(curve) = curve else { continue };
+            loads.corners(&self.owner, which, gate, curve, below, move || {
+                speed() / webbing.length
+            });
+        }
+        loads.onset(format!("{}: goes taut", self.owner), move || {
+            gate.of_onset(Onset {
+                gap: webbing.once_locked(webbing.length - span, graph.constant(FAR)),
+                speed: speed(),
+            })
+        });
+    }
+}
+
+impl<'g> Webbing<'g> {
+    /// `then` once a retractor, if there is one, has locked; `otherwise` before.
+    pub fn once_locked(&self, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
+        self.retractor
+            .map_or(then, |(lock, _)| lock.once(then, otherwise))
+    }
+}
+
+/// The elastic tension, and the elongation that remains without it.
+fn elastic<'g>(
+    law: Law<'_, 'g>,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    ratio: Expr<'g>,
+    below: impl Fn() -> Expr<'g> + Copy + 'g,
+) -> (Expr<'g>, Expr<'g>) {
+    let Law { graph, belt, .. } = law;
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    match &belt.hysteresis {
+        Some(law) => {
+            // what is remembered must be finite, and a curve need not be defined while slack
+            let elongation = (ratio - one).max(zero);
+            let loading = curve(graph, &belt.force, elongation);
+            hysteresis::apply(loads, owner, "", law, elongation, loading, below)
+        }
+        None => (curve(graph, &belt.force, ratio - one), zero),
+    }
+}
+
+/// Counts the powers of a segment whose webbing pulls with `undamped` and, with damping, with `stretched`, at the rate of stretch `stretching`.
+fn works<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    segment: &Segment<'g>,
+    [undamped, stretched]: [Expr<'g>; 2],
+    spool: Option<Expr<'g>>,
+    stretching: Expr<'g>,
+) {
+    let (zero, half) = (graph.constant(0.0), graph.constant(0.5));
+    let (webbing, owner) = (&segment.webbing, &segment.owner);
+    let locked = |tension: Expr<'g>| webbing.once_locked(tension, zero);
+    let elastic = locked(undamped);
+    match webbing.limiter {
+        Some(Limiter { pays, .. }) => {
+            let (stores, yields) = (
+                choose(pays, half, elastic, zero),
+                choose(pays, half, zero, elastic),
+            );
+            loads.work(
+                format!("{owner}: elastic"),
+                Product::Scalars(-stores, stretching),
+            );
+            loads.work(
+                format!("{owner}: limiter"),
+                Product::Scalars(-yields, stretching),
+            );
+        }
+        None => loads.work(
+            format!("{owner}: elastic"),
+            Product::Scalars(-elastic, stretching),
+        ),
+    }
+    if undamped.id() != stretched.id() {
+        let damping = locked(stretched) - elastic;
+        loads.work(
+            format!("{owner}: damping"),
+            Product::Scalars(-damping, stretching),
+        );
+    }
+    if !webbing.taken_in.is_zero() {
+        let work = format!("{owner}: pretensioner");
+        loads.work(work, Product::Scalars(locked(stretched), webbing.taken_in));
+    }
+    if let Some(spool) = spool {
+        let free = webbing.once_locked(zero, spool);
+        loads.work(
+            format!("{owner}: retractor"),
+            Product::Scalars(-free, segment.rate + segment.leaving),
+        );
+    }
+}
+
+/// √ of a squared distance, never 0.
+pub fn length<'g>(graph: &'g Graph, squared: Expr<'g>) -> Expr<'g> {
+    squared.max(graph.constant(SMALLEST_SQUARED_LENGTH)).sqrt()
+}
+
+/// Lengths of the segments at the start.
+fn initial_lengths<'g>(graph: &'g Graph, start: &Motion<'g>, belt: &Belt) -> Vec<Expr<'g>> {
+    let points: Vec<&Attachment> = belt.points().collect();
+    let pairs = points.windows(2);
+    pairs
+        .map(|ends| {
+            between(graph, ends[0], ends[1]).unwrap_or_else(|| {
+                let point = |end: &Attachment| start.attachment(graph, end).position;
+                length(graph, (point(ends[1]) - point(ends[0])).squared())
+            })
+        })
+        .collect()
+}
+
+fn sum<'g>(lengths: &[Expr<'g>]) -> Expr<'g> {
+    lengths[1..].iter().fold(lengths[0], |sum, &l| sum + l)
+}
+
+/// What parameters must not make negative: by how much the length at the start is more than nothing \[m\]. A given length is ruled by
+/// itself.
+pub fn length_at_start<'g>(graph: &'g Graph, start: &Motion<'g>, belt: &Belt) -> Expr<'g> {
+    let slack = match &belt.length {
+        BeltLength::Given(_) => return graph.constant(0.0),
+        BeltLength::Slack(slack) => number(graph, slack),
+        BeltLength::Pretension(_) => graph.constant(0.0),
+    };
+    sum(&initial_lengths(graph, start, belt)) + slack - graph.constant(SHORTEST)
+}
+
+/// L₀ of a segment. A length and a slack of several are shared out by the distances at the start, so that all have the same tension.
+fn untensioned_length<'g>(
+    graph: &'g Graph,
+    belt: &Belt,
+    initials: &[Expr<'g>],
+    index: usize,
+) -> Expr<'g> {
+    let (initial, alone) = (initials[index], initials.len() == 1);
+    let under = |tension| {
+        let elongation = inverse(graph, &belt.force, number(graph, tension));
+        initial / (graph.constant(1.0) + elongation)
+    };
+    match (&belt.length, &belt.retractor) {
+        // what the reel holds at the start
+        (_, Some(retractor)) if index > 0 && !retractor.spool.is_zero() => under(&retractor.spool),
+        (BeltLength::Given(length), _) if alone => number(graph, length),
+        (BeltLength::Given(length), _) => number(graph, length) * (initial / sum(initials)),
+        (BeltLength::Slack(slack), _) if alone || slack.is_zero() => initial + number(graph, slack),
+        (BeltLength::Slack(slack), _) => initial + number(graph, slack) * (initial / sum(initials)),
+        (BeltLength::Pretension(force), _) => under(force),
+    }
+}

@@ -1,0 +1,271 @@
+//! Webbing that is paid out and taken in: what the untensioned length ℓ of a belt of length L becomes, or that of its first segment.
+//!
+//! ℓ = b − r + x + y − s
+//!
+//! | | |
+//! |---|---|
+//! | b | L₀; with a retractor such that the belt pulls with its spool, b − r + x − s = L/(1 + ε_s), until it locks: the b of that moment is remembered |
+//! | r | what the pretensioner has taken in, a curve of the time since it fired |
+//! | x | what the limiter has paid out for good, remembered: x ← max(x, L/(1 + ε_F) − b + r − y + s) |
+//! | y | what the film spool has given, a state: c ẏ = T − T_s − curve(y) once the retractor has locked, and ẏ ≥ −y/τ, so that y ≥ 0 |
+//! | s | what has slipped out through the first ring |
+//!
+//! ε_s and ε_F are the elongations at which the curve takes the tensions of the retractor and of the limiter. What is remembered
+//! is so when a step is accepted, and gives the very tension that there was: nothing jumps where a step ends.
+//!
+//! While the limiter pays out, x follows L also within a step, so that the elongation stays at ε_F; whether it does is
+//! remembered too, and guards end the steps where it begins, L = (1 + ε_F) ℓ, and where it ends because the webbing no more
+//! lengthens, L̇ + (1 + ε_F) (ṙ + ṡ − ẏ) = 0.
+
+use super::Law;
+use crate::dynamics::force::switch::Remembered;
+use crate::dynamics::force::{Acts, Loads, choose};
+use crate::dynamics::numbers::{curve, derivative, inverse, number};
+use crate::dynamics::time;
+use crate::expression::{Expr, Function, Graph};
+use crate::law::belt::check::{RESISTANCE, SHORTEST};
+use crate::model::{Belt, Number};
+
+/// Most kinks of the curve of a pretensioner that steps end at; those of a curve of more points are passed as smooth.
+const MOST_KINKS: usize = 32;
+
+/// Rate below which nothing is said of whether webbing grows or shrinks, where some slips \[m/s\]: slip settles within a time that is short
+/// beside a step, and leaves the sign of a small rate to errors of the last digits.
+pub const NOISE: f64 = 1e-3;
+
+/// Time within which a film spool takes back the webbing that it gave, where nothing pulls \[s\].
+const BACK: f64 = 1e-3;
+
+/// What is known of the webbing of a belt.
+#[derive(Clone, Copy)]
+pub struct Webbing<'g> {
+    /// ℓ \[m\].
+    pub length: Expr<'g>,
+    /// ℓ at the start \[m\].
+    pub initial: Expr<'g>,
+    /// ṙ, the rate at which it is taken in \[m/s\].
+    pub taken_in: Expr<'g>,
+    /// Length of the belt up to which it is not damped: ℓ, or that at which a retractor locked \[m\].
+    pub undamped: Expr<'g>,
+    /// The switch that locks the retractor, and the tension until then \[N\].
+    pub retractor: Option<(Remembered<'g>, Expr<'g>)>,
+    /// What the film spool has given: its state.
+    pub film: Option<(usize, Expr<'g>)>,
+    /// The limiter.
+    pub limiter: Option<Limiter<'g>>,
+}
+
+/// A limiter, as far as it is known before the rates are.
+#[derive(Clone, Copy)]
+pub struct Limiter<'g> {
+    /// Its force \[N\].
+    pub force: Expr<'g>,
+    /// 1 while it pays out, else 0.
+    pub pays: Expr<'g>,
+    /// The memory of that.
+    paying: usize,
+    /// 1 + ε_F
+    yields: Expr<'g>,
+    /// L − (1 + ε_F) ℓ, of the ℓ that is remembered \[m\].
+    beyond: Expr<'g>,
+}
+
+/// The webbing of a belt, or of its first segment, that spans `span` \[m\] now and `initial_span` at the start; `untensioned` is L₀ \[m\],
+/// `slipped` has gone out of it.
+pub fn webbing<'g>(
+    law: Law<'_, 'g>,
+    loads: &mut Loads<'g>,
+    [span, initial_span]: [Expr<'g>; 2],
+    untensioned: Expr<'g>,
+    slipped: Option<Expr<'g>>,
+) -> Webbing<'g> {
+    let Law {
+        graph, name, belt, ..
+    } = law;
+    let (zero, one, half) = (
+        graph.constant(0.0),
+        graph.constant(1.0),
+        graph.constant(0.5),
+    );
+    let (taken, taken_in) = pretensioner(law, loads);
+    let paid = belt.limiter.as_ref().map(|force| {
+        let (paid, payout) = loads.memory(format!("belt {name}: paid out"), "m", zero);
+        let (paying, pays) = loads.memory(format!("belt {name}: pays out"), "", zero);
+        (force, (paid, payout), (paying, pays))
+    });
+    let payout = paid.map_or(zero, |(_, (_, payout), _)| payout);
+    let film = belt
+        .film_spool
+        .as_ref()
+        .map(|_| loads.auxiliary(format!("belt {name}: given by the film spool"), "m", zero));
+    // what makes ℓ longer beside the devices
+    let given = match (film, slipped) {
+        (Some((_, film)), Some(slipped)) => film - slipped,
+        (Some((_, film)), None) => film,
+        (None, Some(slipped)) => -slipped,
+        (None, None) => zero,
+    };
+
+    let (mut base, mut initial, mut undamped, mut reel) = (untensioned, untensioned, one, None);
+    if let Some(retractor) = &belt.retractor {
+        undamped = one + elongation(graph, belt, &retractor.spool);
+        initial = initial_span / undamped;
+        let lock = loads.states.switches[retractor.lock];
+        let (index, locked) = loads.memory(format!("belt {name}: locked length"), "m", initial);
+        base = lock.once(locked, span / undamped + taken - payout - given);
+        loads.states.memory[index].next = base;
+        reel = Some((lock, number(graph, &retractor.spool)));
+    }
+
+    let mut length = base - taken + given;
+    let limiter = paid.map(|(force, (paid, payout), (paying, pays))| {
+        let yields = one + elongation(graph, belt, force);
+        let paid_now = payout.max(span / yields - length);
+        let beyond = span - yields * (length + payout);
+        length = length + choose(pays, half, payout, paid_now);
+        loads.states.memory[paid].next = paid_now;
+        Limiter {
+            force: number(graph, force),
+            pays,
+            paying,
+            yields,
+            beyond,
+        }
+    });
+    if belt.pretensioner.is_some() || slipped.is_some() {
+        length = length.max(graph.constant(SHORTEST));
+    }
+    Webbing {
+        length,
+        initial,
+        taken_in,
+        undamped: undamped * length,
+        retractor: reel,
+        film,
+        limiter,
+    }
+}
+
+impl<'g> Webbing<'g> {
+    /// That of a segment without devices, of the length L₀; webbing has slipped `fed[0]` into it and `fed[1]` out of it.
+    pub fn without_devices(untensioned: Expr<'g>, fed: [Option<Expr<'g>>; 2]) -> Self {
+        let graph = untensioned.graph();
+        let length = match fed {
+            [Some(into), Some(out)] => untensioned + (into - out),
+            [Some(into), None] => untensioned + into,
+            [None, Some(out)] => untensioned - out,
+            [None, None] => untensioned,
+        };
+        let length = length.max(graph.constant(SHORTEST));
+        Webbing {
+            length,
+            initial: untensioned,
+            taken_in: graph.constant(0.0),
+            undamped: length,
+            retractor: None,
+            film: None,
+            limiter: None,
+        }
+    }
+
+    /// Watches where the limiter begins to pay out, and where it ends. The span lengthens at the rate `rate`, webbing leaves at `leaving`.
+    pub fn watch_limiter(&self, loads: &mut Loads<'g>, name: &str, [rate, leaving]: [Expr<'g>; 2]) {
+        let Some(limiter) = self.limiter else { return };
+        let graph = rate.graph();
+        let (zero, one, half) = (
+            graph.constant(0.0),
+            graph.constant(1.0),
+            graph.constant(0.5),
+        );
+        let lengthens = rate + limiter.yields * (self.taken_in + leaving);
+        let ends = match leaving.is_zero() {
+            true => lengthens,
+            false => lengthens + graph.constant(NOISE),
+        };
+        let guard = choose(limiter.pays, half, -limiter.beyond, ends);
+        let begins = choose(guard, zero, choose(zero, lengthens, one, zero), zero);
+        let ends = choose(guard, zero, zero, one);
+        loads.states.memory[limiter.paying].next = choose(limiter.pays, half, begins, ends);
+        loads.guard(format!("belt {name}: limiter"), guard);
+    }
+
+    /// The rate at which the film spool gives webbing, which pulls with `tension`; nothing without one.
+    pub fn film(
+        &self,
+        law: Law<'_, 'g>,
+        loads: &mut Loads<'g>,
+        tension: Expr<'g>,
+    ) -> Option<Expr<'g>> {
+        let ((index, given), (_, spool)) = (self.film?, self.retractor?);
+        let (graph, film) = (law.graph, law.belt.film_spool.as_ref()?);
+        let owner = format!("belt {}", law.name);
+        loads.curve_of_state(&owner, "film spool", film, Acts::Everywhere, move || given);
+        let resistance = graph.constant(RESISTANCE);
+        let pulled = (tension - spool - curve(graph, film, given)) / resistance;
+        let back = given / graph.constant(-BACK);
+        let rate = self.once_locked(pulled.max(back), graph.constant(0.0));
+        loads.states.auxiliaries[index].next = rate;
+        let webbing = *self;
+        loads.kink(format!("{owner}: film spool"), move || {
+            webbing.once_locked(pulled - back, graph.constant(1.0))
+        });
+        Some(rate)
+    }
+}
+
+/// The elongation at which the curve takes a tension.
+fn elongation<'g>(graph: &'g Graph, belt: &Belt, tension: &Number) -> Expr<'g> {
+    let tension = number(graph, tension);
+    if tension.is_zero() {
+        return tension;
+    }
+    inverse(graph, &belt.force, tension)
+}
+
+/// r and ṙ, both 0 until it fires and for its delay; and a guard at each kink.
+fn pretensioner<'g>(law: Law<'_, 'g>, loads: &mut Loads<'g>) -> (Expr<'g>, Expr<'g>) {
+    let Law {
+        graph,
+        model,
+        name,
+        belt,
+        ..
+    } = law;
+    let zero = graph.constant(0.0);
+    let Some(pretensioner) = &belt.pretensioner else {
+        return (zero, zero);
+    };
+    let (fire, retract) = (
+        loads.states.switches[pretensioner.fire],
+        &pretensioner.retract,
+    );
+    let now = time(graph);
+    let delay = pretensioner
+        .delay
+        .as_ref()
+        .map(|delay| number(graph, delay));
+    let begins = delay.map_or(fire.since, |delay| fire.since + delay);
+    let since = (now - begins).max(zero);
+    let slope = derivative(graph, retract, Function::CurveSlope, since);
+    // before it begins, the slope is that of the first piece
+    let slope = match delay {
+        Some(_) => choose(now, begins, zero, slope),
+        None => slope,
+    };
+    let rate = fire.once(slope, zero);
+
+    let points = &model.curves[retract.curve].points;
+    if delay.is_some() {
+        let guard = format!("belt {name}: begin of the pretensioner");
+        loads.guard(guard, begins - now);
+    }
+    for (index, point) in points.iter().enumerate().skip(1) {
+        if points.len() <= MOST_KINKS {
+            let kink = point[0] * number(graph, &retract.stretch);
+            let left = begins + kink - now;
+            let guard = format!("belt {name}: point {} of the pretensioner", index + 1);
+            loads.guard(guard, left);
+        }
+    }
+    (curve(graph, retract, since), rate)
+}

@@ -1,0 +1,10 @@
+//! A belt between two points, straight or through rings, with its devices.
+
+pub(crate) mod check;
+pub(crate) mod force;
+pub mod keys;
+pub(crate) mod outputs;
+pub(crate) mod terms;
+
+pub use check::*;
+pub use outputs::*;

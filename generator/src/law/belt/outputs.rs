@@ -1,0 +1,195 @@
+//! What can be asked of a belt: of the whole, of a segment, of a ring.
+
+use super::check::Belt;
+use crate::description::output::Output as Written;
+use crate::description::place::At;
+use crate::diagnostic::quoted;
+use crate::expression::Expr;
+use crate::expression::vector::Vec3;
+use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::model::resolve::Resolver;
+use crate::model::resolve::output::has_direction;
+use crate::model::{Body, Quantity};
+use std::fmt;
+
+/// Of a belt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BeltQuantity {
+    /// Tension \[N\].
+    Force,
+    /// Distance of the attachments \[m\].
+    Length,
+    /// (L − L₀)/L₀.
+    Elongation,
+    /// L₀ \[m\].
+    UntensionedLength,
+    /// Growth of L₀ since the start \[m\]; of a belt that runs through rings of all segments together.
+    Payout,
+    /// Untensioned length of webbing that has slipped through a ring since the start, from the side of `from` \[m\].
+    Slip,
+    /// Elongation at which the unloading line meets no force; 0 without hysteresis.
+    PermanentSet,
+}
+
+/// Which quantity of a belt, and of which part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BeltOutput {
+    /// The segment, or the ring, counted from the end `from`; 0 where there are no rings.
+    pub part: usize,
+    /// What of it.
+    pub what: BeltQuantity,
+}
+
+impl OfLaw for BeltOutput {
+    fn digest(&self, text: &mut fmt::DebugStruct<'_, '_>) {
+        text.field("part", &self.part).field("what", &self.what);
+    }
+}
+
+const TABLE: [(&str, &str, BeltQuantity); 7] = [
+    ("force", "N", BeltQuantity::Force),
+    ("length", "m", BeltQuantity::Length),
+    ("elongation", "", BeltQuantity::Elongation),
+    ("untensioned_length", "m", BeltQuantity::UntensionedLength),
+    ("payout", "m", BeltQuantity::Payout),
+    ("permanent_set", "", BeltQuantity::PermanentSet),
+    ("slip", "m", BeltQuantity::Slip),
+];
+
+impl Outputs for Belt {
+    fn output(
+        &self,
+        resolver: &Resolver<'_>,
+        written: &Written,
+        force: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        resolver.without(at, &["at", "about", "relative_to"], "a belt");
+        let (what, unit) = resolver.look_up(written, &TABLE, "a belt", at)?;
+        if what == BeltQuantity::Force && has_direction(written) {
+            resolver.without(at, &["segment", "ring"], "the force on a body");
+            let quantity = match self.rings.is_empty() {
+                true => resolver.force_on(written, force, [self.from.on, self.to.on], at)?,
+                false => {
+                    let bodies: Vec<Body> = self.points().map(|point| point.on).collect();
+                    resolver.on_points(written, force, &bodies, at)?
+                }
+            };
+            return Some((quantity, unit));
+        }
+        let part = match what {
+            BeltQuantity::Slip => {
+                resolver.without(at, &["segment"], "the slip through a ring");
+                ring(resolver, written, self, at)
+            }
+            BeltQuantity::Payout => {
+                resolver.without(at, &["segment", "ring"], "the whole belt");
+                Some(0)
+            }
+            _ => {
+                resolver.without(at, &["ring"], "anything but `what: slip`");
+                segment(resolver, written, self, at)
+            }
+        };
+        let asked = Asked::Belt(BeltOutput {
+            part: part.unwrap_or_default(),
+            what,
+        });
+        let quantity = resolver.scalar(force, asked, at);
+        part.map(|_| (quantity, unit))
+    }
+}
+
+/// The ring that an output names.
+fn ring(resolver: &Resolver<'_>, written: &Written, belt: &Belt, at: At<'_>) -> Option<usize> {
+    let names: Vec<String> = belt.rings.iter().map(|ring| quoted(&ring.name)).collect();
+    let help = match names.is_empty() {
+        true => "write the rings of the belt in its `through`".to_owned(),
+        false => format!("name one by `ring:`; the belt has {}", names.join(", ")),
+    };
+    let Some(name) = &written.ring else {
+        let problem = "the slip of a belt is that through one of its rings";
+        resolver.problems.add(at.key("what").problem(problem, help));
+        return None;
+    };
+    let found = belt.rings.iter().position(|ring| ring.name == *name);
+    if found.is_none() {
+        let problem = format!("the belt has no ring {}", quoted(name));
+        resolver.problems.add(at.key("ring").problem(problem, help));
+    }
+    found
+}
+
+/// The segment that an output asks for, from 0 on.
+fn segment(resolver: &Resolver<'_>, written: &Written, belt: &Belt, at: At<'_>) -> Option<usize> {
+    let count = belt.rings.len() + 1;
+    match written.segment {
+        None if count == 1 => Some(0),
+        Some(number) if (1..=count).contains(&(number as usize)) => Some(number as usize - 1),
+        None => {
+            resolver.problems.add(at.key("what").problem(
+                format!(
+                    "the belt runs through rings, and each of its {count} segments has its own {}",
+                    written.what
+                ),
+                format!("add `segment: 1` for that at its end `from`, up to `segment: {count}`"),
+            ));
+            None
+        }
+        Some(number) => {
+            resolver.problems.add(at.key("segment").problem(
+                format!("the belt has no segment {number}"),
+                format!("segments are counted from 1, at the end `from`, to {count}"),
+            ));
+            None
+        }
+    }
+}
+
+/// Of a belt.
+pub struct BeltMeasures<'g> {
+    /// The force on each of its points, from its end `from` to its end `to` \[N\].
+    pub on: Vec<Vec3<'g>>,
+    /// Its straight parts, from `from` on.
+    pub segments: Vec<SegmentMeasures<'g>>,
+    /// What has slipped through each ring, from the side of `from` \[m\].
+    pub slipped: Vec<Expr<'g>>,
+    /// What its untensioned length has grown since the start \[m\].
+    pub payout: Expr<'g>,
+}
+
+/// Of a straight part of a belt.
+#[derive(Clone, Copy)]
+pub struct SegmentMeasures<'g> {
+    /// Tension \[N\].
+    pub tension: Expr<'g>,
+    /// Distance of its points \[m\].
+    pub length: Expr<'g>,
+    /// Relative elongation.
+    pub elongation: Expr<'g>,
+    /// Untensioned length \[m\].
+    pub untensioned: Expr<'g>,
+    /// Elongation at which the unloading line meets no force; 0 without hysteresis.
+    pub permanent_set: Expr<'g>,
+}
+
+impl<'g> Measures<'g> for BeltMeasures<'g> {
+    fn on(&self) -> Vec<Vec3<'g>> {
+        self.on.clone()
+    }
+
+    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
+        let Asked::Belt(BeltOutput { part, what }) = asked else {
+            return None;
+        };
+        Some(Value::Scalar(match what {
+            BeltQuantity::Force => self.segments[*part].tension,
+            BeltQuantity::Length => self.segments[*part].length,
+            BeltQuantity::Elongation => self.segments[*part].elongation,
+            BeltQuantity::UntensionedLength => self.segments[*part].untensioned,
+            BeltQuantity::Payout => self.payout,
+            BeltQuantity::PermanentSet => self.segments[*part].permanent_set,
+            BeltQuantity::Slip => self.slipped[*part],
+        }))
+    }
+}

@@ -1,0 +1,222 @@
+//! The terms of a belt: its curves, its untensioned length, its devices.
+
+use super::check::{Belt, BeltLength, Pretensioner, Retractor, Ring};
+use crate::law::Terms;
+use crate::model::part::{Field, Fresh, Part, Term, as_written, attachment};
+use crate::model::requirement::{Curves, List};
+use crate::model::rule::{Rule, Ruled};
+use crate::model::{Body, Curve, Dimension, Extrapolate, Number, ScaledCurve};
+
+impl Terms for Belt {
+    fn fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
+        let Belt {
+            from,
+            to,
+            rings,
+            force,
+            hysteresis,
+            damping,
+            damping_stretch,
+            length,
+            retractor,
+            film_spool,
+            pretensioner,
+            limiter,
+        } = self;
+        attachment(from, "from.at", fields);
+        for (index, ring) in rings.iter_mut().enumerate() {
+            let Ring {
+                name,
+                on,
+                friction,
+                resistance,
+            } = ring;
+            let key = |key: &str| format!("through[{index}].{key}");
+            attachment(on, &key("at"), fields);
+            let slips = Field::Number(key("resistance"), Rule::Positive, resistance);
+            fields.push(slips);
+            let rubs = Term::new(
+                format!("friction of ring {name}"),
+                key("friction"),
+                Rule::NotNegative,
+            );
+            fields.push(Field::Term(rubs.needs("it has no elastic force"), friction));
+        }
+        attachment(to, "to.at", fields);
+        let name = match length {
+            BeltLength::Given(_) => "given length",
+            BeltLength::Slack(_) => "slack",
+            BeltLength::Pretension(_) => "pretension",
+        };
+        let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
+        let mut elastics = term("elastic", "force");
+        elastics.keys.push("stiffness".into());
+        fields.push(Field::Term(elastics, force));
+        let mut unloading = term("hysteresis", "unloading").needs("it has no elastic force");
+        unloading.keys.push("unloading_slope".into());
+        fields.push(Field::Term(unloading, hysteresis));
+        fields.push(Field::Term(term("damping", "damping"), damping));
+        let fade = term("damping fades in", "damping_stretch").needs("there is no damping");
+        fields.push(Field::Term(fade.only_as_written(), damping_stretch));
+        let needs = "it has no elastic force";
+        let device = |name: &str, rule| Term::new(name, name, rule).needs(needs).only_as_written();
+        fields.push(Field::Term(device("retractor", Rule::Finite), retractor));
+        let film = Term::new("film spool", "retractor.film_spool", Rule::Finite);
+        let film = film.needs("there is no retractor").only_as_written();
+        fields.push(Field::Term(film, film_spool));
+        fields.push(Field::Term(
+            device("pretensioner", Rule::Finite),
+            pretensioner,
+        ));
+        fields.push(Field::Term(device("limiter", Rule::Positive), limiter));
+        let mut untensioned = term(name, "length").needs("it has no elastic force");
+        untensioned
+            .keys
+            .extend(["slack", "pretension"].map(String::from));
+        fields.push(Field::Term(untensioned, length));
+    }
+
+    fn settle(&mut self) {
+        // No length is such that no force is the pretension.
+        if !self.force.is_in() && matches!(self.length, BeltLength::Pretension(_)) {
+            self.length.leave_out();
+        }
+        if !self.force.is_in() {
+            self.hysteresis = None;
+        }
+        if self.damping.is_none() {
+            self.damping_stretch = None;
+        }
+        // The length is what the reel has paid out.
+        match self.retractor {
+            Some(_) => self.length.leave_out(),
+            None => self.film_spool = None,
+        }
+    }
+
+    fn require(&self, _: Dimension, curves: Curves<'_>, list: &mut List<'_>) {
+        let times = &self.force.times;
+        match self.force.stiffness {
+            true => list.number("stiffness".into(), times, Rule::Positive),
+            false => list.number("force.times".into(), times, Rule::NotZero),
+        }
+        if let Some(law) = &self.hysteresis {
+            list.hysteresis("force", &self.force, law, curves);
+        }
+        if let Some(film) = &self.film_spool {
+            list.together(
+                "retractor.film_spool",
+                "must come to an end",
+                film.times.clone(),
+                Rule::Positive,
+                "scale the curve by a factor above 0; leave `film_spool` out for a reel that holds at once",
+            );
+        }
+        let spool = self.retractor.as_ref().map(|r| &r.spool);
+        if let (Some(spool), Some(limit)) = (spool, &self.limiter) {
+            list.together(
+                "retractor.spool",
+                "must be smaller than the force of the limiter",
+                Number::difference(limit.clone(), spool.clone()),
+                Rule::Positive,
+                "let `spool` be smaller than the force of the limiter",
+            );
+        }
+        let pretension = match &self.length {
+            BeltLength::Pretension(force) => Some(force),
+            BeltLength::Given(_) | BeltLength::Slack(_) => None,
+        };
+        let tensions = [
+            ("limiter", self.limiter.as_ref()),
+            ("retractor.spool", spool.filter(|spool| !spool.is_zero())),
+            ("pretension", pretension),
+        ];
+        let Some(curve) = curves(self.force.curve) else {
+            return;
+        };
+        for (path, tension) in tensions {
+            if let Some(tension) = tension {
+                list.reached(path, tension, curve, times);
+            }
+        }
+    }
+
+    fn bodies_mut(&mut self) -> Vec<&mut Body> {
+        self.points_mut().map(|point| &mut point.on).collect()
+    }
+
+    fn switches_mut(&mut self) -> Vec<&mut usize> {
+        let lock = self.retractor.iter_mut().map(|r| &mut r.lock);
+        let fire = self.pretensioner.iter_mut().map(|p| &mut p.fire);
+        lock.chain(fire).collect()
+    }
+
+    fn flatten(&mut self) -> bool {
+        self.points_mut()
+            .for_each(|point| point.at[1] = Number::ZERO);
+        true
+    }
+}
+
+/// The untensioned length; absent where the belt is just taut at the start.
+impl Part for BeltLength {
+    fn is_in(&self) -> bool {
+        match self {
+            BeltLength::Given(_) => true,
+            BeltLength::Slack(number) | BeltLength::Pretension(number) => !number.is_zero(),
+        }
+    }
+    fn leave_out(&mut self) {
+        *self = BeltLength::Slack(Number::ZERO);
+    }
+    fn put_in(&mut self, fresh: &mut Fresh<'_>) {
+        if !self.is_in() {
+            *self = BeltLength::Slack(fresh.number(0.0));
+        }
+    }
+    fn zero(&self) -> &'static str {
+        "the belt is just taut at the start"
+    }
+    fn numbers(&mut self) -> Vec<Ruled<'_>> {
+        vec![match self {
+            BeltLength::Given(number) => Ruled::itself(Rule::Positive, number),
+            BeltLength::Slack(number) => Ruled::beside("slack", Rule::NotNegative, number),
+            BeltLength::Pretension(number) => {
+                Ruled::beside("pretension", Rule::NotNegative, number)
+            }
+        }]
+    }
+}
+
+as_written! {
+    Retractor { spool: NotNegative } {} [] - lock;
+    Pretensioner {} { delay: NotNegative } [retract] - fire;
+}
+
+impl List<'_> {
+    /// A tension belongs to one elongation only where the curve rises to it. That it does so all the way, or falls, is of its points.
+    fn reached(&mut self, path: &str, tension: &Number, curve: &Curve, times: &Number) {
+        let last = curve.points.len() - 1;
+        let reach = curve.points[last][1];
+        let rising = if reach < 0.0 { -1.0 } else { 1.0 };
+        self.together(
+            path,
+            "must be reached by the force curve, which must rise",
+            Number::product(rising.into(), times.clone()),
+            Rule::Positive,
+            "scale the curve by a factor that lets it rise",
+        );
+        let goes_on =
+            curve.extrapolate == Extrapolate::Linear && curve.tangent(last) * rising > 0.0;
+        if !goes_on {
+            let most = Number::product(reach.into(), times.clone());
+            self.together(
+                path,
+                "must be reached by the force curve, which must rise",
+                Number::difference(most, tension.clone()),
+                Rule::NotNegative,
+                "add points to the curve, or write `extrapolate: linear`",
+            );
+        }
+    }
+}

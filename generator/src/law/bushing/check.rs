@@ -1,0 +1,134 @@
+//! Bushings: two frames, and a law for each direction.
+
+use super::keys::{Bushing as Written, Direction as WrittenDirection, Directions, Mount as End};
+use crate::description::place::At;
+use crate::diagnostic::quoted;
+use crate::model::resolve::quantity::{
+    ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, STIFFNESS,
+    TORQUE,
+};
+use crate::model::resolve::{AXES, NOWHERE, Resolver};
+use crate::model::{Attachment, Number, ScaledCurve};
+
+/// Springs and dampers in six directions between frames of two bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bushing {
+    /// The frame in whose axes the laws are.
+    pub from: Mount,
+    /// The frame that moves against it.
+    pub to: Mount,
+    /// Laws of the displacement, by axis; in the plane the first and third are used.
+    pub along: [Direction; 3],
+    /// Laws of the rotation, by Bryant angle; in the plane the second is used.
+    pub about: [Direction; 3],
+}
+
+/// A frame on a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mount {
+    /// Its origin.
+    pub on: Attachment,
+    /// Bryant angles of its axes relative to the body's frame \[rad\]. In the plane only the second.
+    pub axes: [Number; 3],
+}
+
+/// The law of one direction.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Direction {
+    /// Force as a function of the displacement \[m\] → \[N\], or moment of the angle \[rad\] → \[N m\].
+    pub elastic: Option<ScaledCurve>,
+    /// Viscous coefficient \[N s/m\] or \[N m s/rad\].
+    pub damping: Option<Number>,
+}
+
+/// What the numbers of a direction are: of the curve, of its slope, of the damping.
+type Measures = ([Expected; 3], Expected);
+
+/// Along an axis.
+const ALONG: Measures = ([LENGTH, FORCE, STIFFNESS], LINEAR_DAMPING);
+
+/// About an axis.
+const ABOUT: Measures = ([ANGLE, TORQUE, ANGULAR_STIFFNESS], ANGULAR_DAMPING);
+
+/// The checked form of a bushing.
+pub(crate) fn bushing(
+    resolver: &mut Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+) -> Option<Bushing> {
+    let name = &written.bushing;
+    let from = mount(resolver, &written.from, at.key("from"));
+    let to = mount(resolver, &written.to, at.key("to"));
+    if let (Some(a), Some(b)) = (&from, &to)
+        && a.on.on == b.on.on
+    {
+        resolver.problems.add(at.key("to").problem(
+            format!("both ends of bushing {} are on the same body", quoted(name)),
+            "a bushing stands between two bodies; `frame` is the absolute frame",
+        ));
+    }
+    let along = directions(resolver, written.along.as_ref(), (name, "along"), ALONG, at);
+    let about = directions(resolver, written.about.as_ref(), (name, "about"), ABOUT, at);
+    Some(Bushing {
+        from: from?,
+        to: to?,
+        along,
+        about,
+    })
+}
+
+fn mount(resolver: &Resolver<'_>, written: &End, at: At<'_>) -> Option<Mount> {
+    let axes = match &written.axes {
+        Some(axes) => resolver.rotation(axes, at.key("axes"), ANGLE),
+        None => NOWHERE,
+    };
+    let position = resolver.vector(&written.at, at.key("at"), LENGTH);
+    let on = resolver.body(&written.on, at.key("on"))?;
+    Some(Mount {
+        on: Attachment { on, at: position },
+        axes,
+    })
+}
+
+/// The laws of the bushing of this name under this key.
+fn directions(
+    resolver: &mut Resolver<'_>,
+    written: Option<&Directions>,
+    (name, key): (&str, &str),
+    measures: Measures,
+    at: At<'_>,
+) -> [Direction; 3] {
+    let mut laws: [Direction; 3] = Default::default();
+    let Some(written) = written else {
+        return laws;
+    };
+    let each = [&written.x, &written.y, &written.z];
+    for (axis, law) in each.into_iter().enumerate() {
+        let place = at.key(key).key(AXES[axis]);
+        let Some(law) = law else { continue };
+        if resolver.planar && (axis == 1) != (key == "about") {
+            resolver.problems.add(place.key_problem(
+                "in the plane nothing moves along y, nor turns about x and z",
+                "a planar bushing has `along: { x: …, z: … }` and `about: { y: … }`",
+            ));
+            continue;
+        }
+        let owner = format!("bushing {name} {key} {}", AXES[axis]);
+        laws[axis] = direction(resolver, law, &owner, measures, place);
+    }
+    laws
+}
+
+fn direction(
+    resolver: &mut Resolver<'_>,
+    written: &WrittenDirection,
+    owner: &str,
+    (curve, damping): Measures,
+    at: At<'_>,
+) -> Direction {
+    let elastic = ("elastic", written.elastic.as_ref());
+    Direction {
+        elastic: resolver.elastic(elastic, written.stiffness.as_ref(), at, owner, curve),
+        damping: resolver.coefficient(written.damping.as_ref(), at.key("damping"), damping),
+    }
+}

@@ -1,0 +1,138 @@
+//! What can be asked of a bushing.
+
+use super::check::Bushing;
+use crate::description::output::Output as Written;
+use crate::description::place::At;
+use crate::expression::Expr;
+use crate::expression::vector::Vec3;
+use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::model::resolve::Resolver;
+use crate::model::{Body, Component, Projection, Quantity};
+
+/// Of a bushing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BushingQuantity {
+    /// Force on a body \[N\]; whether that is the second, which feels the opposite of the first.
+    Force(bool, Projection),
+    /// Moment on a body \[N m\], likewise.
+    Moment(bool, Projection),
+    /// Displacement of the second frame in the axes of the first \[m\].
+    Displacement(Component),
+    /// Bryant angle of the second frame against the first \[rad\], by its index.
+    Angle(usize),
+}
+
+impl OfLaw for BushingQuantity {
+    fn projection_mut(&mut self) -> Option<&mut Projection> {
+        match self {
+            BushingQuantity::Force(_, projection) | BushingQuantity::Moment(_, projection) => {
+                Some(projection)
+            }
+            BushingQuantity::Displacement(_) | BushingQuantity::Angle(_) => None,
+        }
+    }
+
+    fn exists_in_plane(&self) -> bool {
+        match self {
+            BushingQuantity::Force(_, projection) => projection.lies_in_plane(),
+            BushingQuantity::Moment(_, projection) => projection.is_about_y(),
+            BushingQuantity::Displacement(component) => *component != Component::Y,
+            BushingQuantity::Angle(axis) => *axis == 1,
+        }
+    }
+}
+
+/// Name, unit, and whether it is asked of a body, whether it is about an axis.
+const TABLE: [(&str, &str, [bool; 2]); 4] = [
+    ("force", "N", [true, false]),
+    ("moment", "N*m", [true, true]),
+    ("displacement", "m", [false, false]),
+    ("angle", "rad", [false, true]),
+];
+
+impl Outputs for Bushing {
+    fn output(
+        &self,
+        resolver: &Resolver<'_>,
+        written: &Written,
+        force: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        resolver.of_law(at, "a bushing");
+        let (what, unit) = resolver.look_up(written, &TABLE, "a bushing", at)?;
+        let [of_body, turns] = what;
+        let component = match turns {
+            true => resolver.component_of_rotation(written, !of_body, at)?,
+            false => resolver.component_of_vector(written, at)?,
+        };
+        let what = if of_body {
+            let bodies = [self.from.on.on, self.to.on.on];
+            let on_second = resolver.on_second(written, bodies, at)?;
+            let local = bodies[usize::from(on_second)];
+            let axes = resolver.axes(written, Some(local), Body::Frame, at)?;
+            let projection = Projection { component, axes };
+            match turns {
+                true => BushingQuantity::Moment(on_second, projection),
+                false => BushingQuantity::Force(on_second, projection),
+            }
+        } else {
+            resolver.without(
+                at,
+                &["axes", "on"],
+                "what is measured in the bushing's axes",
+            );
+            match (turns, component) {
+                (false, component) => BushingQuantity::Displacement(component),
+                (true, Component::X) => BushingQuantity::Angle(0),
+                (true, Component::Y) => BushingQuantity::Angle(1),
+                (true, Component::Z) => BushingQuantity::Angle(2),
+                (true, Component::Resultant) => {
+                    resolver.problems.add(at.key("component").problem(
+                        "a bushing has three Bryant angles, and no resultant of them",
+                        "write `component: x`, `y` or `z`",
+                    ));
+                    return None;
+                }
+            }
+        };
+        let what = Asked::Bushing(what);
+        Some((Quantity::OfForce { force, what }, unit))
+    }
+}
+
+/// Of a bushing.
+pub struct BushingMeasures<'g> {
+    /// Force on the first body \[N\].
+    pub force: Vec3<'g>,
+    /// Moment on the first body \[N m\].
+    pub moment: Vec3<'g>,
+    /// Displacement of the second frame in the axes of the first \[m\].
+    pub displacement: Vec3<'g>,
+    /// Bryant angles of the second frame against the first \[rad\].
+    pub angles: [Expr<'g>; 3],
+}
+
+impl<'g> Measures<'g> for BushingMeasures<'g> {
+    fn on(&self) -> Vec<Vec3<'g>> {
+        vec![self.force]
+    }
+
+    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
+        let Asked::Bushing(what) = asked else {
+            return None;
+        };
+        let on = |second: bool, vector: Vec3<'g>| if second { -vector } else { vector };
+        Some(match *what {
+            BushingQuantity::Force(second, projection) => {
+                Value::Along(projection, on(second, self.force))
+            }
+            BushingQuantity::Moment(second, projection) => {
+                Value::Along(projection, on(second, self.moment))
+            }
+            BushingQuantity::Displacement(component) => {
+                Value::Along(Projection::absolute(component), self.displacement)
+            }
+            BushingQuantity::Angle(axis) => Value::Scalar(self.angles[axis]),
+        })
+    }
+}

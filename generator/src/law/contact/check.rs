@@ -1,0 +1,327 @@
+//! Contacts of an ellipsoid with a plane or another ellipsoid.
+
+use super::keys::{Contact as Written, Ellipsoid as WrittenEllipsoid};
+use crate::description::place::At;
+use crate::description::quantity::Quantity;
+use crate::description::short::Surface;
+use crate::diagnostic::quoted;
+use crate::model::resolve::hysteresis::Unloading;
+use crate::model::resolve::quantity::{
+    ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS,
+};
+use crate::model::resolve::{NOWHERE, Resolver, name::Style};
+use crate::model::{Attachment, Bristle, ForceKind, Friction, Hysteresis, Number, ScaledCurve};
+
+/// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
+const FRICTION_SPEED: f64 = 0.01;
+
+/// Penetration at which damping is fully there, where none is given \[m\].
+const DAMPING_DEPTH: f64 = 1e-3;
+
+/// Largest degree of an ellipsoid: its corners then have a radius of a hundredth of its size.
+const MAX_DEGREE: f64 = 100.0;
+
+/// Contact of an ellipsoid with a plane or another ellipsoid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// Centre of the ellipsoid.
+    pub ellipsoid: Attachment,
+    /// Semi-axes along the ellipsoid's own axes \[m\], positive. In the plane the first and third (x, z) are used.
+    pub semi_axes: [Number; 3],
+    /// Bryant angles of the ellipsoid's axes relative to the body's frame \[rad\]. In the plane only the second.
+    pub axes: [Number; 3],
+    /// n of Σ |x_i/a_i|ⁿ = 1, even: 2 is an ellipsoid, more are rounded boxes.
+    pub degree: u32,
+    /// What it meets, on another body.
+    pub against: Against,
+    /// Elastic force as a function of the perpendicular penetration: \[m\] → \[N\].
+    pub elastic: Option<ScaledCurve>,
+    /// Unloading along another curve than `elastic`, against the penetration \[m\].
+    pub hysteresis: Option<Hysteresis>,
+    /// Viscous coefficient on the penetration rate \[N s/m\]; the sum of elastic and viscous force is never below zero.
+    pub damping: Option<Number>,
+    /// Penetration up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
+    pub damping_depth: Option<Number>,
+    /// Coulomb friction on the normal force.
+    pub friction: Option<Friction>,
+    /// By what friction holds; without one it only resists motion.
+    pub bristle: Option<Bristle>,
+}
+
+/// What an ellipsoid meets.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Against {
+    /// A plane.
+    Plane(Plane),
+    /// An ellipsoid; both are of degree 2 then.
+    Ellipsoid(Ellipsoid),
+}
+
+impl Against {
+    /// The body that it belongs to, and a point of it: of the plane, or the centre of the ellipsoid.
+    pub fn place(&self) -> &Attachment {
+        match self {
+            Against::Plane(plane) => &plane.at,
+            Against::Ellipsoid(ellipsoid) => &ellipsoid.center,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn place_mut(&mut self) -> &mut Attachment {
+        match self {
+            Against::Plane(plane) => &mut plane.at,
+            Against::Ellipsoid(ellipsoid) => &mut ellipsoid.center,
+        }
+    }
+
+    /// The plane, if it is one.
+    pub fn plane(&self) -> Option<&Plane> {
+        match self {
+            Against::Plane(plane) => Some(plane),
+            Against::Ellipsoid(_) => None,
+        }
+    }
+}
+
+/// A plane that an ellipsoid meets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plane {
+    /// A point of it.
+    pub at: Attachment,
+    /// Unit normal, in its body's local frame, pointing to the side where the ellipsoid belongs.
+    pub normal: [Number; 3],
+    /// In space: unit vector along it, in its body's local frame; a second one is normal × tangent.
+    pub tangent: [Number; 3],
+    /// Where it ends; without one nowhere.
+    pub extent: Option<Extent>,
+}
+
+/// An ellipsoid that an ellipsoid meets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ellipsoid {
+    /// Its centre.
+    pub center: Attachment,
+    /// As [`Contact::semi_axes`].
+    pub semi_axes: [Number; 3],
+    /// As [`Contact::axes`].
+    pub axes: [Number; 3],
+}
+
+/// The finite extent of a plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extent {
+    /// From the point of the plane to its edges, along the tangent and, in space, along normal × tangent \[m\].
+    pub half_lengths: Vec<Number>,
+    /// What becomes of the force there.
+    pub rule: EdgeRule,
+}
+
+/// What becomes of a contact's force at the edge of a plane.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EdgeRule {
+    /// It is there while the deepest point projects inside, and nowhere else.
+    Cut,
+    /// It fades over this width inside the edge \[m\].
+    Fade(Number),
+}
+
+impl Resolver<'_> {
+    /// Resolves a contact.
+    pub fn contact(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
+        let round = at.key("ellipsoid");
+        let ellipsoid = self.ellipsoid(&written.ellipsoid, round);
+        let degree = self.degree(written.ellipsoid.degree.as_ref(), round.key("degree"));
+        let (against, other) = match (&written.plane, &written.with) {
+            (Some(plane), None) => {
+                let place = at.key("plane");
+                (self.plane(plane, place).map(Against::Plane), place)
+            }
+            (None, Some(with)) => {
+                let place = at.key("with");
+                let second = self.degree(with.degree.as_ref(), place.key("degree"));
+                for (degree, place) in [(degree, round), (second, place)] {
+                    if degree > 2 {
+                        self.problems.add(place.key("degree").problem(
+                            "ellipsoids of higher degree meet planes only",
+                            "leave `degree` out, or write `plane` instead of `with`",
+                        ));
+                    }
+                }
+                (self.ellipsoid(with, place).map(Against::Ellipsoid), place)
+            }
+            (Some(_), Some(_)) => {
+                self.problems.add(at.key("with").key_problem(
+                    "the contact is with a plane and with an ellipsoid",
+                    "write two contacts, one with `plane` and one with `with`",
+                ));
+                (None, at)
+            }
+            (None, None) => {
+                self.problems.add(at.key("contact").problem(
+                    format!(
+                        "the ellipsoid of contact {} meets nothing",
+                        quoted(&written.contact)
+                    ),
+                    "add `plane: …`, or `with: …` for another ellipsoid",
+                ));
+                (None, at)
+            }
+        };
+        if let (Some(a), Some(b)) = (&ellipsoid, &against)
+            && a.center.on == b.place().on
+        {
+            let both = match b {
+                Against::Plane(_) => "the ellipsoid and the plane",
+                Against::Ellipsoid(_) => "both ellipsoids",
+            };
+            self.problems.add(other.key("on").problem(
+                format!(
+                    "{both} of contact {} are on the same body",
+                    quoted(&written.contact)
+                ),
+                "put them on two bodies; `frame` is the absolute frame",
+            ));
+        }
+        let owner = format!("contact {} elastic", written.contact);
+        let elastic = self.elastic(
+            ("elastic", written.elastic.as_ref()),
+            written.stiffness.as_ref(),
+            at,
+            &owner,
+            [LENGTH, FORCE, STIFFNESS],
+        );
+        let hysteresis = self.hysteresis(
+            elastic.as_ref(),
+            Unloading {
+                curve: written.unloading.as_ref(),
+                slope: written.unloading_slope.as_ref(),
+                loading: (
+                    "elastic",
+                    written.elastic.is_some() || written.stiffness.is_some(),
+                ),
+                at,
+                owner: format!("contact {} unloading", written.contact),
+                expected: [LENGTH, FORCE, STIFFNESS],
+            },
+        );
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+        let damping_depth = self.fade(
+            (written.damping.as_ref(), damping.is_some()),
+            (written.damping_depth.as_ref(), at.key("damping_depth")),
+            (LENGTH, DAMPING_DEPTH),
+        );
+        let friction = self.friction(
+            written.friction.as_ref(),
+            written.friction_speed.as_ref(),
+            at,
+            (FRICTION, SPEED, FRICTION_SPEED),
+        );
+        let displacement_at = at.key("friction_displacement");
+        if written.friction_displacement.is_some() && written.friction.is_none() {
+            self.problems.add(displacement_at.key_problem(
+                "a friction displacement means nothing without friction",
+                "add `friction: …`, or remove `friction_displacement`",
+            ));
+        }
+        let displacement = written.friction_displacement.as_ref();
+        let bristle = self
+            .coefficient(displacement, displacement_at, LENGTH)
+            .filter(|_| friction.is_some())
+            .map(|displacement| Bristle { displacement });
+        if let Some(extent) = against
+            .as_ref()
+            .and_then(Against::plane)
+            .and_then(|plane| plane.extent.as_ref())
+            && matches!(extent.rule, EdgeRule::Fade(_))
+        {
+            let place = at.key("plane").key("extent");
+            if hysteresis
+                .as_ref()
+                .is_some_and(|law| law.unloading.is_some())
+            {
+                self.problems.add(place.key_problem(
+                    "an edge that fades must know the energy that unloading gives back, which of a curve `unloading` it does not",
+                    "write `edge: { rule: cut }`, or `unloading_slope` alone",
+                ));
+            }
+            if degree > 2 {
+                self.problems.add(place.key_problem(
+                    "the deepest point of an ellipsoid of higher degree leaps from corner to corner, and an edge cannot fade under it",
+                    "write `edge: { rule: cut }`, or leave `degree` out",
+                ));
+            }
+        }
+        let Ellipsoid {
+            center,
+            semi_axes,
+            axes,
+        } = ellipsoid?;
+        Some(ForceKind::Contact(Box::new(Contact {
+            ellipsoid: center,
+            semi_axes,
+            axes,
+            degree,
+            against: against?,
+            elastic,
+            hysteresis,
+            damping,
+            damping_depth,
+            friction,
+            bristle,
+        })))
+    }
+
+    /// Judges a named surface, also where no contact names it.
+    pub fn surface(&self, name: &str, written: &Surface, at: At<'_>) {
+        self.check_name(name, "a surface", Style::Either, at.on_key());
+        match written {
+            Surface::Ellipsoid(ellipsoid) => {
+                self.ellipsoid(ellipsoid, at);
+                self.degree(ellipsoid.degree.as_ref(), at.key("degree"));
+            }
+            Surface::Plane(plane) => {
+                self.plane(plane, at);
+            }
+        }
+    }
+
+    /// An ellipsoid; the degree is for the caller.
+    pub(crate) fn ellipsoid(&self, written: &WrittenEllipsoid, at: At<'_>) -> Option<Ellipsoid> {
+        let center = Attachment {
+            on: self.body(&written.on, at.key("on"))?,
+            at: self.vector(&written.center, at.key("center"), LENGTH),
+        };
+        let semi_axes = self.vector(&written.semi_axes, at.key("semi_axes"), LENGTH);
+        let axes = match &written.axes {
+            Some(axes) => self.rotation(axes, at.key("axes"), ANGLE),
+            None => NOWHERE,
+        };
+        Some(Ellipsoid {
+            center,
+            semi_axes,
+            axes,
+        })
+    }
+
+    /// The degree of an ellipsoid, 2 where none is given.
+    fn degree(&self, written: Option<&Quantity>, at: At<'_>) -> u32 {
+        let Some(quantity) = written else { return 2 };
+        let (number, value) = self.valued(quantity, at, PURE);
+        let Some(value) = value else { return 2 };
+        let even = value % 2.0 == 0.0 && (2.0..=MAX_DEGREE).contains(&value);
+        if number.constant().is_none() {
+            self.problems.add(at.problem(
+                "the degree depends on a parameter",
+                "give a number: it decides which code is generated",
+            ));
+        } else if !even {
+            self.problems.add(at.problem(
+                format!("the degree of an ellipsoid is {value}"),
+                format!("give an even number from 2, the ellipsoid itself, to {MAX_DEGREE}, nearly a box"),
+            ));
+        } else {
+            return value as u32;
+        }
+        2
+    }
+}

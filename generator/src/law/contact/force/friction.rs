@@ -1,0 +1,169 @@
+//! Friction of a contact: Coulomb's, regularised by speed, or by a bristle that holds.
+//!
+//! **By speed.** F = −μN v/max(|v|, v_s): a function of the state alone, under which a body at rest creeps.
+//!
+//! **By a bristle.** A spring and a damper in parallel, in series with a slider that yields at μN: with the deflection z of the
+//! bristle in the tangent plane,
+//!
+//! s_t = z/z_b + v/v_s,   s = s_t/max(1, |s_t|),   F = −μN s,   ż = v_s (s − z/z_b).
+//!
+//! Where |s_t| ≤ 1 it sticks: ż = v exactly, an elastic-viscous support of stiffness μN/z_b that nothing creeps out of. Beyond,
+//! it slides under the whole μN, and z follows s z_b with the rate v_s/z_b, which no speed makes stiff; |z| ≤ z_b always. While
+//! apart s counts as 0 and the bristle straightens at the same rate.
+//!
+//! z is kept along axes of the second body, in which a material line at rest stays at rest: two axes of a plane, or, where
+//! the normal wanders, all three, of which the part along the normal counts for nothing and decays.
+
+use super::{Loads, Product, Touch};
+use crate::dynamics::force::choose;
+use crate::dynamics::numbers::number;
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Function, sum};
+use crate::model::{Dimension, Friction, Number};
+
+/// What friction does.
+pub struct Rubbing<'g> {
+    /// On the first body, absolute axes \[N\].
+    pub force: Vec3<'g>,
+    /// Its magnitude \[N\]; signed in the plane.
+    pub magnitude: Expr<'g>,
+}
+
+/// Friction under a normal force; `owner` is the contact ("contact seat").
+pub fn friction<'g>(
+    loads: &mut Loads<'g>,
+    dimension: Dimension,
+    owner: &str,
+    law: &Friction,
+    displacement: Option<&Number>,
+    pressure: Expr<'g>,
+    touch: &Touch<'g>,
+) -> Rubbing<'g> {
+    let graph = pressure.graph();
+    let limit = number(graph, &law.limit) * pressure;
+    let tolerance = number(graph, &law.tolerance);
+    match displacement {
+        Some(displacement) => {
+            let deflection = number(graph, displacement);
+            sticking(
+                loads,
+                dimension,
+                owner,
+                pressure,
+                limit,
+                [deflection, tolerance],
+                touch,
+            )
+        }
+        None => regularised(loads, dimension, owner, limit, tolerance, touch),
+    }
+}
+
+fn work(owner: &str) -> String {
+    format!("{owner}: friction")
+}
+
+fn slides(owner: &str) -> String {
+    format!("{owner}: slides")
+}
+
+fn regularised<'g>(
+    loads: &mut Loads<'g>,
+    dimension: Dimension,
+    owner: &str,
+    limit: Expr<'g>,
+    tolerance: Expr<'g>,
+    touch: &Touch<'g>,
+) -> Rubbing<'g> {
+    let graph = limit.graph();
+    match dimension {
+        Dimension::Plane => {
+            let tangent = touch.planar_tangent();
+            let slip = tangent.dot(touch.velocity);
+            let magnitude = graph.call(Function::Coulomb, &[limit, slip, tolerance]);
+            loads.kink(slides(owner), move || slip.max(-slip) - tolerance);
+            loads.work(work(owner), Product::Scalars(magnitude, slip));
+            Rubbing {
+                force: magnitude * tangent,
+                magnitude,
+            }
+        }
+        Dimension::Space => {
+            let slip = touch.slip();
+            let squared = slip.squared();
+            let scale = graph.call(Function::CoulombScale, &[limit, squared, tolerance]);
+            loads.kink(slides(owner), move || squared - tolerance.squared());
+            loads.work(work(owner), Product::Scalars(-scale, squared));
+            Rubbing {
+                force: -(scale * slip),
+                magnitude: scale * squared.sqrt(),
+            }
+        }
+    }
+}
+
+fn sticking<'g>(
+    loads: &mut Loads<'g>,
+    dimension: Dimension,
+    owner: &str,
+    pressure: Expr<'g>,
+    limit: Expr<'g>,
+    [deflection, tolerance]: [Expr<'g>; 2],
+    touch: &Touch<'g>,
+) -> Rubbing<'g> {
+    let graph = limit.graph();
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let axes = match dimension {
+        Dimension::Plane => vec![touch.planar_tangent()],
+        Dimension::Space => touch.tangents.clone(),
+    };
+    let slip: Vec<Expr<'g>> = match axes.len() {
+        3 => axes.iter().map(|axis| axis.dot(touch.slip())).collect(),
+        _ => axes.iter().map(|axis| axis.dot(touch.velocity)).collect(),
+    };
+    let bristle: Vec<(usize, Expr<'g>)> = (0..axes.len())
+        .map(|i| {
+            let which = ["", " 2", " 3"][i];
+            loads.auxiliary(format!("{owner}: bristle{which}"), "m", zero)
+        })
+        .collect();
+    let mut tangential: Vec<Expr<'g>> = bristle.iter().map(|(_, z)| *z).collect();
+    if let [x, y, z] = tangential[..] {
+        // what has come to point along the normal
+        let normal: Vec<Expr<'g>> = axes.iter().map(|axis| axis.dot(touch.normal)).collect();
+        let along = x * normal[0] + y * normal[1] + z * normal[2];
+        for (z, n) in tangential.iter_mut().zip(normal) {
+            *z = *z - along * n;
+        }
+    }
+    let trial: Vec<Expr<'g>> = tangential
+        .iter()
+        .zip(&slip)
+        .map(|(z, v)| *z / deflection + *v / tolerance)
+        .collect();
+    // in this order of operands a NaN is passed on
+    let (share, magnitude): (Vec<Expr<'g>>, _) = match trial[..] {
+        [trial] => {
+            let share = trial.max(-one).min(one);
+            loads.kink(slides(owner), move || trial.max(-trial) - one);
+            (vec![share], -(limit * share))
+        }
+        _ => {
+            let squared = sum(graph, trial.iter().map(|s| s.squared()));
+            let scale = squared.max(one).sqrt().recip();
+            loads.kink(slides(owner), move || squared - one);
+            let share = trial.iter().map(|s| scale * *s).collect();
+            (share, limit * (scale * squared.sqrt()))
+        }
+    };
+    for ((index, z), s) in bristle.iter().zip(&share) {
+        let held = choose(zero, pressure, *s, zero);
+        loads.states.auxiliaries[*index].next = tolerance * (held - *z / deflection);
+    }
+    let mut force = Vec3::zero(graph);
+    for (axis, share) in axes.iter().zip(&share) {
+        force = force - (limit * *share) * *axis;
+    }
+    loads.work(work(owner), Product::Vectors(force, touch.velocity));
+    Rubbing { force, magnitude }
+}

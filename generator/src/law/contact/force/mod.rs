@@ -1,0 +1,366 @@
+//! Contact of an ellipsoid with a plane, or with another ellipsoid ([pair]).   \[MADYMO 1980, force model 3\]
+//!
+//! With the plane's normal n, the ellipsoid reaches h from its centre towards the plane, and its deepest point is p
+//! ([support]); the penetration is δ = h − n·(centre − plane). v is the velocity of the ellipsoid's material at p relative to
+//! the plane's there; then
+//!
+//! δ̇ = −n·v,   N = normal_force(δ, elastic(δ), damping · min(δ/depth, 1) · δ̇),   F = N n + friction
+//!
+//! F acts on the ellipsoid at p, −F on the plane's body.
+
+mod edge;
+mod friction;
+pub(crate) mod pair;
+mod support;
+
+use super::outputs::ContactMeasures;
+use crate::dynamics::force::fade::faded;
+use crate::dynamics::force::hysteresis;
+use crate::dynamics::force::onset::Pair;
+use crate::dynamics::force::switch::Gate;
+use crate::dynamics::force::{Acts, Loads, Motion, Product, choose, point_on};
+use crate::dynamics::numbers::{curve, derivative, number, vector};
+use crate::expression::vector::Vec3;
+use crate::expression::{Expr, Function, Graph};
+use crate::law::{Equations, Measures, Setting};
+use crate::model::{Against, Contact, Dimension, EdgeRule, Plane};
+use friction::{Rubbing, friction};
+use pair::on_ellipsoid;
+use std::rc::Rc;
+use support::Support;
+
+/// Where and how two bodies touch, absolute axes.
+pub(crate) struct Touch<'g> {
+    /// δ \[m\]; where the bodies do not touch, a negative number will do.
+    pub(crate) penetration: Expr<'g>,
+    /// δ, and minus their distance where they do not touch \[m\].
+    pub(crate) overlap: Expr<'g>,
+    /// Unit vector from the second body to the first.
+    pub(crate) normal: Vec3<'g>,
+    /// Where forces act, from the joint of the first body.
+    pub(crate) offset: Vec3<'g>,
+    /// And from that of the second.
+    pub(crate) offset_on_second: Vec3<'g>,
+    /// Velocity of the first body's material there relative to the second's \[m/s\].
+    velocity: Vec3<'g>,
+    /// δ̇ \[m/s\]
+    pub(crate) approach: Expr<'g>,
+    /// Of two ellipsoids: from the centre of the first to that of the second.
+    pub(crate) between: Option<Vec3<'g>>,
+    /// From the joints of the bodies to the centre of the first.
+    centre: Vec3<'g>,
+    centre_on_second: Vec3<'g>,
+    /// Where on the plane, along its tangents \[m\]; empty where it has no edges.
+    place: Vec<Expr<'g>>,
+    /// The tangents and the moments of the deepest point's motion along them, where an edge fades.
+    moving: Vec<[Vec3<'g>; 2]>,
+    /// What is 0 where the deepest point passes from one flat side of an ellipsoid of a degree other than 2 to the other.
+    flats: Vec<Expr<'g>>,
+    /// In space, where something needs them: axes fixed in the second body, either two along the plane, or three.
+    tangents: Vec<Vec3<'g>>,
+}
+
+impl<'g> Touch<'g> {
+    /// The one tangent of the plane x–z.
+    fn planar_tangent(&self) -> Vec3<'g> {
+        planar_tangent(self.normal)
+    }
+
+    /// Sliding velocity, in the tangent plane.
+    fn slip(&self) -> Vec3<'g> {
+        self.velocity + self.approach * self.normal
+    }
+}
+
+fn planar_tangent(normal: Vec3<'_>) -> Vec3<'_> {
+    let zero = normal.0[0].graph().constant(0.0);
+    Vec3([normal.0[2], zero, -normal.0[0]])
+}
+
+impl Equations for Contact {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        Box::new(apply(self, setting, loads))
+    }
+}
+
+fn apply<'g>(
+    contact: &Contact,
+    setting: Setting<'_, 'g>,
+    loads: &mut Loads<'g>,
+) -> ContactMeasures<'g> {
+    let Setting {
+        graph,
+        motion,
+        name,
+        gate,
+        ..
+    } = setting;
+    let dimension = setting.model.dimension;
+    let (touch, extent) = match &contact.against {
+        Against::Plane(plane) => (
+            on_plane(graph, dimension, motion, contact, plane),
+            plane.extent.as_ref(),
+        ),
+        Against::Ellipsoid(second) => (
+            on_ellipsoid(graph, dimension, motion, contact, second),
+            None,
+        ),
+    };
+    let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
+    let owner = format!("contact {name}");
+    let curves = loads.curves_so_far();
+    for &flat in &touch.flats {
+        loads.kink(format!("{owner}: passes a flat side"), move || flat);
+    }
+    let Pressed {
+        force: mut pressure,
+        mut stored,
+        permanent_set,
+    } = pressed(graph, loads, &owner, contact, &touch);
+    pressure = gate.of(pressure);
+    let pair = Pair::of(graph, dimension, motion, contact);
+    begins(loads, &owner, gate, contact, &touch, pair);
+    let weight = extent.map(|extent| edge::weight(extent, &touch.place));
+    if let (Some(weight), Some(extent)) = (&weight, extent) {
+        pressure = weight.weight * pressure;
+        // beyond the edge there is nothing, also where a curve has no value
+        if loads.may_end(contact) {
+            let zero = graph.constant(0.0);
+            pressure = choose(zero, weight.weight, pressure, zero);
+            stored = choose(zero, weight.weight, stored, zero);
+        }
+        edge::kinks(loads, &owner, extent, weight);
+    }
+
+    if let Some(between) = touch.between {
+        loads.direction(&owner, pair::direction(dimension, touch.normal, between));
+    }
+    loads.curves_act(curves, pressure);
+    loads.work(
+        format!("{owner}: normal force"),
+        Product::Scalars(-pressure, touch.approach),
+    );
+    let rubbing = match &contact.friction {
+        Some(law) => friction(
+            loads,
+            dimension,
+            &owner,
+            law,
+            contact.bristle.as_ref().map(|b| &b.displacement),
+            pressure,
+            &touch,
+        ),
+        None => Rubbing {
+            force: Vec3::zero(graph),
+            magnitude: graph.constant(0.0),
+        },
+    };
+    let force = pressure * touch.normal + rubbing.force;
+    loads.apply(on, touch.offset, force);
+    loads.apply(on_second, touch.offset_on_second, -force);
+    let (mut on_first, mut resultant) = (
+        force,
+        match &contact.friction {
+            Some(_) => (pressure.squared() + rubbing.magnitude.squared()).sqrt(),
+            None => pressure,
+        },
+    );
+    if let (Some(weight), false) = (&weight, touch.moving.is_empty()) {
+        let (first, second) = (motion.body(on), motion.body(on_second));
+        let relative = [
+            first.velocity_at(touch.centre) - second.velocity_at(touch.centre_on_second),
+            first.omega - second.omega,
+        ];
+        let stored = gate.of(stored);
+        let push = edge::push(loads, &owner, weight, stored, &touch.moving, relative);
+        loads.apply(on, touch.centre, push.force);
+        loads.apply(on_second, touch.centre_on_second, -push.force);
+        loads.turn(on, push.moment);
+        loads.turn(on_second, -push.moment);
+        on_first = force + push.force;
+        resultant = on_first.squared().sqrt();
+    }
+    ContactMeasures {
+        on_first,
+        force: resultant,
+        normal: pressure,
+        friction: rubbing.magnitude,
+        penetration: touch.overlap,
+        permanent_set,
+    }
+}
+
+/// Tells when a contact begins to act, and of the corners of its curves.
+pub(crate) fn begins<'g>(
+    loads: &mut Loads<'g>,
+    owner: &str,
+    gate: Gate<'g>,
+    contact: &Contact,
+    touch: &Touch<'g>,
+    pair: Pair<'g>,
+) {
+    let graph = touch.penetration.graph();
+    let lead = match (&contact.elastic, &contact.damping) {
+        (Some(curve), None) => loads.lead(graph, curve),
+        _ => graph.constant(0.0),
+    };
+    let (penetration, normal, place) = (touch.penetration, touch.normal, touch.place.clone());
+    let tangents = touch.tangents.clone();
+    let pair = Rc::new(pair);
+    let unloading = contact.hysteresis.as_ref().map(|law| &law.unloading);
+    let curves = [
+        (contact.elastic.as_ref(), "curve"),
+        (unloading.and_then(Option::as_ref), "unloading curve"),
+    ];
+    for (curve, which) in curves {
+        let Some(curve) = curve else { continue };
+        let pair = Rc::clone(&pair);
+        let closing = move || pair.closing(normal);
+        loads.corners(owner, which, gate, curve, move || penetration, closing);
+    }
+    loads.onset(format!("{owner}: touches"), move || {
+        let tangents = match tangents[..] {
+            [] => vec![planar_tangent(normal)],
+            _ => tangents.clone(),
+        };
+        gate.of_onset(pair.touches(lead - penetration, normal, &tangents, &place))
+    });
+}
+
+/// What penetration does.
+struct Pressed<'g> {
+    /// Normal force \[N\].
+    force: Expr<'g>,
+    /// Energy that can be had back \[J\], where an edge asks for it.
+    stored: Expr<'g>,
+    /// Penetration at which unloading would end \[m\].
+    permanent_set: Expr<'g>,
+}
+
+fn pressed<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    contact: &Contact,
+    touch: &Touch<'g>,
+) -> Pressed<'g> {
+    let (zero, penetration, approach) = (graph.constant(0.0), touch.penetration, touch.approach);
+    // what is remembered must be finite, and a curve need not be defined while apart
+    let depth = match contact.hysteresis {
+        Some(_) => penetration.max(zero),
+        None => penetration,
+    };
+    let loading = contact
+        .elastic
+        .as_ref()
+        .map_or(zero, |c| curve(graph, c, depth));
+    let (elastic, permanent_set) = match &contact.hysteresis {
+        Some(law) => {
+            let elastic =
+                hysteresis::apply(loads, owner, "m", law, depth, loading, move || penetration);
+            hysteresis::watch_turns(loads, owner, depth, approach);
+            elastic
+        }
+        None => (loading, zero),
+    };
+    let viscous = contact.damping.as_ref().map_or(zero, |c| {
+        number(graph, c) * faded(graph, penetration, contact.damping_depth.as_ref()) * approach
+    });
+    let force = graph.call(
+        Function::ContactNormalForce,
+        &[penetration, elastic, viscous],
+    );
+    if contact.damping.is_some() {
+        // the force ends while still penetrated where damping would pull
+        loads.kink(format!("{owner}: pushes"), move || {
+            choose(zero, penetration, elastic + viscous, penetration)
+        });
+        if let Some(depth) = contact.damping_depth.clone() {
+            loads.kink(format!("{owner}: damping is full"), move || {
+                penetration - number(graph, &depth)
+            });
+        }
+    } else {
+        loads.kink(format!("{owner}: touches"), move || penetration);
+    }
+    if let Some(curve) = &contact.elastic {
+        loads.curve_of_state(owner, "curve", curve, Acts::AboveFirst, move || penetration);
+    }
+    let stored = match (&contact.elastic, &contact.hysteresis) {
+        _ if touch.moving.is_empty() => zero,
+        (None, _) => zero,
+        // down the line, whose slope is s, without a curve below it
+        (Some(_), Some(law)) => elastic.squared() / (2.0 * number(graph, &law.slope)),
+        (Some(c), None) => derivative(graph, c, Function::CurveIntegral, penetration.max(zero)),
+    };
+    Pressed {
+        force,
+        stored,
+        permanent_set,
+    }
+}
+
+/// The touch of an ellipsoid and a plane.
+fn on_plane<'g>(
+    graph: &'g Graph,
+    dimension: Dimension,
+    motion: &Motion<'g>,
+    contact: &Contact,
+    flat: &Plane,
+) -> Touch<'g> {
+    let (ellipsoid, plane) = (motion.body(contact.ellipsoid.on), motion.body(flat.at.on));
+    let centre = motion.attachment(graph, &contact.ellipsoid);
+    let on_plane = motion.attachment(graph, &flat.at);
+    let local_normal = vector(graph, &flat.normal);
+    let normal = plane.rotation.times(local_normal);
+
+    let support = Support::of(graph, dimension, motion, contact, normal);
+    let deepest = support.deepest;
+    let penetration = support.reach - normal.dot(centre.position - on_plane.position);
+    let offset = centre.offset - deepest;
+    let point = centre.position - deepest;
+    let (offset_on_second, plane_velocity) = point_on(plane, point);
+    let velocity = ellipsoid.velocity_at(offset) - plane_velocity;
+    let wanted = contact.bristle.is_some() || flat.extent.is_some();
+    let tangents = match dimension {
+        Dimension::Space if wanted => {
+            let first = vector(graph, &flat.tangent);
+            let local = [first, local_normal.cross(first)];
+            local.map(|axis| plane.rotation.times(axis)).to_vec()
+        }
+        _ => Vec::new(),
+    };
+    let mut touch = Touch {
+        penetration,
+        overlap: penetration,
+        normal,
+        offset,
+        offset_on_second,
+        velocity,
+        approach: -normal.dot(velocity),
+        between: None,
+        centre: centre.offset,
+        centre_on_second: centre.position - plane.position,
+        place: Vec::new(),
+        moving: Vec::new(),
+        flats: support.flats.clone(),
+        tangents,
+    };
+    if let Some(extent) = &flat.extent {
+        let tangents = match dimension {
+            Dimension::Plane => vec![touch.planar_tangent()],
+            Dimension::Space => touch.tangents.clone(),
+        };
+        let from_middle = point - on_plane.position;
+        touch.place = tangents.iter().map(|t| t.dot(from_middle)).collect();
+        if let EdgeRule::Fade(_) = extent.rule {
+            let turning = |t: &Vec3<'g>| [*t, support.turning(normal, *t)];
+            touch.moving = tangents.iter().map(turning).collect();
+        }
+    }
+    touch
+}

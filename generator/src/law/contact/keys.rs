@@ -1,0 +1,142 @@
+//! The keys of a contact, and of the surfaces that meet in it.
+
+use crate::description::curve::Function;
+use crate::description::expand::{Expander, Node};
+use crate::description::place::At;
+use crate::description::quantity::{OneOrThree, Quantity};
+use crate::description::shape::{Key, record, words};
+use crate::description::short::ByName;
+use crate::law::{ForceKind, Header, Keys, record};
+use crate::model::resolve::Resolver;
+
+record! {
+    /// Contact of an ellipsoid with a plane or another ellipsoid.
+    Contact as "a contact" {
+        /// Name, unique among the contacts.
+        contact: String,
+        /// Whether it acts.
+        enabled: Option<bool>,
+        /// Acts from this switch on.
+        since: Option<String>,
+        /// Acts up to this switch.
+        until: Option<String>,
+        /// Whether it has a mirror image.
+        mirror: Option<bool>,
+        /// The ellipsoid; an ellipse in the plane.
+        ellipsoid: ByName<Ellipsoid>,
+        /// The plane that it meets; a line in the plane.
+        plane: Option<ByName<Plane>>,
+        /// Or the other ellipsoid.
+        with: Option<ByName<Ellipsoid>>,
+        /// Force against penetration \[m\] → \[N\].
+        elastic: Option<Function>,
+        /// Its slope, where it is a line through 0 \[N/m\].
+        stiffness: Option<Quantity>,
+        /// The same while it falls \[m\] → \[N\].
+        unloading: Option<Function>,
+        /// Slope of the line between the two \[N/m\].
+        unloading_slope: Option<Quantity>,
+        /// Viscous coefficient \[N s/m\].
+        damping: Option<Quantity>,
+        /// Penetration at which damping is fully there \[m\].
+        damping_depth: Option<Quantity>,
+        /// Coefficient of friction.
+        friction: Option<Quantity>,
+        /// Sliding speed at which friction is fully there \[m/s\].
+        friction_speed: Option<Quantity>,
+        /// Displacement at which friction that holds is fully there \[m\].
+        friction_displacement: Option<Quantity>,
+    }
+}
+
+record! {
+    /// An ellipsoid on a body.
+    Ellipsoid as "an ellipsoid" {
+        /// `frame`, or an element as `system/element`.
+        on: String,
+        /// Centre, local frame \[m\].
+        center: Vec<Quantity>,
+        /// Semi-axes \[m\].
+        semi_axes: Vec<Quantity>,
+        /// Bryant angles of its axes relative to the local frame \[rad\].
+        axes: Option<OneOrThree>,
+        /// Even exponent of its equation.
+        degree: Option<Quantity>,
+        /// Of a named surface: whether it has a mirror image.
+        mirror: Option<bool>,
+    }
+}
+
+record! {
+    /// A plane on a body.
+    Plane as "a plane" {
+        /// `frame`, or an element as `system/element`.
+        on: String,
+        /// A point of it, local frame \[m\].
+        at: Vec<Quantity>,
+        /// Direction to the side of the ellipsoid, local frame; of any length.
+        normal: Vec<Quantity>,
+        /// In space: direction of its first edge, local frame; of any length.
+        along: Option<Vec<Quantity>>,
+        /// Half its lengths \[m\]: one in the plane, two in space.
+        extent: Option<OneOrThree>,
+        /// What happens where it ends.
+        edge: Option<Edge>,
+        /// Of a named surface: whether it has a mirror image.
+        mirror: Option<bool>,
+    }
+}
+
+record! {
+    /// Where a plane ends.
+    Edge as "an edge" {
+        /// What becomes of the force there.
+        rule: Option<EdgeRule>,
+        /// Width over which it fades \[m\].
+        width: Option<Quantity>,
+    }
+}
+
+words! {
+    /// What becomes of a contact's force at an edge.
+    EdgeRule {
+        /// It ends.
+        Cut = "cut",
+        /// It fades.
+        Fade = "fade",
+    }
+}
+
+impl Keys for Contact {
+    const KEY: &'static str = "contact";
+    const EXCHANGEABLE: Option<[&'static str; 2]> = Some(["ellipsoid", "with"]);
+
+    fn header(&self) -> Header<'_> {
+        Header {
+            name: self.contact.clone(),
+            called: Some((Self::KEY, &self.contact)),
+            enabled: self.enabled,
+            since: self.since.as_deref(),
+            until: self.until.as_deref(),
+        }
+    }
+
+    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
+        resolver.contact(self, at)
+    }
+
+    fn records() -> Vec<(&'static str, &'static [Key])> {
+        vec![
+            record::<Contact>(),
+            record::<Ellipsoid>(),
+            record::<Plane>(),
+            record::<Edge>(),
+        ]
+    }
+
+    fn mirror(expander: &Expander<'_>, image: &mut Node) {
+        for key in ["ellipsoid", "plane", "with"] {
+            image.change(key, |surface| expander.mirrored_by_name(surface));
+        }
+    }
+}

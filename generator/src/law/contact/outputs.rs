@@ -1,0 +1,93 @@
+//! What can be asked of a contact.
+
+use super::check::Contact;
+use crate::description::output::Output as Written;
+use crate::description::place::At;
+use crate::expression::Expr;
+use crate::expression::vector::Vec3;
+use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::model::Quantity;
+use crate::model::resolve::Resolver;
+use crate::model::resolve::output::has_direction;
+
+/// Of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactQuantity {
+    /// Resultant force \[N\].
+    Force,
+    /// Normal force \[N\].
+    Normal,
+    /// Friction force \[N\].
+    Friction,
+    /// Penetration, negative while apart \[m\].
+    Penetration,
+    /// Foot of the unloading line \[m\]; 0 without hysteresis.
+    PermanentSet,
+}
+
+impl OfLaw for ContactQuantity {}
+
+const TABLE: [(&str, &str, ContactQuantity); 5] = [
+    ("force", "N", ContactQuantity::Force),
+    ("normal", "N", ContactQuantity::Normal),
+    ("friction", "N", ContactQuantity::Friction),
+    ("penetration", "m", ContactQuantity::Penetration),
+    ("permanent_set", "m", ContactQuantity::PermanentSet),
+];
+
+impl Outputs for Contact {
+    fn output(
+        &self,
+        resolver: &Resolver<'_>,
+        written: &Written,
+        force: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        resolver.of_law(at, "a contact");
+        let (what, unit) = resolver.look_up(written, &TABLE, "a contact", at)?;
+        let quantity = match what {
+            ContactQuantity::Force if has_direction(written) => {
+                let bodies = [self.ellipsoid.on, self.against.place().on];
+                resolver.force_on(written, force, bodies, at)?
+            }
+            what => resolver.scalar(force, Asked::Contact(what), at),
+        };
+        Some((quantity, unit))
+    }
+}
+
+/// Of a contact.
+#[derive(Clone, Copy)]
+pub struct ContactMeasures<'g> {
+    /// The whole force on the body of its `ellipsoid` \[N\].
+    pub on_first: Vec3<'g>,
+    /// Magnitude of the whole force \[N\].
+    pub force: Expr<'g>,
+    /// Normal force \[N\].
+    pub normal: Expr<'g>,
+    /// Magnitude of the friction force \[N\]; signed in the plane.
+    pub friction: Expr<'g>,
+    /// Penetration \[m\].
+    pub penetration: Expr<'g>,
+    /// Penetration at which the unloading line meets no force \[m\]; 0 without hysteresis.
+    pub permanent_set: Expr<'g>,
+}
+
+impl<'g> Measures<'g> for ContactMeasures<'g> {
+    fn on(&self) -> Vec<Vec3<'g>> {
+        vec![self.on_first]
+    }
+
+    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
+        let Asked::Contact(what) = asked else {
+            return None;
+        };
+        Some(Value::Scalar(match what {
+            ContactQuantity::Force => self.force,
+            ContactQuantity::Normal => self.normal,
+            ContactQuantity::Friction => self.friction,
+            ContactQuantity::Penetration => self.penetration,
+            ContactQuantity::PermanentSet => self.permanent_set,
+        }))
+    }
+}

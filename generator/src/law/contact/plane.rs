@@ -1,0 +1,164 @@
+//! Planes that ellipsoids meet: their directions, and where they end.
+
+use super::keys::{EdgeRule as WrittenRule, Plane as Written};
+use crate::description::place::At;
+use crate::description::quantity::{OneOrThree, Quantity};
+use crate::model::resolve::quantity::{LENGTH, PURE};
+use crate::model::resolve::{NOWHERE, Resolver};
+use crate::model::{Attachment, EdgeRule, Extent, Number, Plane};
+
+/// Width over which a force fades at an edge, where none is given \[m\].
+const EDGE_WIDTH: f64 = 10e-3;
+
+impl Resolver<'_> {
+    /// Resolves a plane.
+    pub fn plane(&self, written: &Written, at: At<'_>) -> Option<Plane> {
+        let on = self.body(&written.on, at.key("on"));
+        let point = self.vector(&written.at, at.key("at"), LENGTH);
+        let normal = self.normal(written, at.key("normal"));
+        let tangent = self.tangent(&normal, written, at);
+        let extent = self.extent(written, at);
+        Some(Plane {
+            at: Attachment { on: on?, at: point },
+            normal,
+            tangent,
+            extent,
+        })
+    }
+
+    /// The normal at unit length. Its components may be lengths or pure numbers, all that matters is their ratio.
+    fn normal(&self, plane: &Written, at: At<'_>) -> [Number; 3] {
+        let before = self.problems.count();
+        let vector = self.vector(&plane.normal, at, PURE);
+        match self.problems.count() > before {
+            true => vector,
+            false => self.unit(vector),
+        }
+    }
+
+    /// A vector at unit length.
+    pub fn unit(&self, vector: [Number; 3]) -> [Number; 3] {
+        // squares of such numbers would overflow, or lose their digits
+        let largest = vector.iter().map(|n| n.value(&self.defaults).abs());
+        let largest = largest.fold(0.0, f64::max);
+        let vector = match (1e-100..1e100).contains(&largest) {
+            true => vector,
+            false => vector.map(|n| Number::quotient(n, Number::Constant(largest))),
+        };
+        let length = if vector.iter().all(|n| n.constant().is_some()) {
+            let squares = vector.iter().map(|n| n.value(&self.defaults).powi(2));
+            Number::Constant(squares.sum::<f64>().sqrt())
+        } else {
+            let squares = vector.iter().map(|n| Number::product(n.clone(), n.clone()));
+            Number::square_root(squares.fold(Number::ZERO, Number::sum))
+        };
+        vector.map(|n| Number::quotient(n, length.clone()))
+    }
+
+    /// In space, the direction `along`, or the one in the plane that is nearest to an axis.
+    fn tangent(&self, normal: &[Number; 3], plane: &Written, at: At<'_>) -> [Number; 3] {
+        let place = at.key("along");
+        if self.planar {
+            if plane.along.is_some() {
+                self.problems.add(place.key_problem(
+                    "in the plane x–z a contact plane is a line and has one direction",
+                    "remove `along`",
+                ));
+            }
+            return NOWHERE;
+        }
+        let before = self.problems.count();
+        let along = match &plane.along {
+            Some(along) => self.vector(along, place, PURE),
+            None => {
+                let size = |axis: &usize| normal[*axis].value(&self.defaults).abs();
+                let across = (0..3).min_by(|a, b| size(a).total_cmp(&size(b)));
+                let mut axis = NOWHERE;
+                axis[across.unwrap_or_default()] = Number::Constant(1.0);
+                axis
+            }
+        };
+        if self.problems.count() > before {
+            return NOWHERE;
+        }
+        // a − (a·n) n
+        let products = (0..3).map(|i| Number::product(along[i].clone(), normal[i].clone()));
+        let part = products.fold(Number::ZERO, Number::sum);
+        let tangent: [Number; 3] = std::array::from_fn(|i| {
+            let normal = Number::product(part.clone(), normal[i].clone());
+            Number::difference(along[i].clone(), normal)
+        });
+        if plane.along.is_some() {
+            return self.unit(tangent);
+        }
+        // of a normal without a direction there is none along the plane
+        let squares = tangent.iter().map(|n| n.value(&self.defaults).powi(2));
+        match squares.sum::<f64>() > 0.0 {
+            true => self.unit(tangent),
+            false => NOWHERE,
+        }
+    }
+
+    /// Where a plane ends.
+    fn extent(&self, plane: &Written, at: At<'_>) -> Option<Extent> {
+        let (extent_at, edge_at) = (at.key("extent"), at.key("edge"));
+        let Some(written) = &plane.extent else {
+            if plane.edge.is_some() {
+                self.problems.add(edge_at.key_problem(
+                    "a plane without `extent` has no edge",
+                    "add `extent: …`, half the length of the plane, or remove `edge`",
+                ));
+            }
+            return None;
+        };
+        let right = if self.planar { 1 } else { 2 };
+        let lengths: Vec<(&Quantity, At<'_>)> = match written {
+            OneOrThree::One(one) => vec![(one, extent_at)],
+            OneOrThree::List(list) => list
+                .iter()
+                .enumerate()
+                .map(|(i, length)| (length, extent_at.item(i)))
+                .collect(),
+        };
+        if lengths.len() != right || (self.planar && matches!(written, OneOrThree::List(_))) {
+            self.problems.add(if self.planar {
+                extent_at.problem(
+                    "in the plane x–z a contact plane is a line with one length",
+                    "give half of it, without brackets",
+                )
+            } else {
+                extent_at.problem(
+                    "a plane in space has two lengths",
+                    "write `[a, b]`: half its length along the first tangent and along the second",
+                )
+            });
+            return None;
+        }
+        let before = self.problems.count();
+        let half_lengths: Vec<Number> = lengths
+            .into_iter()
+            .map(|(length, place)| self.number(length, place, LENGTH))
+            .collect();
+        let (rule, width) = match &plane.edge {
+            Some(edge) => (edge.rule, edge.width.as_ref()),
+            None => (None, None),
+        };
+        let width_at = edge_at.key("width");
+        let rule = match (rule, width) {
+            (Some(WrittenRule::Cut), Some(_)) => {
+                self.problems.add(width_at.key_problem(
+                    "an edge that cuts has no width",
+                    "remove `width`, or write `rule: fade`",
+                ));
+                EdgeRule::Cut
+            }
+            (Some(WrittenRule::Cut), None) => EdgeRule::Cut,
+            (_, None) => {
+                let narrow = |width, half: &Number| Number::smaller(width, half.clone());
+                EdgeRule::Fade(half_lengths.iter().fold(EDGE_WIDTH.into(), narrow))
+            }
+            (_, Some(width)) => EdgeRule::Fade(self.number(width, width_at, LENGTH)),
+        };
+        (self.problems.count() == before).then_some(Extent { half_lengths, rule })
+    }
+}

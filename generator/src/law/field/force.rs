@@ -1,0 +1,68 @@
+//! Acceleration field: F = m a at the centre of gravity of each element that feels it.   \[MADYMO 1980, force model 2\]
+//!
+//! A field that all elements of a system feel is not applied to them one by one: it enters once, at the reference joint.
+
+use super::check::Field;
+use crate::dynamics::force::{Loads, Product, components};
+use crate::dynamics::numbers::{number, vector};
+use crate::law::{Equations, Measures, Setting};
+use crate::model::{Body, ElementId};
+
+impl Equations for Field {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        apply(self, setting, loads);
+        Box::new(())
+    }
+}
+
+fn apply<'g>(field: &Field, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) {
+    let Setting {
+        graph,
+        model,
+        motion,
+        name,
+        gate,
+        ..
+    } = setting;
+    let Field { on, acceleration } = field;
+    let acceleration = gate.of_vector(components(graph, acceleration));
+    for &id in on {
+        loads.work(format!("field {name}"), Product::Field(acceleration, id));
+    }
+    for (s, system) in model.systems.iter().enumerate() {
+        let felt: Vec<usize> = (0..system.elements.len())
+            .filter(|&k| {
+                on.contains(&ElementId {
+                    system: s,
+                    element: k,
+                })
+            })
+            .collect();
+        if felt.len() == system.elements.len() {
+            loads.wrenches.fields[s] = loads.wrenches.fields[s] + acceleration;
+            continue;
+        }
+        for k in felt {
+            let id = ElementId {
+                system: s,
+                element: k,
+            };
+            let element = &system.elements[k];
+            let offset = motion
+                .element(id)
+                .rotation
+                .times(vector(graph, &element.cg));
+            loads.wrenches.partial_fields[s][k] =
+                loads.wrenches.partial_fields[s][k] + acceleration;
+            loads.apply(
+                Body::Element(id),
+                offset,
+                number(graph, &element.mass) * acceleration,
+            );
+        }
+    }
+}

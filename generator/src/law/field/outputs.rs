@@ -1,0 +1,20 @@
+//! A field is given, and has no outputs.
+
+use super::check::Field;
+use crate::description::output::Output as Written;
+use crate::description::place::At;
+use crate::law::Outputs;
+use crate::model::Quantity;
+use crate::model::resolve::Resolver;
+
+impl Outputs for Field {
+    fn output(
+        &self,
+        _: &Resolver<'_>,
+        _: &Written,
+        _: usize,
+        _: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        None
+    }
+}

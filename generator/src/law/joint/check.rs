@@ -1,0 +1,620 @@
+//! Joint forces: laws about relative rotations, in space of flexion and torsion too.
+
+use super::keys::{
+    Drive as WrittenDrive, Flexion, Joint as Written, Lock as WrittenLock, LongAxis,
+    Stop as WrittenStop, Torque,
+};
+use crate::description::curve::Function;
+use crate::description::place::At;
+use crate::description::quantity::Quantity;
+use crate::diagnostic::{nearest, quoted};
+use crate::model::part::Part;
+use crate::model::resolve::Resolver;
+use crate::model::resolve::hysteresis::Unloading;
+use crate::model::resolve::quantity::{
+    ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, RATE,
+    SPEED, STIFFNESS, TORQUE,
+};
+use crate::model::{
+    Bristle, ElementId, FieldComponent, ForceKind, Freedom as KinematicFreedom, Friction,
+    Hysteresis, Joint as KinematicJoint, Number, ScaledCurve,
+};
+
+/// Speed at which joint friction is fully there, where none is given \[rad/s\].
+const FRICTION_SPEED: f64 = 0.1;
+
+/// Speed at which the friction of a slider is fully there, where none is given \[m/s\].
+const SLIDING_SPEED: f64 = 0.01;
+
+/// Length behind a stop at which its damping is fully there, where none is given \[m\].
+const DAMPING_LENGTH: f64 = 1e-3;
+
+/// Angle behind a stop at which its damping is fully there, where none is given: 1° \[rad\].
+const DAMPING_ANGLE: f64 = std::f64::consts::PI / 180.0;
+
+/// What the numbers of a law are.
+#[derive(Clone, Copy)]
+struct Measures {
+    coordinate: Expected,
+    rate: Expected,
+    force: Expected,
+    stiffness: Expected,
+    damping: Expected,
+    /// Speed at which friction is fully there, where none is given.
+    friction_speed: f64,
+    /// Depth behind a stop at which its damping is fully there, where none is given.
+    damping_depth: f64,
+}
+
+/// Of a law of an angle.
+const OF_ANGLE: Measures = Measures {
+    coordinate: ANGLE,
+    rate: RATE,
+    force: TORQUE,
+    stiffness: ANGULAR_STIFFNESS,
+    damping: ANGULAR_DAMPING,
+    friction_speed: FRICTION_SPEED,
+    damping_depth: DAMPING_ANGLE,
+};
+
+/// Of a law of a length.
+const OF_LENGTH: Measures = Measures {
+    coordinate: LENGTH,
+    rate: SPEED,
+    force: FORCE,
+    stiffness: STIFFNESS,
+    damping: LINEAR_DAMPING,
+    friction_speed: SLIDING_SPEED,
+    damping_depth: DAMPING_LENGTH,
+};
+
+/// The keys that in space do not say which rotation they are about.
+const OF_ONE_ROTATION: [&str; 13] = [
+    "elastic",
+    "stiffness",
+    "unloading",
+    "unloading_slope",
+    "neutral",
+    "damping",
+    "friction",
+    "friction_speed",
+    "friction_displacement",
+    "stop",
+    "lock",
+    "motor",
+    "drive",
+];
+
+/// The law about one relative rotation, as written.
+struct Law<'w> {
+    elastic: Option<&'w Function>,
+    stiffness: Option<&'w Quantity>,
+    unloading: Option<&'w Function>,
+    unloading_slope: Option<&'w Quantity>,
+    neutral: Option<&'w Quantity>,
+    damping: Option<&'w Quantity>,
+    friction: Option<&'w Quantity>,
+    friction_speed: Option<&'w Quantity>,
+    friction_displacement: Option<&'w Quantity>,
+    stop: Option<&'w WrittenStop>,
+    lock: Option<&'w WrittenLock>,
+    motor: Option<&'w Function>,
+    drive: Option<&'w WrittenDrive>,
+    at: At<'w>,
+    measures: Measures,
+}
+
+impl<'w> Law<'w> {
+    /// What is written of the one coordinate of a joint.
+    fn of_joint(written: &'w Written, at: At<'w>, measures: Measures) -> Self {
+        Law {
+            elastic: written.elastic.as_ref(),
+            stiffness: written.stiffness.as_ref(),
+            unloading: written.unloading.as_ref(),
+            unloading_slope: written.unloading_slope.as_ref(),
+            neutral: written.neutral.as_ref(),
+            damping: written.damping.as_ref(),
+            friction: written.friction.as_ref(),
+            friction_speed: written.friction_speed.as_ref(),
+            friction_displacement: written.friction_displacement.as_ref(),
+            stop: written.stop.as_ref(),
+            lock: written.lock.as_ref(),
+            motor: written.motor.as_ref(),
+            drive: written.drive.as_ref(),
+            at,
+            measures,
+        }
+    }
+
+    fn of(torque: &'w Torque, at: At<'w>) -> Self {
+        Law {
+            elastic: torque.elastic.as_ref(),
+            stiffness: torque.stiffness.as_ref(),
+            unloading: torque.unloading.as_ref(),
+            unloading_slope: torque.unloading_slope.as_ref(),
+            neutral: torque.neutral.as_ref(),
+            damping: torque.damping.as_ref(),
+            friction: torque.friction.as_ref(),
+            friction_speed: torque.friction_speed.as_ref(),
+            friction_displacement: torque.friction_displacement.as_ref(),
+            stop: torque.stop.as_ref(),
+            lock: torque.lock.as_ref(),
+            motor: torque.motor.as_ref(),
+            drive: torque.drive.as_ref(),
+            at,
+            measures: OF_ANGLE,
+        }
+    }
+}
+
+/// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// The element outboard of the joint.
+    pub child: ElementId,
+    /// Laws about the first, second, third Bryant angle of the relative rotation A_parentᵀ A_child.
+    /// In the plane only the second is used, its angle being φ_child − φ_parent.
+    pub about: [JointTorque; 3],
+    /// Flexion and torsion, in space.
+    pub bending: Option<Box<Bending>>,
+}
+
+/// Torque or force of one freedom of the joint that carries `child`, on its own coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Freedom {
+    /// The element outboard of the joint.
+    pub child: ElementId,
+    /// Index into its freedoms.
+    pub freedom: usize,
+    /// The law of the coordinate, in \[m\] and \[N\] where it slides.
+    pub law: Box<JointTorque>,
+}
+
+/// Torque about one relative rotation.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct JointTorque {
+    /// Elastic torque as a function of the relative angle less `neutral`: resists with −curve. \[rad\] → \[N m\].
+    pub elastic: Option<ScaledCurve>,
+    /// Relative angle at which the elastic curve has its zero abscissa \[rad\]; none is 0.
+    pub neutral: Option<Number>,
+    /// What unloading adds to the elastic curve, on both sides of its zero.
+    pub hysteresis: Option<Hysteresis>,
+    /// Viscous coefficient \[N m s/rad\]; none is 0.
+    pub damping: Option<Number>,
+    /// Coulomb friction torque; none is 0.
+    pub friction: Option<Friction>,
+    /// By what the friction holds; without one it is a function of speed.
+    pub bristle: Option<Bristle>,
+    /// Where the rotation ends.
+    pub stop: Option<Stop>,
+    /// What holds the angle from a switch on.
+    pub lock: Option<Lock>,
+    /// Torque of a motor \[N m\]; none is 0.
+    pub motor: Option<FieldComponent>,
+    /// What drives the angle to one that is given.
+    pub drive: Option<Drive>,
+}
+
+/// The ends of a relative rotation: N(δ) = max(0, stiffness δ + damping min(δ/fade, 1) δ̇) back, at depth δ > 0 beyond.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// Smallest angle that is free \[rad\].
+    pub from: Option<Number>,
+    /// Largest \[rad\].
+    pub to: Option<Number>,
+    /// \[N m/rad\]
+    pub stiffness: Number,
+    /// \[N m s/rad\]; none is 0.
+    pub damping: Option<Number>,
+    /// Depth up to which damping grows from 0 to its whole \[rad\]; without one it is there at once.
+    pub damping_angle: Option<Number>,
+}
+
+/// Holds the relative angle that there was when a switch began to act.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lock {
+    /// Index into [`Model::switches`](crate::model::Model::switches).
+    pub by: usize,
+    /// \[N m/rad\]
+    pub stiffness: Number,
+    /// \[N m s/rad\]; none is 0.
+    pub damping: Option<Number>,
+}
+
+/// Drives the coordinate to one that is given: N = stiffness (c(t) − θ) + damping (ċ(t) − θ̇), kept within ± limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// c, constant or a curve of time \[rad\].
+    pub to: FieldComponent,
+    /// \[N m/rad\]
+    pub stiffness: Number,
+    /// \[N m s/rad\]; none is 0.
+    pub damping: Option<Number>,
+    /// Largest torque \[N m\]; none is infinite.
+    pub limit: Option<Number>,
+}
+
+impl Bending {
+    /// Whether something in it has a direction that is not determined at a flexion of 180°.
+    pub fn directs(&self) -> bool {
+        let JointTorque { elastic, stop, .. } = &self.flexion;
+        elastic.is_some() || stop.is_some() || self.torsion != JointTorque::default()
+    }
+}
+
+/// Flexion and torsion of a ball joint, in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bending {
+    /// Which local axis is the long one, of both bodies.
+    pub axis: usize,
+    /// The law of the angle between the long axes; without neutral angle and lock, and with a stop at one end.
+    pub flexion: JointTorque,
+    /// The law of the turn about them.
+    pub torsion: JointTorque,
+}
+
+impl Resolver<'_> {
+    /// Resolves a joint force.
+    pub fn joint(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
+        let child = self.element_id(&written.joint, at.key("joint"));
+        let owner = format!("joint {} elastic", written.path());
+        if let Some(id) = child
+            && let joint @ KinematicJoint::Freedoms(_) = self.joint_at(id)
+        {
+            return self.law_of_freedom(written, id, joint.freedoms(), at);
+        }
+        if written.freedom.is_some() && child.is_some() {
+            self.problems.add(at.key("freedom").key_problem(
+                format!("{} is on a ball joint, which has no freedoms of its own", quoted(&written.joint)),
+                match self.planar {
+                    true => "remove the key",
+                    false => "write `about: { x: … }` with one of x, y, z, or give the element a `joint:`",
+                },
+            ));
+        }
+        let mut about: [JointTorque; 3] = Default::default();
+        let mut bending = None;
+        if self.planar {
+            for (key, is_there) in [
+                ("about", written.about.is_some()),
+                ("axis", written.axis.is_some()),
+                ("flexion", written.flexion.is_some()),
+                ("torsion", written.torsion.is_some()),
+            ] {
+                if is_there {
+                    self.problems.add(at.key(key).key_problem(
+                        "in the plane a joint has one rotation",
+                        format!("write `elastic`, `damping`, … directly, without `{key}`"),
+                    ));
+                }
+            }
+            about[1] = self.torque(Law::of_joint(written, at, OF_ANGLE), &owner);
+        } else {
+            for key in OF_ONE_ROTATION {
+                if at.node.get(key).is_some() {
+                    self.problems.add(at.key(key).key_problem(
+                        format!(
+                            "in space a joint has three rotations, and \"{key}\" does not say which"
+                        ),
+                        format!("write `about: {{ y: {{ {key}: … }} }}` with one of x, y, z"),
+                    ));
+                }
+            }
+            if let Some(a) = &written.about {
+                let axes = [(&a.x, "x"), (&a.y, "y"), (&a.z, "z")];
+                for (index, (torque, axis)) in axes.into_iter().enumerate() {
+                    if let Some(t) = torque {
+                        let law = Law::of(t, at.key("about").key(axis));
+                        about[index] = self.torque(law, &format!("{owner} {axis}"));
+                    }
+                }
+            }
+            bending = self.bending(written, at, &owner);
+        }
+        Some(ForceKind::from(Joint {
+            child: child?,
+            about,
+            bending: bending.map(Box::new),
+        }))
+    }
+
+    /// The joint of an element.
+    fn joint_at(&self, id: ElementId) -> KinematicJoint {
+        self.systems[id.system].elements[id.element].joint.clone()
+    }
+
+    /// The law of one freedom of a joint.
+    fn law_of_freedom(
+        &mut self,
+        written: &Written,
+        child: ElementId,
+        freedoms: &[KinematicFreedom],
+        at: At<'_>,
+    ) -> Option<ForceKind> {
+        for (key, is_there) in [
+            ("about", written.about.is_some()),
+            ("axis", written.axis.is_some()),
+            ("flexion", written.flexion.is_some()),
+            ("torsion", written.torsion.is_some()),
+        ] {
+            if is_there {
+                self.problems.add(at.key(key).key_problem(
+                    format!(
+                        "the joint of {} is no ball: its laws are of its own coordinates",
+                        quoted(&written.joint)
+                    ),
+                    format!("write `elastic`, `damping`, … directly, without `{key}`"),
+                ));
+            }
+        }
+        let name = written.freedom.as_deref();
+        let freedom = self.freedom_named(name, &written.joint, freedoms, at)?;
+        let measures = match freedoms[freedom].kind.turns() {
+            true => OF_ANGLE,
+            false => OF_LENGTH,
+        };
+        let owner = format!("joint {} elastic", written.path());
+        let law = self.torque(Law::of_joint(written, at, measures), &owner);
+        Some(ForceKind::from(Freedom {
+            child,
+            freedom,
+            law: Box::new(law),
+        }))
+    }
+
+    /// Which freedom of a joint is meant.
+    pub fn freedom_named(
+        &self,
+        name: Option<&str>,
+        path: &str,
+        freedoms: &[KinematicFreedom],
+        at: At<'_>,
+    ) -> Option<usize> {
+        let names = || freedoms.iter().map(|f| f.name.as_str());
+        let all = names()
+            .map(|n| format!("`{n}`"))
+            .collect::<Vec<_>>()
+            .join(", ");
+        match (name, freedoms) {
+            (_, []) => {
+                self.problems.add(at.problem(
+                    format!("{} is welded: its joint has no freedom", quoted(path)),
+                    "remove this, or give the element another `joint:`",
+                ));
+                None
+            }
+            (None, [_]) => Some(0),
+            (None, _) => {
+                self.problems.add(at.problem(
+                    format!(
+                        "the joint of {} has several freedoms, and it is not said which is meant",
+                        quoted(path)
+                    ),
+                    format!("add `freedom:` with one of {all}"),
+                ));
+                None
+            }
+            (Some(name), _) => {
+                let found = freedoms.iter().position(|f| f.name == name);
+                if found.is_none() {
+                    self.problems.add(at.key("freedom").problem(
+                        format!(
+                            "the joint of {} has no freedom {}",
+                            quoted(path),
+                            quoted(name)
+                        ),
+                        match nearest(name, names()) {
+                            Some(near) => format!("did you mean `{near}`? There are {all}"),
+                            None => format!("there are {all}"),
+                        },
+                    ));
+                }
+                found
+            }
+        }
+    }
+
+    /// Flexion and torsion; `None` where neither has a law.
+    fn bending(&mut self, written: &Written, at: At<'_>, owner: &str) -> Option<Bending> {
+        if written.axis.is_some() && written.flexion.is_none() && written.torsion.is_none() {
+            self.problems.add(at.key("axis").key_problem(
+                "a long axis means nothing without flexion and torsion",
+                "add `flexion: …` or `torsion: …`, or remove `axis`",
+            ));
+        }
+        let bending = Bending {
+            axis: match written.axis {
+                Some(LongAxis::X) => 0,
+                Some(LongAxis::Y) => 1,
+                Some(LongAxis::Z) | None => 2,
+            },
+            flexion: match &written.flexion {
+                Some(flexion) => self.flexion(flexion, at.key("flexion"), owner),
+                None => JointTorque::default(),
+            },
+            torsion: match &written.torsion {
+                Some(torsion) => {
+                    let law = Law::of(torsion, at.key("torsion"));
+                    self.torque(law, &format!("{owner} torsion"))
+                }
+                None => JointTorque::default(),
+            },
+        };
+        let none = JointTorque::default();
+        (bending.flexion != none || bending.torsion != none).then_some(bending)
+    }
+
+    /// The law of the angle between the long axes. Where it is 0 the plane of bending is not determined, and so there
+    /// must be no elastic torque.
+    fn flexion(&mut self, written: &Flexion, at: At<'_>, owner: &str) -> JointTorque {
+        let law = Law {
+            elastic: written.elastic.as_ref(),
+            stiffness: written.stiffness.as_ref(),
+            unloading: written.unloading.as_ref(),
+            unloading_slope: written.unloading_slope.as_ref(),
+            neutral: None,
+            damping: written.damping.as_ref(),
+            friction: written.friction.as_ref(),
+            friction_speed: written.friction_speed.as_ref(),
+            friction_displacement: None,
+            stop: written.stop.as_ref(),
+            lock: None,
+            motor: None,
+            drive: None,
+            at,
+            measures: OF_ANGLE,
+        };
+        let torque = self.torque(law, &format!("{owner} flexion"));
+        let curve = torque.elastic.as_ref().and_then(|e| self.curve_of(e));
+        if curve.is_some_and(|(curve, _)| !curve.points.contains(&[0.0, 0.0])) {
+            self.problems.add(at.key("elastic").problem(
+                "where the long axes are parallel a torque of flexion has no direction, and so must be 0",
+                "let the curve pass through the point [0, 0]",
+            ));
+        }
+        if let Some(stop) = &written.stop {
+            let place = at.key("stop");
+            if stop.from.is_some() {
+                self.problems.add(place.key("from").key_problem(
+                    "the angle of flexion is never negative, and at 0 there is nothing to stop",
+                    "remove `from`; `to` is where the bending ends",
+                ));
+            }
+        }
+        torque
+    }
+
+    fn torque(&mut self, law: Law<'_>, owner: &str) -> JointTorque {
+        let (at, of) = (law.at, law.measures);
+        let elastic = self.elastic(
+            ("elastic", law.elastic),
+            law.stiffness,
+            at,
+            owner,
+            [of.coordinate, of.force, of.stiffness],
+        );
+        let neutral = law
+            .neutral
+            .map(|n| self.number(n, at.key("neutral"), of.coordinate));
+        if law.neutral.is_some() && law.elastic.is_none() && law.stiffness.is_none() {
+            self.problems.add(at.key("neutral").key_problem(
+                "a neutral angle means nothing without an elastic curve",
+                "add `elastic: …` or `stiffness: …`, or remove `neutral`",
+            ));
+        }
+        let hysteresis = self.hysteresis(
+            elastic.as_ref(),
+            Unloading {
+                curve: law.unloading,
+                slope: law.unloading_slope,
+                loading: ("elastic", law.elastic.is_some() || law.stiffness.is_some()),
+                at,
+                owner: owner.replacen(" elastic", " unloading", 1),
+                expected: [of.coordinate, of.force, of.stiffness],
+            },
+        );
+        let friction = self.friction(
+            law.friction,
+            law.friction_speed,
+            at,
+            (of.force, of.rate, of.friction_speed),
+        );
+        let place = at.key("friction_displacement");
+        if law.friction_displacement.is_some() && law.friction.is_none() {
+            self.problems.add(place.key_problem(
+                "a friction displacement means nothing without friction",
+                "add `friction: …`, or remove `friction_displacement`",
+            ));
+        }
+        let bristle = self
+            .coefficient(law.friction_displacement, place, of.coordinate)
+            .filter(|_| friction.is_some())
+            .map(|displacement| Bristle { displacement });
+        let motor = law.motor.map(|motor| {
+            let owner = owner.replacen(" elastic", " motor", 1);
+            self.component(motor, at.key("motor"), &owner, of.force)
+        });
+        let drive = law
+            .drive
+            .and_then(|d| self.drive(d, at.key("drive"), owner, of));
+        JointTorque {
+            neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
+            elastic,
+            hysteresis,
+            damping: self.coefficient(law.damping, at.key("damping"), of.damping),
+            friction,
+            bristle,
+            stop: law.stop.and_then(|s| self.stop(s, at.key("stop"), of)),
+            lock: law.lock.and_then(|l| self.lock(l, at.key("lock"), of)),
+            motor: motor.filter(Part::is_in),
+            drive,
+        }
+    }
+
+    /// What drives a coordinate to one that is given; `None` where it does nothing.
+    fn drive(
+        &mut self,
+        written: &WrittenDrive,
+        at: At<'_>,
+        owner: &str,
+        of: Measures,
+    ) -> Option<Drive> {
+        let owner = owner.replacen(" elastic", " drive", 1);
+        let to: FieldComponent = self.component(&written.to, at.key("to"), &owner, of.coordinate);
+        let place = at.key("stiffness");
+        let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+        let place = at.key("limit");
+        let limit = written.limit.as_ref();
+        let limit = limit.map(|limit| self.number(limit, place, of.force));
+        (stiffness.is_some() || damping.is_some()).then_some(Drive {
+            to,
+            stiffness: stiffness.unwrap_or(Number::ZERO),
+            damping,
+            limit,
+        })
+    }
+
+    /// The ends of a rotation; `None` where they do nothing.
+    fn stop(&self, written: &WrittenStop, at: At<'_>, of: Measures) -> Option<Stop> {
+        let bound = |quantity: &Option<Quantity>, key| {
+            let quantity = quantity.as_ref()?;
+            Some(self.number(quantity, at.key(key), of.coordinate))
+        };
+        let (from, to) = (bound(&written.from, "from"), bound(&written.to, "to"));
+        if from.is_none() && to.is_none() {
+            self.problems.add(at.problem(
+                "the stop does not say where the rotation ends",
+                "add `from: …`, `to: …`, or both",
+            ));
+        }
+        let place = at.key("stiffness");
+        let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+        let damping_angle = self.fade(
+            (written.damping.as_ref(), damping.is_some()),
+            (written.damping_angle.as_ref(), at.key("damping_angle")),
+            (of.coordinate, of.damping_depth),
+        );
+        (stiffness.is_some() || damping.is_some()).then_some(Stop {
+            from,
+            to,
+            stiffness: stiffness.unwrap_or(Number::ZERO),
+            damping,
+            damping_angle,
+        })
+    }
+
+    /// What holds an angle from a switch on; `None` where it does nothing.
+    fn lock(&self, written: &WrittenLock, at: At<'_>, of: Measures) -> Option<Lock> {
+        let by = self.switch_id(&written.by, at.key("by"));
+        let place = at.key("stiffness");
+        let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
+        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+        (stiffness.is_some() || damping.is_some()).then_some(Lock {
+            by: by?,
+            stiffness: stiffness.unwrap_or(Number::ZERO),
+            damping,
+        })
+    }
+}

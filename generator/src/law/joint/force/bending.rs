@@ -1,0 +1,189 @@
+//! Flexion and torsion of a ball joint: how far the long axes of its two bodies part, and how far one turns about them.
+//!
+//! e, c: the long axes of parent and child, absolute; ω = ω_child − ω_parent
+//!
+//! | | angle | its rate | where |
+//! |---|---|---|---|
+//! | flexion | β = angle(e, c) ∈ \[0, π\] | n · ω | n = (e × c)/sin β |
+//! | torsion | τ, the twist of A_parentᵀ A_child = swing · twist | t · ω | t = (e + c)/(1 + e·c) |
+//!
+//! n and t are proven by the three turns that span all: about n the swing grows and the twist stays, n·n = 1, t·n = 0; about c
+//! the twist is multiplied from the right and the swing stays, n·c = 0, t·c = 1; about e the whole turns, swing and all, about
+//! e, which is a turn of the plane of bending and of the twist by the same angle, n·e = 0, t·e = 1. A moment −f(β) n − g(τ) t
+//! therefore does the work −f β̇ − g τ̇, and stores ∫f + ∫g.
+//!
+//! Damping and friction of flexion resist the swinging of the long axis c, seen from the parent: c turns with ċ = ω × c, which is the angular
+//! velocity w = c × ċ = ω − (c·ω) c. It has the component β̇ along n, and another one where the plane of bending turns; of a body that
+//! spins about its own long axis it is 0. The moments −d w and −F w/max(|w|, tolerance) resist it as a whole: their power is −d w² and
+//! −F w²/max(|w|, tolerance), as w·ω = w². So they pass smoothly through β = 0 and β = π, where n has no direction; an elastic torque
+//! that is 0 there does so by itself. At β = π the twist is not defined, nor is the plane of bending: sin β and 1 + e·c are kept from
+//! 0, so that moments stay finite, and a run that goes through it says so by the [bearing].
+
+use super::{Rotation, elastic_torque, stop, stop_kinks};
+use crate::dynamics::force::switch::Gate;
+use crate::dynamics::force::{Loads, Product, choose};
+use crate::dynamics::kinematics::ElementMotion;
+use crate::dynamics::numbers::number;
+use crate::equations::NO_BEARING;
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Function, Graph};
+use crate::law::joint::JointMeasures;
+use crate::model::JointTorque;
+
+/// Below this, sin² β is taken for it: the square of the rounding of a unit vector.
+const SMALLEST_SINE_SQUARED: f64 = 1e-32;
+
+/// Below this, 1 + cos β is taken for it.
+const SMALLEST_OPENING: f64 = 1e-12;
+
+/// A ball joint, bent and twisted.
+pub struct Bent<'g> {
+    /// β, β̇ and n.
+    pub bend: Rotation<'g>,
+    /// τ, τ̇ and t.
+    pub twist: Rotation<'g>,
+    /// w \[rad/s\].
+    swing: Vec3<'g>,
+}
+
+impl<'g> Bent<'g> {
+    /// The state of a joint between two bodies, whose long axes are both the local one of this index.
+    pub fn of(
+        graph: &'g Graph,
+        inboard: &ElementMotion<'g>,
+        outboard: &ElementMotion<'g>,
+        axis: usize,
+    ) -> Self {
+        let one = graph.constant(1.0);
+        let omega = outboard.omega - inboard.omega;
+        let [a, b] = [inboard, outboard].map(|body| body.rotation.column(axis));
+        let cosine = a.dot(b);
+        let across = a.cross(b);
+        let sine = across
+            .squared()
+            .max(graph.constant(SMALLEST_SINE_SQUARED))
+            .sqrt();
+        let normal = sine.recip() * across;
+        let bend = Rotation {
+            angle: sine.atan2(cosine),
+            rate: normal.dot(omega),
+            direction: normal,
+            unit: "rad",
+        };
+
+        // the quaternion (w, …) of A_parentᵀ A_child: tan τ = 2 w z/(w² − z²), both from its matrix, times 2
+        let [j, k] = [(axis + 1) % 3, (axis + 2) % 3];
+        let entry = |row: usize, column: usize| {
+            inboard
+                .rotation
+                .column(row)
+                .dot(outboard.rotation.column(column))
+        };
+        let angle = (entry(k, j) - entry(j, k)).atan2(entry(j, j) + entry(k, k));
+        let opening = (one + cosine).max(graph.constant(SMALLEST_OPENING));
+        let direction = opening.recip() * (a + b);
+        let rate = direction.dot(omega);
+        Bent {
+            bend,
+            twist: Rotation {
+                angle,
+                rate,
+                direction,
+                unit: "rad",
+            },
+            swing: omega - b.dot(omega) * b,
+        }
+    }
+
+    /// The moment of flexion on the child, and what can be asked of it; its torque is the component along n.
+    pub fn flexion(
+        &self,
+        graph: &'g Graph,
+        loads: &mut Loads<'g>,
+        owner: &str,
+        gate: Gate<'g>,
+        law: &JointTorque,
+    ) -> (Vec3<'g>, JointMeasures<'g>) {
+        let Rotation {
+            angle,
+            rate,
+            direction,
+            unit,
+        } = self.bend;
+        let rotation = format!("{owner} flexion");
+        let argument = move || angle;
+        let resists = law.elastic.as_ref().map(|elastic| {
+            elastic_torque(loads, &rotation, gate, elastic, law, argument, rate, unit)
+        });
+        if let Some(law) = &law.stop {
+            stop_kinks(graph, loads, &rotation, gate, law, angle, rate);
+        }
+        let mut torque = graph.constant(0.0);
+        let mut along = |term: &str, value: Expr<'g>| {
+            let value = gate.of(value);
+            torque = torque + value;
+            loads.work(
+                format!("{owner}: flexion, {term}"),
+                Product::Scalars(value, rate),
+            );
+        };
+        if let Some(resists) = resists {
+            along("elastic", -resists.0);
+        }
+        if let Some(law) = &law.stop {
+            along("stop", stop(graph, law, angle, rate));
+        }
+        let squared = self.swing.squared();
+        let mut resistance = graph.constant(0.0);
+        let mut against = |term: &str, coefficient: Expr<'g>| {
+            let coefficient = gate.of(coefficient);
+            resistance = resistance + coefficient;
+            loads.work(
+                format!("{owner}: flexion, {term}"),
+                Product::Scalars(-coefficient, squared),
+            );
+        };
+        if let Some(damping) = &law.damping {
+            against("damping", number(graph, damping));
+        }
+        if let Some(friction) = &law.friction {
+            let (limit, tolerance) = (
+                number(graph, &friction.limit),
+                number(graph, &friction.tolerance),
+            );
+            let scale = graph.call(Function::CoulombScale, &[limit, squared, tolerance]);
+            against("friction", scale);
+            loads.kink(format!("{rotation}: slides"), move || {
+                squared - tolerance.squared()
+            });
+        }
+        (
+            torque * direction - resistance * self.swing,
+            JointMeasures {
+                torque: torque - resistance * rate,
+                angle,
+                rate,
+                permanent_sets: resists.map_or([graph.constant(0.0); 2], |resists| resists.1),
+            },
+        )
+    }
+}
+
+/// To which side the child is bent, seen along the long axis of the parent, whose local index is `axis` \[rad\]; [`NO_BEARING`] where it is
+/// bent by less than 90°. It leaps by half a turn where the flexion goes through 180°.
+pub fn bearing<'g>(
+    graph: &'g Graph,
+    inboard: Mat3<'g>,
+    outboard: Mat3<'g>,
+    axis: usize,
+) -> Expr<'g> {
+    let long = outboard.column(axis);
+    let [along, x, y] = [axis, (axis + 1) % 3, (axis + 2) % 3];
+    let [along, x, y] = [along, x, y].map(|axis| inboard.column(axis).dot(long));
+    choose(
+        along,
+        graph.constant(0.0),
+        y.atan2(x),
+        graph.constant(NO_BEARING),
+    )
+}

@@ -1,0 +1,51 @@
+//! What drives a joint about one coordinate: a torque given over time, or a spring and a damper to a coordinate that is given.
+//!
+//! | | Q |
+//! |---|---|
+//! | motor | M(t) |
+//! | drive | k (c(t) − θ) + d (ċ(t) − θ̇), kept within ± the limit |
+
+use super::Rotation;
+use crate::dynamics::force::Loads;
+use crate::dynamics::numbers::{curve, derivative, number};
+use crate::dynamics::time;
+use crate::expression::{Expr, Function, Graph};
+use crate::model::{Drive, FieldComponent};
+
+/// The torque of a motor.
+pub fn motor<'g>(graph: &'g Graph, law: &FieldComponent) -> Expr<'g> {
+    match law {
+        FieldComponent::Constant(torque) => number(graph, torque),
+        FieldComponent::Curve(scaled) => curve(graph, scaled, time(graph)),
+    }
+}
+
+/// The torque of a drive.
+pub fn drive<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    law: &Drive,
+    Rotation { angle, rate, .. }: Rotation<'g>,
+) -> Expr<'g> {
+    let speed = match &law.to {
+        FieldComponent::Constant(_) => graph.constant(0.0),
+        FieldComponent::Curve(scaled) => {
+            derivative(graph, scaled, Function::CurveSlope, time(graph))
+        }
+    };
+    let mut torque = number(graph, &law.stiffness) * (motor(graph, &law.to) - angle);
+    if let Some(damping) = &law.damping {
+        torque = torque + number(graph, damping) * (speed - rate);
+    }
+    let Some(limit) = &law.limit else {
+        return torque;
+    };
+    let limit = number(graph, limit);
+    loads.kink(
+        format!("{owner}: drives with its largest torque"),
+        move || torque.max(-torque) - limit,
+    );
+    // in this order of operands a NaN is passed on
+    torque.max(-limit).min(limit)
+}

@@ -1,0 +1,485 @@
+//! Joint torque: a separate law about each relative rotation θ_i.   \[MADYMO 1980, force model 1\]
+//!
+//! Q_i = −elastic(θ_i − neutral) − damping · θ̇_i + friction + stop(θ_i, θ̇_i) + lock(θ_i, θ̇_i) + motor(t) + drive(t, θ_i, θ̇_i)
+//!
+//! In the plane θ = φ_child − φ_parent and the moment is Q e_y. In space θ are the Bryant angles of A_parentᵀ A_child with
+//! axes e₁ = x of the parent, e₃ = z of the child, e₂ along e₃ × e₁. They are not orthogonal: the moment that does the work
+//! Q·θ̇, and so stores what the elastic curves store, is
+//!
+//! M = Σ Q_i n_i,   n₂ = (e₃ × e₁)/c,   n₁ = (e₁ − s e₃)/c²,   n₃ = (e₃ − s e₁)/c²,   s = sin θ₂ = e₁·e₃,   c² = 1 − s²
+//!
+//! and by the same vectors θ̇_i = n_i · (ω_child − ω_parent). At θ₂ = ±90° the angles are undefined; c² is kept ≥ 1e-12, so
+//! that forces stay finite there. [Flexion and torsion](bending) are two more such coordinates, in space.
+//!
+//! At a depth δ > 0 behind a stop, N = max(0, k δ + d min(δ/fade, 1) δ̇) pushes back; a lock pulls with −k (θ − θ_l) − d θ̇ to the
+//! angle θ_l that there was when its switch began to act, which is remembered. [Friction](sticking), [motors and drives](drive), and
+//! [the hysteresis](crate::dynamics::force::hysteresis) of elastic curves stand in files of their own.
+
+mod bending;
+mod drive;
+mod sticking;
+
+use super::check::{Freedom, Joint};
+use super::outputs::{AboutRotations, JointMeasures};
+use crate::dynamics::force::fade::faded;
+use crate::dynamics::force::hysteresis;
+use crate::dynamics::force::onset::{Onset, absolute};
+use crate::dynamics::force::switch::Gate;
+use crate::dynamics::force::{Acts, Loads, Motion, Product, choose};
+use crate::dynamics::numbers::{curve, number};
+use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Graph, sum};
+use crate::law::{Asked, Equations, Measures, Setting};
+use crate::model::{
+    Body, Dimension, ElementId, JointQuantity, JointTorque, Lock, Model, Quantity, Reference,
+    ScaledCurve, Stop,
+};
+
+/// Below this, cos² θ₂ is taken for it.
+const SMALLEST_COSINE_SQUARED: f64 = 1e-12;
+
+/// One relative rotation: its angle, its rate, and the moment that does work on it alone.
+#[derive(Clone, Copy)]
+pub struct Rotation<'g> {
+    /// θ \[rad\].
+    pub angle: Expr<'g>,
+    /// θ̇ \[rad/s\].
+    pub rate: Expr<'g>,
+    /// n, by which θ̇ = n · (ω_child − ω_parent).
+    pub direction: Vec3<'g>,
+    /// Unit of the angle; m where a freedom slides.
+    pub unit: &'static str,
+}
+
+impl Equations for Joint {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        Box::new(apply(self, setting, loads))
+    }
+}
+
+impl Equations for Freedom {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        let measures = apply_to_freedom(self, setting, loads);
+        Box::new([Some(measures), None, None, None, None])
+    }
+}
+
+/// Measures: of the three rotations, of flexion, of torsion, where there is a law or somebody looks.
+fn apply<'g>(joint: &Joint, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> AboutRotations<'g> {
+    let Setting {
+        graph,
+        model,
+        motion,
+        index,
+        name,
+        gate,
+        ..
+    } = setting;
+    let (child, bending) = (joint.child, joint.bending.as_deref());
+    let parent = parent(model, child);
+    let curves = loads.curves_so_far();
+    let owner = format!("joint {name}");
+    let mut measures = [None; 5];
+    let mut moment = Vec3::zero(graph);
+    for (i, law) in joint.about.iter().enumerate() {
+        let used = *law != JointTorque::default() || looked_at(model, index, i);
+        if !used || (model.dimension == Dimension::Plane && i != 1) {
+            continue;
+        }
+        let rotation = match model.dimension {
+            Dimension::Plane => in_plane(graph, motion, child, parent),
+            Dimension::Space => in_space(graph, motion, child, parent, i),
+        };
+        let about = match model.dimension {
+            Dimension::Plane => owner.clone(),
+            Dimension::Space => format!("{owner} about {}", ["x", "y", "z"][i]),
+        };
+        let measured = apply_torques(graph, loads, (&owner, &about), gate, law, rotation);
+        moment = moment + measured.torque * rotation.direction;
+        measures[i] = Some(measured);
+    }
+    let looked = [3, 4].map(|i| looked_at(model, index, i));
+    if bending.is_some() || looked.contains(&true) {
+        let axis = bending.map_or(2, |b| b.axis);
+        let bent = bending::Bent::of(graph, motion.body(parent), motion.element(child), axis);
+        let none = JointTorque::default();
+        let flexion = bending.map_or(&none, |b| &b.flexion);
+        let torsion = bending.map_or(&none, |b| &b.torsion);
+        if *flexion != none || looked[0] {
+            let (resists, measured) = bent.flexion(graph, loads, &owner, gate, flexion);
+            moment = moment + resists;
+            measures[3] = Some(measured);
+        }
+        if *torsion != none || looked[1] {
+            let about = format!("{owner} torsion");
+            let names = (&*format!("{owner}: torsion"), &*about);
+            let measured = apply_torques(graph, loads, names, gate, torsion, bent.twist);
+            moment = moment + measured.torque * bent.twist.direction;
+            measures[4] = Some(measured);
+        }
+    }
+    if gate.waits() {
+        loads.curves_act(curves, gate.of(graph.constant(1.0)));
+    }
+    if let Some(bending) = bending.filter(|b| b.directs()) {
+        let [inboard, outboard] =
+            [motion.body(parent), motion.element(child)].map(|body| body.rotation);
+        let axis = bending.axis;
+        loads.bearing(&owner, move || {
+            bending::bearing(graph, inboard, outboard, axis)
+        });
+    }
+    loads.turn_joint(child, parent, moment);
+    measures
+}
+
+/// The law of one freedom of a joint, on its own coordinate: Q as of a relative rotation, in \[N\] where it slides.
+fn apply_to_freedom<'g>(
+    law: &Freedom,
+    setting: Setting<'_, 'g>,
+    loads: &mut Loads<'g>,
+) -> JointMeasures<'g> {
+    let Setting {
+        graph,
+        model,
+        motion,
+        name,
+        gate,
+        ..
+    } = setting;
+    let Freedom {
+        child,
+        freedom,
+        law,
+    } = law;
+    let (child, freedom) = (*child, *freedom);
+    let joint = &model.systems[child.system].elements[child.element].joint;
+    let [unit, _] = joint.freedoms()[freedom].kind.coordinate().units();
+    let curves = loads.curves_so_far();
+    let owner = format!("joint {name}");
+    let (angle, rate) = motion.element(child).freedoms[freedom];
+    let rotation = Rotation {
+        angle,
+        rate,
+        direction: motion.element(child).axes[freedom],
+        unit,
+    };
+    let measured = apply_torques(graph, loads, (&owner, &owner), gate, law, rotation);
+    if gate.waits() {
+        loads.curves_act(curves, gate.of(graph.constant(1.0)));
+    }
+    let on = &mut loads.wrenches.on_freedoms[child.system][child.element][freedom];
+    *on = *on + measured.torque;
+    measured
+}
+
+/// Whether an output or a switch looks at a rotation of a joint.
+fn looked_at(model: &Model, force: usize, about: usize) -> bool {
+    let outputs = model.outputs.iter().map(|output| &output.quantity);
+    let triggers = model.switches.iter().filter_map(|s| s.trigger.quantity());
+    outputs.chain(triggers).any(|quantity| match quantity {
+        Quantity::OfForce {
+            force: f,
+            what: Asked::Joint(asked),
+        } => *f == force && asked.about == about && asked.what != JointQuantity::Torque,
+        _ => false,
+    })
+}
+
+/// Q of one relative rotation, and what can be asked of it, its powers counted by term; the names are that of the effects and that of memory and
+/// kinks.
+fn apply_torques<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    (owner, memory): (&str, &str),
+    gate: Gate<'g>,
+    law: &JointTorque,
+    rotation: Rotation<'g>,
+) -> JointMeasures<'g> {
+    let (terms, permanent_sets) = torques(graph, loads, memory, gate, law, rotation);
+    let terms: Vec<_> = terms
+        .into_iter()
+        .map(|(term, torque)| (term, gate.of(torque)))
+        .collect();
+    for (term, torque) in &terms {
+        let work = match owner.contains(": ") {
+            true => format!("{owner}, {term}"),
+            false => format!("{owner}: {term}"),
+        };
+        loads.work(work, Product::Scalars(*torque, rotation.rate));
+    }
+    JointMeasures {
+        torque: sum(graph, terms.iter().map(|(_, torque)| *torque)),
+        angle: rotation.angle,
+        rate: rotation.rate,
+        permanent_sets,
+    }
+}
+
+/// What carries an element: its parent, a vehicle, or the absolute frame.
+pub fn parent(model: &Model, child: ElementId) -> Body {
+    let system = &model.systems[child.system];
+    match (system.elements[child.element].parent, &system.reference) {
+        (Some(element), _) => Body::Element(ElementId {
+            system: child.system,
+            element,
+        }),
+        (None, Reference::Riding { vehicle, .. }) => Body::Vehicle(*vehicle),
+        (None, _) => Body::Frame,
+    }
+}
+
+/// The terms of Q of one relative rotation, by name, and the sets of its hysteresis.
+fn torques<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    gate: Gate<'g>,
+    law: &JointTorque,
+    rotation: Rotation<'g>,
+) -> (Vec<(&'static str, Expr<'g>)>, [Expr<'g>; 2]) {
+    let Rotation {
+        angle, rate, unit, ..
+    } = rotation;
+    let (mut torques, mut sets) = (Vec::new(), [graph.constant(0.0); 2]);
+    if let Some(elastic) = &law.elastic {
+        let neutral = law
+            .neutral
+            .as_ref()
+            .map_or(graph.constant(0.0), |n| number(graph, n));
+        let argument = move || angle - neutral;
+        let (resists, kept) =
+            elastic_torque(loads, owner, gate, elastic, law, argument, rate, unit);
+        sets = kept;
+        torques.push(("elastic", -resists));
+    }
+    if let Some(damping) = &law.damping {
+        torques.push(("damping", -(number(graph, damping) * rate)));
+    }
+    if let Some(friction) = &law.friction {
+        let bristle = law.bristle.as_ref();
+        let torque = sticking::friction(loads, owner, gate, friction, bristle, rotation);
+        torques.push(("friction", torque));
+    }
+    if let Some(law) = &law.stop {
+        stop_kinks(graph, loads, owner, gate, law, angle, rate);
+        torques.push(("stop", stop(graph, law, angle, rate)));
+    }
+    if let Some(law) = &law.lock {
+        torques.push(("lock", lock(graph, loads, owner, law, rotation)));
+    }
+    if let Some(motor) = &law.motor {
+        torques.push(("motor", drive::motor(graph, motor)));
+    }
+    if let Some(law) = &law.drive {
+        let torque = drive::drive(graph, loads, owner, law, rotation);
+        torques.push(("drive", torque));
+    }
+    (torques, sets)
+}
+
+/// What an elastic curve resists with, the sets of its hysteresis, and whatever is to be told of it.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "whose, what law, and where on it"
+)]
+pub fn elastic_torque<'g>(
+    loads: &mut Loads<'g>,
+    owner: &str,
+    gate: Gate<'g>,
+    elastic: &ScaledCurve,
+    law: &JointTorque,
+    argument: impl Fn() -> Expr<'g> + Copy + 'g,
+    rate: Expr<'g>,
+    unit: &'static str,
+) -> (Expr<'g>, [Expr<'g>; 2]) {
+    loads.curve_of_state(owner, "elastic curve", elastic, Acts::Everywhere, argument);
+    loads.onset_of_curve(owner, gate, elastic, argument, rate);
+    loads.corners(owner, "elastic curve", gate, elastic, argument, move || {
+        rate
+    });
+    let loading = curve(rate.graph(), elastic, argument());
+    match &law.hysteresis {
+        Some(law) => {
+            hysteresis::apply_both_ways(loads, owner, unit, law, gate, argument, loading, rate)
+        }
+        None => (loading, [rate.graph().constant(0.0); 2]),
+    }
+}
+
+/// What the ends of a rotation push back with.
+pub fn stop<'g>(graph: &'g Graph, law: &Stop, angle: Expr<'g>, rate: Expr<'g>) -> Expr<'g> {
+    let zero = graph.constant(0.0);
+    let push = |beyond: Expr<'g>, rate: Expr<'g>| {
+        let push = behind(graph, law, beyond, rate);
+        match law.damping {
+            Some(_) => push.max(zero),
+            None => push,
+        }
+    };
+    let above = law
+        .to
+        .as_ref()
+        .map_or(zero, |to| push(angle - number(graph, to), rate));
+    let below = law
+        .from
+        .as_ref()
+        .map_or(zero, |from| push(number(graph, from) - angle, -rate));
+    below - above
+}
+
+/// What a stop that has been passed by `beyond` pushes back with, or where damping is larger, pulls.
+fn behind<'g>(graph: &'g Graph, law: &Stop, beyond: Expr<'g>, rate: Expr<'g>) -> Expr<'g> {
+    let zero = graph.constant(0.0);
+    let depth = beyond.max(zero);
+    let elastic = number(graph, &law.stiffness) * depth;
+    let viscous = match (&law.damping, &law.damping_angle) {
+        (None, _) => return elastic,
+        (Some(damping), fade @ Some(_)) => {
+            number(graph, damping) * faded(graph, depth, fade.as_ref()) * rate
+        }
+        // at once, but not before
+        (Some(damping), None) => choose(zero, beyond, number(graph, damping) * rate, zero),
+    };
+    elastic + viscous
+}
+
+/// Tells where a stop begins and ends to push, and from where on its damping is full.
+pub fn stop_kinks<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    gate: Gate<'g>,
+    law: &Stop,
+    angle: Expr<'g>,
+    rate: Expr<'g>,
+) {
+    for (end, above) in [(&law.to, true), (&law.from, false)] {
+        let Some(end) = end.clone() else { continue };
+        let (law, which) = (law.clone(), if above { "upper" } else { "lower" });
+        let beyond = move || match above {
+            true => angle - number(graph, &end),
+            false => number(graph, &end) - angle,
+        };
+        let name = format!("{owner}: {which} stop");
+        let passed = beyond.clone();
+        loads.onset(format!("{name} begins"), move || {
+            gate.of_onset(Onset {
+                gap: -passed(),
+                speed: absolute(rate),
+            })
+        });
+        if let (Some(_), Some(fade)) = (&law.damping, law.damping_angle.clone()) {
+            let beyond = beyond.clone();
+            loads.kink(format!("{name} damps in full"), move || {
+                beyond() - number(graph, &fade)
+            });
+        }
+        match law.damping {
+            Some(_) => loads.kink(format!("{name} pushes"), move || {
+                let (zero, beyond) = (graph.constant(0.0), beyond());
+                let outwards = if above { rate } else { -rate };
+                choose(zero, beyond, behind(graph, &law, beyond, outwards), beyond)
+            }),
+            None => loads.kink(format!("{name} begins"), beyond),
+        }
+    }
+}
+
+fn lock<'g>(
+    graph: &'g Graph,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    law: &Lock,
+    Rotation {
+        angle, rate, unit, ..
+    }: Rotation<'g>,
+) -> Expr<'g> {
+    let zero = graph.constant(0.0);
+    let switch = loads.states.switches[law.by];
+    let (index, held) = loads.memory(format!("{owner}: locked angle"), unit, zero);
+    loads.states.memory[index].next = switch.once(held, angle);
+    let mut torque = number(graph, &law.stiffness) * (angle - held);
+    if let Some(damping) = &law.damping {
+        torque = torque + number(graph, damping) * rate;
+    }
+    switch.once(-torque, zero)
+}
+
+/// θ, θ̇ and the direction e_y.
+pub fn in_plane<'g>(
+    graph: &'g Graph,
+    motion: &Motion<'g>,
+    child: ElementId,
+    parent: Body,
+) -> Rotation<'g> {
+    let (inboard, outboard) = (motion.body(parent), motion.element(child));
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let rate = outboard.omega - inboard.omega;
+    Rotation {
+        angle: outboard.angle - inboard.angle,
+        rate: rate.0[1],
+        direction: Vec3([zero, one, zero]),
+        unit: "rad",
+    }
+}
+
+/// θ_i, θ̇_i and n_i.
+pub fn in_space<'g>(
+    graph: &'g Graph,
+    motion: &Motion<'g>,
+    child: ElementId,
+    parent: Body,
+    i: usize,
+) -> Rotation<'g> {
+    let (inboard, outboard) = (motion.body(parent), motion.element(child));
+    let (angle, direction) = bryant(graph, [&inboard.rotation, &outboard.rotation], i);
+    Rotation {
+        angle,
+        rate: direction.dot(outboard.omega - inboard.omega),
+        direction,
+        unit: "rad",
+    }
+}
+
+/// θ_i and n_i of the second axes relative to the first.
+pub fn bryant<'g>(
+    graph: &'g Graph,
+    [inboard, outboard]: [&Mat3<'g>; 2],
+    i: usize,
+) -> (Expr<'g>, Vec3<'g>) {
+    let (first, third) = (inboard.column(0), outboard.column(2));
+    let sine = first.dot(third);
+    let cosine_squared =
+        (graph.constant(1.0) - sine.squared()).max(graph.constant(SMALLEST_COSINE_SQUARED));
+    match i {
+        0 => {
+            let y = inboard.column(1).dot(third);
+            let z = inboard.column(2).dot(third);
+            (
+                (-y).atan2(z),
+                cosine_squared.recip() * (first - sine * third),
+            )
+        }
+        1 => {
+            let cosine = cosine_squared.sqrt();
+            (sine.atan2(cosine), cosine.recip() * third.cross(first))
+        }
+        _ => {
+            let x = first.dot(outboard.column(0));
+            let y = first.dot(outboard.column(1));
+            (
+                (-y).atan2(x),
+                cosine_squared.recip() * (third - sine * first),
+            )
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Friction of a joint about one coordinate: Coulomb's, regularised by speed, or by a bristle that holds.
+//!
+//! **By speed.** Q = −M sat(θ̇/v_s): a function of the state alone, under which a joint creeps.
+//!
+//! **By a bristle.** The law of [contacts](crate::law::contact::force), of one coordinate and under a given load: with the deflection z of the bristle,
+//!
+//! s = sat(z/z_b + θ̇/v_s),   Q = −M s,   ż = v_s (s − z/z_b)
+//!
+//! While |z/z_b + θ̇/v_s| ≤ 1 it sticks, and ż = θ̇ exactly: under a constant torque below M the joint comes to rest within z_b, and
+//! nothing creeps from there. Beyond, it slides under the whole M, and z follows s z_b; |z| ≤ z_b always. While the force waits for a switch the
+//! bristle straightens.
+
+use super::Rotation;
+use crate::dynamics::force::Loads;
+use crate::dynamics::force::switch::Gate;
+use crate::dynamics::numbers::number;
+use crate::expression::{Expr, Function};
+use crate::model::{Bristle, Friction};
+
+/// The torque of friction.
+pub fn friction<'g>(
+    loads: &mut Loads<'g>,
+    owner: &str,
+    gate: Gate<'g>,
+    law: &Friction,
+    bristle: Option<&Bristle>,
+    Rotation { rate, unit, .. }: Rotation<'g>,
+) -> Expr<'g> {
+    let graph = rate.graph();
+    let (limit, tolerance) = (number(graph, &law.limit), number(graph, &law.tolerance));
+    let slides = format!("{owner}: slides");
+    let Some(Bristle { displacement }) = bristle else {
+        loads.kink(slides, move || rate.max(-rate) - tolerance);
+        return graph.call(Function::Coulomb, &[limit, rate, tolerance]);
+    };
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let deflection = number(graph, displacement);
+    let (index, z) = loads.auxiliary(format!("{owner}: bristle"), unit, zero);
+    let trial = z / deflection + rate / tolerance;
+    loads.kink(slides, move || trial.max(-trial) - one);
+    // in this order of operands a NaN is passed on
+    let share = trial.max(-one).min(one);
+    loads.states.auxiliaries[index].next = tolerance * (gate.of(share) - z / deflection);
+    -(limit * share)
+}

@@ -1,0 +1,10 @@
+//! Torques and forces in a joint.
+
+pub(crate) mod check;
+pub(crate) mod force;
+pub mod keys;
+pub(crate) mod outputs;
+pub(crate) mod terms;
+
+pub use check::*;
+pub use outputs::*;

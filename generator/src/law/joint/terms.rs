@@ -1,0 +1,259 @@
+//! The terms of laws in a joint: of each rotation, of flexion and torsion, of a freedom.
+
+use super::check::{Bending, Drive, Freedom, Joint, JointTorque, Lock, Stop};
+use crate::law::Terms;
+use crate::model::part::{AXES, Field, Fresh, Part, Term, as_written};
+use crate::model::requirement::{Curves, List};
+use crate::model::rule::{Rule, Ruled};
+use crate::model::unloading;
+use crate::model::{Body, Dimension, Number, ScaledCurve};
+
+/// What an elastic curve of a joint must do if it has a hysteresis.
+const RETURNS: &str =
+    "must be 0 at the neutral angle and push back to it everywhere, to have a hysteresis";
+
+impl Terms for Joint {
+    fn is_struct_variant(&self) -> bool {
+        true
+    }
+
+    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
+        let Joint {
+            child,
+            about,
+            bending,
+        } = self;
+        fields.push(Field::Body(Body::Element(*child)));
+        if let Some(bending) = bending {
+            let Bending {
+                axis: _,
+                flexion,
+                torsion,
+            } = &mut **bending;
+            torque(flexion, " of flexion", "flexion.", fields);
+            torque(torsion, " of torsion", "torsion.", fields);
+        }
+        for (axis, law) in about.iter_mut().enumerate() {
+            match dimension {
+                Dimension::Space => {
+                    let (axis, key) = (AXES[axis], format!("about.{}.", AXES[axis]));
+                    torque(law, &format!(" about {axis}"), &key, fields);
+                }
+                Dimension::Plane if axis == 1 => torque(law, "", "", fields),
+                Dimension::Plane => {}
+            }
+        }
+    }
+
+    fn settle(&mut self) {
+        let bent = self.bending.iter_mut();
+        let bent = bent.flat_map(|b| [&mut b.flexion, &mut b.torsion]);
+        self.about
+            .iter_mut()
+            .chain(bent)
+            .for_each(JointTorque::settle);
+        let nothing = JointTorque::default();
+        let bends = |b: &Bending| b.flexion != nothing || b.torsion != nothing;
+        if !self.bending.as_deref().is_some_and(bends) {
+            self.bending = None;
+        }
+    }
+
+    fn require(&self, dimension: Dimension, curves: Curves<'_>, list: &mut List<'_>) {
+        for (axis, law) in self.about.iter().enumerate() {
+            let below = match dimension {
+                Dimension::Plane => String::new(),
+                Dimension::Space => format!("about.{}.", AXES[axis]),
+            };
+            list.law(law, &below, curves);
+        }
+        if let Some(bending) = &self.bending {
+            list.both_ways(&bending.flexion, "flexion.", curves);
+            let to = bending.flexion.stop.as_ref().and_then(|s| s.to.as_ref());
+            if let Some(to) = to {
+                list.number("flexion.stop.to".into(), to, Rule::Positive);
+            }
+            list.law(&bending.torsion, "torsion.", curves);
+        }
+    }
+
+    fn switches_mut(&mut self) -> Vec<&mut usize> {
+        let torsion = self.bending.iter_mut().map(|b| &mut b.torsion);
+        let laws = self.about.iter_mut().chain(torsion);
+        laws.flat_map(JointTorque::locks_mut).collect()
+    }
+
+    fn flatten(&mut self) -> bool {
+        self.about[0] = JointTorque::default();
+        self.about[2] = JointTorque::default();
+        true
+    }
+}
+
+impl Terms for Freedom {
+    fn is_struct_variant(&self) -> bool {
+        true
+    }
+
+    fn fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
+        let Freedom {
+            child,
+            freedom: _,
+            law,
+        } = self;
+        fields.push(Field::Body(Body::Element(*child)));
+        torque(law, "", "", fields);
+    }
+
+    fn settle(&mut self) {
+        self.law.settle();
+    }
+
+    fn require(&self, _: Dimension, curves: Curves<'_>, list: &mut List<'_>) {
+        list.law(&self.law, "", curves);
+    }
+
+    fn switches_mut(&mut self) -> Vec<&mut usize> {
+        self.law.locks_mut().collect()
+    }
+
+    fn flatten(&mut self) -> bool {
+        true
+    }
+}
+
+impl JointTorque {
+    /// Leaves out what cannot do anything without what is absent.
+    fn settle(&mut self) {
+        if self.elastic.is_none() {
+            self.neutral = None;
+            self.hysteresis = None;
+        }
+        if self.friction.is_none() {
+            self.bristle = None;
+        }
+    }
+
+    /// The switch of its lock.
+    fn locks_mut(&mut self) -> impl Iterator<Item = &mut usize> {
+        self.lock.iter_mut().map(|lock| &mut lock.by)
+    }
+}
+
+/// The law about one relative rotation.
+fn torque<'a>(law: &'a mut JointTorque, about: &str, below: &str, fields: &mut Vec<Field<'a>>) {
+    let JointTorque {
+        elastic,
+        neutral,
+        hysteresis,
+        damping,
+        friction,
+        bristle,
+        stop,
+        lock,
+        motor,
+        drive,
+    } = law;
+    let term = |name: &str, key: &str, rule| {
+        Term::new(format!("{name}{about}"), format!("{below}{key}"), rule)
+    };
+    let mut elastics = term("elastic", "elastic", Rule::Finite);
+    elastics.keys.push(format!("{below}stiffness"));
+    fields.push(Field::Term(elastics, elastic));
+    let angle = term("neutral angle", "neutral", Rule::Finite);
+    let angle = angle.needs("there is no elastic torque");
+    fields.push(Field::Term(angle, neutral));
+    let mut unloading = term("hysteresis", "unloading", Rule::Finite);
+    unloading.keys.push(format!("{below}unloading_slope"));
+    let unloading = unloading.needs("there is no elastic torque");
+    fields.push(Field::Term(unloading, hysteresis));
+    let dampings = term("damping", "damping", Rule::NotNegative);
+    fields.push(Field::Term(dampings, damping));
+    let frictions = term("friction", "friction", Rule::NotNegative);
+    fields.push(Field::Term(frictions, friction));
+    let holds = term("friction holds", "friction_displacement", Rule::Positive);
+    let holds = holds.needs("there is no friction");
+    fields.push(Field::Term(holds, bristle));
+    fields.push(Field::Term(term("stop", "stop", Rule::Finite), stop));
+    fields.push(Field::Term(term("lock", "lock", Rule::Finite), lock));
+    let motors = term("motor", "motor", Rule::Finite).only_as_written();
+    fields.push(Field::Term(motors, motor));
+    fields.push(Field::Term(term("drive", "drive", Rule::Finite), drive));
+}
+
+as_written! {
+    Stop { stiffness: NotNegative } {
+        from: Finite, to: Finite, damping: NotNegative, damping_angle: NotNegative
+    } [];
+    Lock { stiffness: NotNegative } { damping: NotNegative } [] - by;
+    Drive { stiffness: NotNegative } { damping: NotNegative, limit: Positive } [to];
+}
+
+impl List<'_> {
+    /// The law of one coordinate of a joint.
+    fn law(&mut self, law: &JointTorque, below: &str, curves: Curves<'_>) {
+        self.stop(law, below);
+        self.both_ways(law, below, curves);
+    }
+
+    /// A hysteresis on both sides of 0, whose curves must lie between 0 and each other there, the one of unloading below.
+    fn both_ways(&mut self, law: &JointTorque, below: &str, curves: Curves<'_>) {
+        let (Some(loading), Some(hysteresis)) = (&law.elastic, &law.hysteresis) else {
+            return;
+        };
+        let Some(f) = curves(loading.curve) else {
+            return;
+        };
+        self.steep((f, loading), hysteresis, below, curves);
+        let u = hysteresis.unloading.as_ref();
+        let u = u.and_then(|scaled| Some((curves(scaled.curve)?, scaled)));
+        let nothing = unloading::nothing();
+        let none = (&nothing, &unloading::unscaled());
+        let ordered = match u {
+            Some(u) => vec![
+                (
+                    u,
+                    (f, loading),
+                    "unloading",
+                    "must lie between 0 and the elastic curve everywhere",
+                ),
+                (
+                    none,
+                    u,
+                    "unloading",
+                    "must lie between 0 and the elastic curve everywhere",
+                ),
+            ],
+            None => vec![(none, (f, loading), "elastic", RETURNS)],
+        };
+        for (lower, upper, key, must) in ordered {
+            let mirrored = [lower, upper].map(|(curve, _)| unloading::turned(curve));
+            let sides = [
+                unloading::clearances(lower, upper),
+                unloading::clearances((&mirrored[0], lower.1), (&mirrored[1], upper.1)),
+            ];
+            for clearance in sides.into_iter().flatten() {
+                self.together(
+                    &format!("{below}{key}"),
+                    must,
+                    clearance,
+                    Rule::NotNegative,
+                    "let the torque be 0 at the neutral angle and push back to it everywhere; unloading gives back at most what loading took",
+                );
+            }
+        }
+    }
+
+    fn stop(&mut self, law: &JointTorque, below: &str) {
+        let Some(stop) = &law.stop else { return };
+        if let (Some(from), Some(to)) = (&stop.from, &stop.to) {
+            self.together(
+                &format!("{below}stop.to"),
+                "must be larger than `from`",
+                Number::difference(to.clone(), from.clone()),
+                Rule::Positive,
+                "the rotation needs room between the ends; let `from` be smaller than `to`",
+            );
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Given loads: a force at a point of an element and a moment, in absolute axes.
+
+use super::keys::Load as Written;
+use crate::description::place::At;
+use crate::diagnostic::quoted;
+use crate::model::resolve::quantity::{FORCE, MOMENT};
+use crate::model::resolve::{AXES, NOWHERE, Resolver};
+use crate::model::{Attachment, Body, ElementId, FieldComponent, Number};
+
+/// A given force and moment, absolute axes: thrust, actuation, a reaction known from a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Load {
+    /// Where the force acts.
+    pub on: Attachment,
+    /// Per absolute axis \[N\], constant or a curve of time.
+    pub force: [FieldComponent; 3],
+    /// Per absolute axis \[N m\], constant or a curve of time. In the plane only the second is used.
+    pub moment: [FieldComponent; 3],
+}
+
+/// The checked form of a load.
+pub(crate) fn load(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<Load> {
+    let element = loaded_element(resolver, &written.on, at.key("on"));
+    if written.force.is_none() && written.moment.is_none() {
+        resolver.problems.add(at.key("load").key_problem(
+            format!(
+                "the load {} has neither force nor moment",
+                quoted(&written.load)
+            ),
+            "add `force: …` or `moment: …`; a load that is switched off says `enabled: false`",
+        ));
+    }
+    let mut force = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
+    if let Some(components) = &written.force {
+        let owner = format!("load {} force", written.load);
+        force = resolver.components(components, at.key("force"), &owner, FORCE);
+    }
+    let mut moment = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
+    if let Some(components) = &written.moment {
+        for (axis, component, at) in resolver.about_axes(components, at.key("moment"), MOMENT) {
+            let owner = match resolver.planar {
+                true => format!("load {} moment", written.load),
+                false => format!("load {} moment {}", written.load, AXES[axis]),
+            };
+            moment[axis] = resolver.component(component, at, &owner, MOMENT);
+        }
+    }
+    let element = element?;
+    let point = match &written.at {
+        Some(point) => resolver.point(point, element, at.key("at")),
+        None => NOWHERE,
+    };
+    Some(Load {
+        on: Attachment {
+            on: Body::Element(element),
+            at: point,
+        },
+        force,
+        moment,
+    })
+}
+
+/// The element that feels a load: the absolute frame feels nothing.
+fn loaded_element(resolver: &Resolver<'_>, path: &str, at: At<'_>) -> Option<ElementId> {
+    if path == "frame" {
+        resolver.problems.add(at.problem(
+            "a load on the absolute frame moves nothing",
+            "name an element, as `system/element`",
+        ));
+        return None;
+    }
+    resolver.element_id(path, at)
+}

@@ -1,0 +1,31 @@
+//! A given force at a point of an element, and a given moment, in absolute axes.
+
+use super::check::Load;
+use crate::dynamics::force::{Loads, Product, components};
+use crate::law::{Equations, Measures, Setting};
+
+impl Equations for Load {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        let Setting {
+            graph,
+            motion,
+            name,
+            gate,
+            ..
+        } = setting;
+        let point = motion.attachment(graph, &self.on);
+        let force = gate.of_vector(components(graph, &self.force));
+        let moment = gate.of_vector(components(graph, &self.moment));
+        loads.apply(self.on.on, point.offset, force);
+        loads.turn(self.on.on, moment);
+        let work = format!("load {name}");
+        loads.work(&work, Product::Vectors(force, point.velocity));
+        let omega = motion.body(self.on.on).omega;
+        loads.work(&work, Product::Vectors(moment, omega));
+        Box::new(())
+    }
+}

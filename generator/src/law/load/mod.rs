@@ -1,0 +1,9 @@
+//! A given force and moment on an element.
+
+pub(crate) mod check;
+pub(crate) mod force;
+pub mod keys;
+pub(crate) mod outputs;
+pub(crate) mod terms;
+
+pub use check::*;

@@ -1,0 +1,20 @@
+//! A load is given, and has no outputs.
+
+use super::check::Load;
+use crate::description::output::Output as Written;
+use crate::description::place::At;
+use crate::law::Outputs;
+use crate::model::Quantity;
+use crate::model::resolve::Resolver;
+
+impl Outputs for Load {
+    fn output(
+        &self,
+        _: &Resolver<'_>,
+        _: &Written,
+        _: usize,
+        _: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        None
+    }
+}

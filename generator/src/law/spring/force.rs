@@ -1,0 +1,91 @@
+//! Springs between two points, with a damper beside: both pull and push.
+//!
+//! With the distance L of the ends, along the unit vector u from one to the other, F = f(L − L₀) + d L̇ acts on the first end along u, and
+//! opposite on the second.
+
+use super::check::Spring;
+use super::outputs::SpringMeasures;
+use crate::dynamics::force::{Acts, Loads, Product};
+use crate::dynamics::kinematics::Motion;
+use crate::dynamics::numbers::{curve, number};
+use crate::law::belt::force::length;
+use crate::law::{Equations, Measures, Setting};
+
+impl Equations for Spring {
+    fn apply<'g>(
+        &self,
+        setting: Setting<'_, 'g>,
+        loads: &mut Loads<'g>,
+    ) -> Box<dyn Measures<'g> + 'g> {
+        Box::new(apply(self, setting, loads))
+    }
+}
+
+fn apply<'g>(
+    spring: &Spring,
+    setting: Setting<'_, 'g>,
+    loads: &mut Loads<'g>,
+) -> SpringMeasures<'g> {
+    let Setting {
+        graph,
+        motion,
+        start,
+        name,
+        gate,
+        ..
+    } = setting;
+    let ends =
+        |motion: &Motion<'g>| [&spring.from, &spring.to].map(|end| motion.attachment(graph, end));
+    let [from, to] = ends(motion);
+    let span = to.position - from.position;
+    let distance = length(graph, span.squared());
+    let direction = distance.recip() * span;
+    let rate = direction.dot(to.velocity - from.velocity);
+    let relaxed = match &spring.length {
+        Some(length) => number(graph, length),
+        // that at the start of a run
+        None => {
+            let [from, to] = ends(start);
+            length(graph, (to.position - from.position).squared())
+        }
+    };
+    let elongation = distance - relaxed;
+
+    let owner = format!("spring {name}");
+    let mut force = graph.constant(0.0);
+    if let Some(elastic) = &spring.elastic {
+        let curves = loads.curves_so_far();
+        let argument = move || elongation;
+        loads.curve_of_state(&owner, "elastic curve", elastic, Acts::Everywhere, argument);
+        loads.onset_of_curve(&owner, gate, elastic, argument, rate);
+        loads.corners(
+            &owner,
+            "elastic curve",
+            gate,
+            elastic,
+            argument,
+            move || rate,
+        );
+        if gate.waits() {
+            loads.curves_act(curves, gate.of(graph.constant(1.0)));
+        }
+        let pull = gate.of(curve(graph, elastic, elongation));
+        loads.work(format!("{owner}: elastic"), Product::Scalars(-pull, rate));
+        force = force + pull;
+    }
+    if let Some(damping) = &spring.damping {
+        let pull = gate.of(number(graph, damping) * rate);
+        loads.work(format!("{owner}: damping"), Product::Scalars(-pull, rate));
+        force = force + pull;
+    }
+    let on_first = force * direction;
+    loads.apply(spring.from.on, from.offset, on_first);
+    loads.apply(spring.to.on, to.offset, -on_first);
+    SpringMeasures {
+        on_first,
+        force,
+        length: distance,
+        elongation,
+        rate,
+    }
+}

@@ -1,0 +1,86 @@
+//! What can be asked of a spring.
+
+use super::check::Spring;
+use crate::description::output::Output as Written;
+use crate::description::place::At;
+use crate::expression::Expr;
+use crate::expression::vector::Vec3;
+use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::model::Quantity;
+use crate::model::resolve::Resolver;
+use crate::model::resolve::output::has_direction;
+
+/// Of a spring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpringQuantity {
+    /// Force, positive where it pulls \[N\].
+    Force,
+    /// Distance of the attachments \[m\].
+    Length,
+    /// Length less that of no elongation \[m\].
+    Elongation,
+    /// Rate of the length \[m/s\].
+    Rate,
+}
+
+impl OfLaw for SpringQuantity {}
+
+const TABLE: [(&str, &str, SpringQuantity); 4] = [
+    ("force", "N", SpringQuantity::Force),
+    ("length", "m", SpringQuantity::Length),
+    ("elongation", "m", SpringQuantity::Elongation),
+    ("rate", "m/s", SpringQuantity::Rate),
+];
+
+impl Outputs for Spring {
+    fn output(
+        &self,
+        resolver: &Resolver<'_>,
+        written: &Written,
+        force: usize,
+        at: At<'_>,
+    ) -> Option<(Quantity, &'static str)> {
+        resolver.of_law(at, "a spring");
+        let (what, unit) = resolver.look_up(written, &TABLE, "a spring", at)?;
+        let quantity = match what {
+            SpringQuantity::Force if has_direction(written) => {
+                resolver.force_on(written, force, [self.from.on, self.to.on], at)?
+            }
+            what => resolver.scalar(force, Asked::Spring(what), at),
+        };
+        Some((quantity, unit))
+    }
+}
+
+/// Of a spring.
+#[derive(Clone, Copy)]
+pub struct SpringMeasures<'g> {
+    /// The force on the body of its end `from` \[N\].
+    pub on_first: Vec3<'g>,
+    /// Force, positive where it pulls \[N\].
+    pub force: Expr<'g>,
+    /// Distance of the attachments \[m\].
+    pub length: Expr<'g>,
+    /// What it is longer than without force \[m\].
+    pub elongation: Expr<'g>,
+    /// Rate of the length \[m/s\].
+    pub rate: Expr<'g>,
+}
+
+impl<'g> Measures<'g> for SpringMeasures<'g> {
+    fn on(&self) -> Vec<Vec3<'g>> {
+        vec![self.on_first]
+    }
+
+    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
+        let Asked::Spring(what) = asked else {
+            return None;
+        };
+        Some(Value::Scalar(match what {
+            SpringQuantity::Force => self.force,
+            SpringQuantity::Length => self.length,
+            SpringQuantity::Elongation => self.elongation,
+            SpringQuantity::Rate => self.rate,
+        }))
+    }
+}

@@ -1,0 +1,10 @@
+//! A force by a function of the user's.
+
+pub(crate) mod check;
+pub(crate) mod force;
+pub mod keys;
+pub(crate) mod outputs;
+pub(crate) mod terms;
+
+pub use check::*;
+pub use outputs::*;

@@ -1,0 +1,234 @@
+//! What a function computes with: time, coordinates, velocities, states of force laws, and what was computed before.
+//!
+//! Values that are known before a function runs stand in its graph as inputs. The graph knows symbols for the others; the
+//! three that emission adds (accelerations, guards, constants derived from parameters) are numbered after the model's
+//! parameters.
+
+use crate::equations::{Equations, LawState, Variable};
+use crate::expression::Symbol;
+use crate::model::Model;
+use crate::names::snake;
+
+/// An input as emission sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Input {
+    /// t
+    Time,
+    /// `q[i]`
+    Coordinate(usize),
+    /// `v[i]`
+    Velocity(usize),
+    /// `z[i]`
+    Auxiliary(usize),
+    /// `m[i]`
+    Memory(usize),
+    /// `a[i]`: v̇, where a function starts from it
+    Acceleration(usize),
+    /// `g[i]`: a guard, where memory is renewed by it
+    Guard(usize),
+    /// Field of the parameters
+    Parameter(usize),
+    /// Field of the mechanism, computed from parameters
+    Derived(usize),
+}
+
+impl Input {
+    /// The array and the index in it; `None` for what is no element of an array argument.
+    pub(crate) fn element(self) -> Option<(Argument, usize)> {
+        match self {
+            Input::Coordinate(i) => Some((Argument::Coordinates, i)),
+            Input::Velocity(i) => Some((Argument::Velocities, i)),
+            Input::Auxiliary(i) => Some((Argument::Auxiliaries, i)),
+            Input::Memory(i) => Some((Argument::Memory, i)),
+            Input::Acceleration(i) => Some((Argument::Accelerations, i)),
+            Input::Guard(i) => Some((Argument::Guards, i)),
+            Input::Time | Input::Parameter(_) | Input::Derived(_) => None,
+        }
+    }
+
+    /// The argument that it comes with; `None` for what the mechanism knows.
+    pub(crate) fn argument(self) -> Option<Argument> {
+        match self {
+            Input::Time => Some(Argument::Time),
+            _ => self.element().map(|(argument, _)| argument),
+        }
+    }
+}
+
+/// An argument of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Argument {
+    /// t
+    Time,
+    /// q
+    Coordinates,
+    /// v
+    Velocities,
+    /// z
+    Auxiliaries,
+    /// m
+    Memory,
+    /// v̇
+    Accelerations,
+    /// The guards
+    Guards,
+}
+
+impl Argument {
+    /// Those that are arrays, in the order in which they are taken apart: z and m first, because a coordinate may be
+    /// called so too.
+    pub(crate) const ARRAYS: [Argument; 6] = [
+        Argument::Auxiliaries,
+        Argument::Memory,
+        Argument::Coordinates,
+        Argument::Velocities,
+        Argument::Accelerations,
+        Argument::Guards,
+    ];
+
+    /// The name that it has everywhere.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Argument::Time => "t",
+            Argument::Coordinates => "q",
+            Argument::Velocities => "v",
+            Argument::Auxiliaries => "z",
+            Argument::Memory => "m",
+            Argument::Accelerations => "a",
+            Argument::Guards => "g",
+        }
+    }
+}
+
+/// Names of all inputs.
+pub(crate) struct Inputs {
+    /// Names of q.
+    pub coordinates: Vec<String>,
+    /// Names of v.
+    pub velocities: Vec<String>,
+    /// Names of z.
+    pub auxiliaries: Vec<String>,
+    /// Names of m.
+    pub memory: Vec<String>,
+    /// Names of v̇.
+    pub accelerations: Vec<String>,
+    /// Names of the guards.
+    pub guards: Vec<String>,
+    /// Fields of the parameters.
+    pub parameters: Vec<String>,
+    /// Fields of the mechanism.
+    pub derived: Vec<String>,
+    /// The section in which each of them was made.
+    pub derived_in: Vec<String>,
+}
+
+impl Inputs {
+    /// Names for the inputs of a model's functions; derived constants are added by whoever finds them.
+    pub(crate) fn new(model: &Model, equations: &Equations) -> Self {
+        let only = model.systems.len() == 1;
+        let word = |variable: &Variable| {
+            let system = &model.systems[variable.system].name;
+            let name = variable.name.as_str();
+            let rest = name.strip_prefix(system.as_str()).filter(|_| only);
+            let rest = rest.and_then(|rest| rest.strip_prefix(['.', '/']));
+            snake(rest.unwrap_or(name))
+        };
+        let coordinates: Vec<String> = equations.coordinates.iter().map(word).collect();
+        let velocities: Vec<String> = equations.velocities.iter().map(word).collect();
+        let clash = velocities.iter().any(|name| coordinates.contains(name));
+        let of = |suffix: &str| {
+            velocities
+                .iter()
+                .map(|name| format!("{name}_{suffix}"))
+                .collect()
+        };
+        let laws = |states: &[LawState]| states.iter().map(|state| snake(&state.name)).collect();
+        Self {
+            auxiliaries: laws(&equations.auxiliaries),
+            memory: laws(&equations.memory),
+            accelerations: of("dot"),
+            guards: equations
+                .guards
+                .iter()
+                .map(|guard| format!("guard_{}", snake(&guard.name)))
+                .collect(),
+            velocities: if clash {
+                of("rate")
+            } else {
+                velocities.clone()
+            },
+            coordinates,
+            parameters: model.parameters.iter().map(|p| snake(&p.name)).collect(),
+            derived: Vec::new(),
+            derived_in: Vec::new(),
+        }
+    }
+
+    /// The symbol that stands for an input.
+    pub(crate) fn symbol(&self, input: Input) -> Symbol {
+        let parameter = |index: usize| Symbol::Parameter(index as u32);
+        match input {
+            Input::Time => Symbol::Time,
+            Input::Coordinate(i) => Symbol::Coordinate(i as u32),
+            Input::Velocity(i) => Symbol::Velocity(i as u32),
+            Input::Auxiliary(i) => Symbol::Auxiliary(i as u32),
+            Input::Memory(i) => Symbol::Memory(i as u32),
+            Input::Parameter(i) => parameter(i),
+            Input::Acceleration(i) => parameter(self.parameters.len() + i),
+            Input::Guard(i) => parameter(self.parameters.len() + self.accelerations.len() + i),
+            Input::Derived(i) => {
+                parameter(self.parameters.len() + self.accelerations.len() + self.guards.len() + i)
+            }
+        }
+    }
+
+    /// The input that a symbol stands for.
+    pub(crate) fn input(&self, symbol: Symbol) -> Input {
+        let parameters = self.parameters.len();
+        let accelerations = parameters + self.accelerations.len();
+        let guards = accelerations + self.guards.len();
+        match symbol {
+            Symbol::Time => Input::Time,
+            Symbol::Coordinate(i) => Input::Coordinate(i as usize),
+            Symbol::Velocity(i) => Input::Velocity(i as usize),
+            Symbol::Auxiliary(i) => Input::Auxiliary(i as usize),
+            Symbol::Memory(i) => Input::Memory(i as usize),
+            Symbol::Parameter(i) => match i as usize {
+                i if i < parameters => Input::Parameter(i),
+                i if i < accelerations => Input::Acceleration(i - parameters),
+                i if i < guards => Input::Guard(i - accelerations),
+                i => Input::Derived(i - guards),
+            },
+        }
+    }
+
+    /// Number of elements of an array argument; 0 for time.
+    pub(crate) fn length(&self, argument: Argument) -> usize {
+        match argument {
+            Argument::Time => 0,
+            Argument::Coordinates => self.coordinates.len(),
+            Argument::Velocities | Argument::Accelerations => self.velocities.len(),
+            Argument::Auxiliaries => self.auxiliaries.len(),
+            Argument::Memory => self.memory.len(),
+            Argument::Guards => self.guards.len(),
+        }
+    }
+
+    /// The inputs that change from call to call, with the names they would like to have.
+    pub(crate) fn variables(&self) -> impl Iterator<Item = (Input, String)> {
+        let all = |names: &[String], input: fn(usize) -> Input| {
+            let names = names.to_vec();
+            names
+                .into_iter()
+                .enumerate()
+                .map(move |(i, name)| (input(i), name))
+        };
+        std::iter::once((Input::Time, "t".to_string()))
+            .chain(all(&self.coordinates, Input::Coordinate))
+            .chain(all(&self.velocities, Input::Velocity))
+            .chain(all(&self.auxiliaries, Input::Auxiliary))
+            .chain(all(&self.memory, Input::Memory))
+            .chain(all(&self.accelerations, Input::Acceleration))
+            .chain(all(&self.guards, Input::Guard))
+    }
+}

@@ -1,0 +1,587 @@
+//! A specification for each emitted method, in the order of the emitted text.
+//!
+//! A new method is a function here and its line in [`TABLE`]; its variant of [`Method`], where it is no part of another; and its function in
+//! the runtime's table.
+
+use super::inputs::{Argument, Inputs};
+use super::results::{Length, Results};
+use super::{Method, Start};
+use crate::equations::{Equations, LawState, Named, Route};
+use crate::expression::live::{Dependence, Live};
+use crate::expression::{Node, NodeId};
+use crate::model::Model;
+use crate::names::snake;
+
+/// A method before any pass.
+#[derive(Clone, Debug)]
+pub(crate) struct Specification {
+    pub name: &'static str,
+    /// The method of the lists that it is, or is a part of: parts follow one another in the order of the table. `None` of what another has
+    /// anyway.
+    pub part_of: Option<Method>,
+    /// What it computes, in a sentence.
+    pub documentation: &'static str,
+    /// What it is given.
+    pub arguments: Vec<Argument>,
+    /// What it computes, as nodes of the equations.
+    pub roots: Vec<NodeId>,
+    /// Names for roots that have none, one per root.
+    pub labels: Vec<String>,
+    /// How the roots are returned.
+    pub results: Results,
+    /// What it need not compute: the guards; the accelerations, where computing them would repeat most of their method.
+    pub start: Start,
+    /// Whether it is evaluated over lanes, besides what goes to an output writer. The instructions of wide registers are such only in
+    /// functions that are compiled for them, which are the runtime's: all that they call must be part of them.
+    pub in_lanes: bool,
+    /// Whether the runtime has a method of the same name, of the whole state instead of its parts. This one is then told from it by its
+    /// name.
+    pub of_parts: bool,
+}
+
+/// What methods are made from.
+pub(crate) struct Source<'a> {
+    pub model: &'a Model,
+    pub equations: &'a Equations,
+    pub inputs: &'a Inputs,
+    /// Whether S, r_s and r_k are asked for.
+    pub matrices: bool,
+}
+
+/// All methods but [`new`] and [`motion`]. An entry is `None` for a model that has no such method.
+const TABLE: [fn(&Source<'_>) -> Option<Specification>; 22] = [
+    initial_conditions,
+    initial_auxiliaries,
+    initial_memory,
+    mass_matrix,
+    velocity_forces,
+    applied_forces,
+    accelerations,
+    coordinate_rates,
+    kink_rates,
+    auxiliary_rates,
+    renewed,
+    guards,
+    kinks,
+    onsets,
+    curves,
+    pivots,
+    conditions,
+    kinetic_energy,
+    powers,
+    momentum,
+    external_wrench,
+    outputs,
+];
+
+/// The methods that a model has. `only` are the names of those that are wanted; all where nothing is said.
+pub(crate) fn methods(source: &Source<'_>, only: Option<&[&str]>) -> Vec<Specification> {
+    let found = TABLE.iter().filter_map(|entry| entry(source));
+    found
+        .filter(|method| only.is_none_or(|only| only.contains(&method.name)))
+        .collect()
+}
+
+/// What depends on parameters alone. Its roots are found by the passes; its labels are the fields that keep them.
+pub(crate) fn new(inputs: &Inputs) -> Specification {
+    Specification {
+        documentation: "The mechanism with these parameters; what depends on them alone is computed here, once.",
+        labels: inputs.derived.clone(),
+        ..of_parameters("new", Method::Derived, Results::Mechanism)
+    }
+}
+
+/// q̇ and v̇ by one method, made of those for each: the coordinates and velocities of an element are then read once for both.
+pub(crate) fn motion(rates: &Specification, accelerations: &Specification) -> Specification {
+    Specification {
+        name: "motion",
+        part_of: Some(Method::Derivative),
+        documentation: "q̇ and, in places behind it, v̇, one by one, each as soon as it is found.",
+        roots: [&rates.roots[..], &accelerations.roots].concat(),
+        labels: [&rates.labels[..], &accelerations.labels].concat(),
+        results: Results::Written {
+            by: EACH_MOTION,
+            length: None,
+        },
+        ..accelerations.clone()
+    }
+}
+
+/// The method that writes q̇ and v̇.
+pub(crate) const EACH_MOTION: &str = "each_motion";
+
+/// Whether memory is renewed by the sign of a guard. It is then given the guards, to see the very values that ended the
+/// step: computed a second time, a value close to 0 may have the other sign.
+pub(crate) fn renews_by_guards(equations: &Equations) -> bool {
+    let live = Live::new(&equations.graph, &next(&equations.memory));
+    let guards = equations.guards.iter().map(|guard| guard.value);
+    let computed = |id: &NodeId| !matches!(equations.graph.node(*id), Node::Symbol(_));
+    guards
+        .filter(computed)
+        .any(|guard| live.nodes().contains(&guard))
+}
+
+fn initial_conditions(from: &Source<'_>) -> Option<Specification> {
+    let Source {
+        equations, inputs, ..
+    } = from;
+    Some(Specification {
+        documentation: "q and v where a run starts.",
+        roots: [
+            &equations.initial_coordinates[..],
+            &equations.initial_velocities,
+        ]
+        .concat(),
+        labels: [&inputs.coordinates[..], &inputs.velocities].concat(),
+        in_lanes: true,
+        ..of_parameters("initial_conditions", Method::InitialState, Results::Start)
+    })
+}
+
+fn initial_auxiliaries(from: &Source<'_>) -> Option<Specification> {
+    let states = some(&from.equations.auxiliaries)?;
+    let results = Results::Array(Length::Auxiliaries);
+    Some(Specification {
+        documentation: "z, the states of force laws, where a run starts.",
+        roots: states.iter().map(|state| state.initial).collect(),
+        labels: from.inputs.auxiliaries.clone(),
+        in_lanes: true,
+        ..of_parameters("initial_auxiliaries", Method::InitialState, results)
+    })
+}
+
+fn initial_memory(from: &Source<'_>) -> Option<Specification> {
+    let states = some(&from.equations.memory)?;
+    let results = Results::Array(Length::Memory);
+    Some(Specification {
+        documentation: match from.equations.charts {
+            0 => "m, what force laws remember, where a run starts.",
+            _ => "m, the charts of elements and what force laws remember, where a run starts.",
+        },
+        roots: states.iter().map(|state| state.initial).collect(),
+        labels: from.inputs.memory.clone(),
+        in_lanes: true,
+        ..of_parameters("initial_memory", Method::InitialState, results)
+    })
+}
+
+fn mass_matrix(from: &Source<'_>) -> Option<Specification> {
+    from.matrices.then_some(())?;
+    let v = &from.inputs.velocities;
+    let rows = from.equations.mass_matrix.iter().enumerate();
+    let roots: Vec<NodeId> = rows
+        .flat_map(|(row, entries)| entries.iter().skip(row).copied())
+        .collect();
+    let pairs = (0..v.len()).flat_map(|row| (row..v.len()).map(move |column| (row, column)));
+    let labels = pairs.map(|(row, column)| format!("s_{}_{}", v[row], v[column]));
+    let arguments = from.timed(&roots, &[Argument::Coordinates]);
+    Some(Specification {
+        documentation: match arguments.contains(&Argument::Time) {
+            true => {
+                "S(t, q), symmetric: S v̇ = r_s + r_k \\[MADYMO 1980, eq. 2\\]. Rows and columns in the order of v."
+            }
+            false => {
+                "S(q), symmetric: S v̇ = r_s + r_k \\[MADYMO 1980, eq. 2\\]. Rows and columns in the order of v."
+            }
+        },
+        arguments,
+        roots,
+        labels: labels.collect(),
+        ..of_parameters("mass_matrix", Method::MassMatrix, Results::Matrix)
+    })
+}
+
+fn velocity_forces(from: &Source<'_>) -> Option<Specification> {
+    from.matrices.then_some(())?;
+    let roots = &from.equations.velocity_forces;
+    let arguments = from.timed(roots, &[Argument::Coordinates, Argument::Velocities]);
+    Some(Specification {
+        documentation: match arguments.contains(&Argument::Time) {
+            true => {
+                "r_s(t, q, v), the forces of inertia when v̇ = 0, but for those of given accelerations."
+            }
+            false => "r_s(q, v), the forces of inertia that are quadratic in the velocities.",
+        },
+        arguments,
+        roots: roots.clone(),
+        labels: labels("r_s_", &from.inputs.velocities, ""),
+        ..of_parameters("velocity_forces", Method::VelocityForces, Results::Vector)
+    })
+}
+
+fn applied_forces(from: &Source<'_>) -> Option<Specification> {
+    from.matrices.then(|| Specification {
+        documentation: "r_k(t, q, v), the generalised forces of everything that acts on the elements.",
+        roots: from.equations.applied_forces.clone(),
+        labels: labels("r_k_", &from.inputs.velocities, ""),
+        ..from.of_state("applied_forces", Method::AppliedForces, Results::Vector)
+    })
+}
+
+/// The lists have them in [`motion`].
+fn accelerations(from: &Source<'_>) -> Option<Specification> {
+    let results = Results::Written {
+        by: "each_acceleration",
+        length: Some(Length::Velocities),
+    };
+    Some(Specification {
+        part_of: None,
+        documentation: match from.equations.route {
+            Route::Elimination => {
+                "v̇(t, q, v) by elimination from the leaves to the root; S is never assembled."
+            }
+            Route::MassMatrix => {
+                "v̇(t, q, v) from S v̇ = r_s + r_k by S = LᵀDL in its fixed pattern."
+            }
+        },
+        roots: from.equations.accelerations.clone(),
+        labels: labels("", &from.inputs.velocities, "_dot"),
+        ..from.of_state("accelerations", Method::Derivative, results)
+    })
+}
+
+fn coordinate_rates(from: &Source<'_>) -> Option<Specification> {
+    let results = Results::Written {
+        by: "each_coordinate_rate",
+        length: Some(Length::Coordinates),
+    };
+    Some(Specification {
+        documentation: "q̇(q, v).",
+        arguments: vec![Argument::Coordinates, Argument::Velocities],
+        roots: from.equations.coordinate_rates.clone(),
+        labels: labels("", &from.inputs.coordinates, "_dot"),
+        of_parts: true,
+        ..of_parameters("coordinate_rates", Method::CoordinateRates, results)
+    })
+}
+
+fn kink_rates(from: &Source<'_>) -> Option<Specification> {
+    let stretched = from.equations.stretched_curves_of_time();
+    let rates: Vec<NodeId> = stretched.map(|(_, rate)| rate).collect();
+    let results = Results::Array(Length::Number(rates.len()));
+    (!rates.is_empty()).then(|| Specification {
+        documentation: "By what time is multiplied in the curves of time that parameters stretch.",
+        labels: (0..rates.len()).map(|i| format!("rate_{i}")).collect(),
+        roots: rates,
+        ..of_parameters("kink_rates", Method::KinkRates, results)
+    })
+}
+
+fn auxiliary_rates(from: &Source<'_>) -> Option<Specification> {
+    let states = some(&from.equations.auxiliaries)?;
+    let results = Results::Written {
+        by: "each_auxiliary_rate",
+        length: Some(Length::Auxiliaries),
+    };
+    Some(Specification {
+        documentation: "ż(t, q, v, z).",
+        roots: next(states),
+        labels: labels("", &from.inputs.auxiliaries, "_dot"),
+        ..from.of_state("auxiliary_rates", Method::Derivative, results)
+    })
+}
+
+/// m; with charts of orientation q and v, too.
+fn renewed(from: &Source<'_>) -> Option<Specification> {
+    let Source {
+        equations, inputs, ..
+    } = from;
+    let memory = next(some(&equations.memory)?);
+    let charted = equations.charts > 0;
+    let (name, results) = match charted {
+        true => ("renewed", Results::Renewed),
+        false => ("renewed_memory", Results::Array(Length::Memory)),
+    };
+    let mut method = from.of_state(name, Method::Renewed, results);
+    method.in_lanes = true;
+    if renews_by_guards(equations) {
+        method.arguments.push(Argument::Guards);
+        method.start = Start::Guards;
+    }
+    let words = match charted {
+        true => {
+            method.documentation = "q, v and m after a step that was accepted with this state: angles near ±90 deg in the other chart.";
+            let (q, v) = (
+                &equations.renewed_coordinates[..],
+                &equations.renewed_velocities,
+            );
+            method.roots = [q, v, &memory].concat();
+            [&inputs.coordinates[..], &inputs.velocities, &inputs.memory].concat()
+        }
+        false => {
+            method.documentation = "m after a step that was accepted with this state.";
+            method.roots = memory;
+            inputs.memory.clone()
+        }
+    };
+    method.labels = labels("", &words, "_renewed");
+    Some(method)
+}
+
+fn guards(from: &Source<'_>) -> Option<Specification> {
+    let guards = some(&from.equations.guards)?;
+    let results = Results::Array(Length::Guards);
+    Some(Specification {
+        documentation: "Functions whose change of sign ends a step, in the order of `INFO.guards`.",
+        roots: values(guards),
+        labels: named("guard_", guards),
+        start: Start::Accelerations,
+        in_lanes: true,
+        of_parts: true,
+        ..from.of_state("guards", Method::Guards, results)
+    })
+}
+
+fn kinks(from: &Source<'_>) -> Option<Specification> {
+    let kinks = some(&from.equations.kinks)?;
+    let results = Results::Array(Length::Kinks);
+    Some(Specification {
+        documentation: "Functions whose change of sign is where a force law is not smooth, in the order of `INFO.kinks`.",
+        roots: values(kinks),
+        labels: named("kink_", kinks),
+        in_lanes: true,
+        of_parts: true,
+        ..from.of_state("kinks", Method::Kinks, results)
+    })
+}
+
+fn onsets(from: &Source<'_>) -> Option<Specification> {
+    let onsets = some(&from.equations.onsets)?;
+    let results = Results::Array(Length::Number(2 * onsets.len()));
+    let gaps = onsets.iter().map(|onset| onset.gap);
+    let speeds = onsets.iter().map(|onset| onset.speed);
+    let names: Vec<String> = onsets.iter().map(|onset| snake(&onset.name)).collect();
+    Some(Specification {
+        documentation: "When laws that do not act begin to, and how far the corners of curves are: the gap of each, then the speed of each, in the order of `INFO.onsets`.",
+        roots: gaps.chain(speeds).collect(),
+        labels: [labels("gap_", &names, ""), labels("speed_", &names, "")].concat(),
+        in_lanes: true,
+        of_parts: true,
+        ..from.of_state("onsets", Method::Onsets, results)
+    })
+}
+
+fn curves(from: &Source<'_>) -> Option<Specification> {
+    let curves = some(&from.equations.curves)?;
+    let names = curves.iter().map(|curve| snake(&curve.name));
+    let results = Results::Array(Length::Curves);
+    Some(Specification {
+        documentation: "What the curves of the state are evaluated at, the bearings of bent joints and the directions of contacts, in the order of `INFO.curves`.",
+        roots: curves.iter().map(|curve| curve.argument).collect(),
+        labels: names.map(|name| format!("argument_{name}")).collect(),
+        of_parts: true,
+        ..from.of_state("curves", Method::Curves, results)
+    })
+}
+
+fn pivots(from: &Source<'_>) -> Option<Specification> {
+    let pivots = some(&from.equations.pivots)?;
+    let results = Results::Array(Length::Number(pivots.len()));
+    Some(Specification {
+        documentation: "Pivots of the elimination that may vanish, as shares of what stands in their place before.",
+        roots: values(pivots),
+        labels: named("pivot_", pivots),
+        ..from.of_state("pivots", Method::Pivots, results)
+    })
+}
+
+fn conditions(from: &Source<'_>) -> Option<Specification> {
+    let conditions = some(&from.equations.conditions)?;
+    let results = Results::Array(Length::Number(conditions.len()));
+    let numbers = 1..=conditions.len();
+    Some(Specification {
+        documentation: "What parameters must keep, in the order of `INFO.conditions`.",
+        roots: conditions.iter().map(|condition| condition.value).collect(),
+        labels: numbers.map(|k| format!("condition_{k}")).collect(),
+        ..of_parameters("conditions", Method::Conditions, results)
+    })
+}
+
+fn kinetic_energy(from: &Source<'_>) -> Option<Specification> {
+    Some(Specification {
+        documentation: "T of all elements \\[J\\].",
+        roots: vec![from.equations.kinetic_energy],
+        labels: vec!["kinetic_energy".to_owned()],
+        of_parts: true,
+        ..from.of_state("kinetic_energy", Method::KineticEnergy, Results::Scalar)
+    })
+}
+
+fn powers(from: &Source<'_>) -> Option<Specification> {
+    let powers = some(&from.equations.powers)?;
+    let results = Results::Array(Length::Powers);
+    Some(Specification {
+        documentation: "Power of each effect \\[W\\], in the order of `INFO.powers`: together the rate of the kinetic energy.",
+        roots: values(powers),
+        labels: named("power_", powers),
+        start: Start::Accelerations,
+        of_parts: true,
+        ..from.of_state("powers", Method::Powers, results)
+    })
+}
+
+fn momentum(from: &Source<'_>) -> Option<Specification> {
+    let momentum = some(&from.equations.momentum)?;
+    Some(Specification {
+        documentation: "Linear \\[N s\\] and angular momentum about the origin \\[N m s\\] of what is free, absolute axes.",
+        roots: momentum.to_vec(),
+        labels: labels("momentum_", &AXES.map(String::from), ""),
+        of_parts: true,
+        ..from.of_state("momentum", Method::Momentum, SIX)
+    })
+}
+
+fn external_wrench(from: &Source<'_>) -> Option<Specification> {
+    some(&from.equations.momentum)?;
+    Some(Specification {
+        documentation: "Force \\[N\\] and moment about the origin \\[N m\\] on what is free: the rate of its momentum.",
+        roots: from.equations.external_wrench.clone(),
+        labels: labels("external_wrench_", &AXES.map(String::from), ""),
+        of_parts: true,
+        ..from.of_state("external_wrench", Method::ExternalWrench, SIX)
+    })
+}
+
+fn outputs(from: &Source<'_>) -> Option<Specification> {
+    let outputs = from.model.outputs.iter();
+    let results = Results::Array(Length::Outputs);
+    Some(Specification {
+        documentation: "What the scene asks to see, in the order and units of `INFO.outputs`.",
+        roots: from.equations.outputs.clone(),
+        labels: outputs.map(|output| output.name.clone()).collect(),
+        start: Start::Accelerations,
+        in_lanes: true,
+        of_parts: true,
+        ..from.of_state("outputs", Method::Outputs, results)
+    })
+}
+
+/// Components of a linear and an angular vector.
+const AXES: [&str; 6] = ["x", "y", "z", "about_x", "about_y", "about_z"];
+const SIX: Results = Results::Array(Length::Number(6));
+
+/// A method that computes nothing yet, of parameters alone.
+fn of_parameters(name: &'static str, part_of: Method, results: Results) -> Specification {
+    Specification {
+        name,
+        part_of: Some(part_of),
+        documentation: "",
+        arguments: Vec::new(),
+        roots: Vec::new(),
+        labels: Vec::new(),
+        results,
+        start: Start::State,
+        in_lanes: false,
+        of_parts: false,
+    }
+}
+
+impl Source<'_> {
+    /// A method that computes nothing yet, of t, q, v, and z and m where the model has such.
+    fn of_state(&self, name: &'static str, part_of: Method, results: Results) -> Specification {
+        let all = [
+            Argument::Time,
+            Argument::Coordinates,
+            Argument::Velocities,
+            Argument::Auxiliaries,
+            Argument::Memory,
+        ];
+        let there = |argument: &Argument| match argument {
+            Argument::Auxiliaries => !self.equations.auxiliaries.is_empty(),
+            Argument::Memory => !self.equations.memory.is_empty(),
+            _ => true,
+        };
+        Specification {
+            arguments: all.into_iter().filter(there).collect(),
+            ..of_parameters(name, part_of, results)
+        }
+    }
+
+    /// These arguments; after t where results depend on it: S and r_s do where a root with a joint of its own is on a vehicle that turns; and
+    /// before m where orientation depends on it.
+    fn timed(&self, roots: &[NodeId], arguments: &[Argument]) -> Vec<Argument> {
+        let live = Live::new(&self.equations.graph, roots);
+        let depends = |id: &NodeId| Dependence::TIME.within(live.dependence(*id));
+        let time = roots.iter().any(depends).then_some(Argument::Time);
+        let charts = (self.equations.charts > 0).then_some(Argument::Memory);
+        let arguments = arguments.iter().copied();
+        time.into_iter().chain(arguments).chain(charts).collect()
+    }
+}
+
+/// These, if there are any.
+fn some<T>(all: &[T]) -> Option<&[T]> {
+    (!all.is_empty()).then_some(all)
+}
+
+fn next(states: &[LawState]) -> Vec<NodeId> {
+    states.iter().map(|state| state.next).collect()
+}
+
+fn values(named: &[Named]) -> Vec<NodeId> {
+    named.iter().map(|named| named.value).collect()
+}
+
+fn named(prefix: &str, named: &[Named]) -> Vec<String> {
+    let names = named.iter().map(|named| snake(&named.name));
+    names.map(|name| format!("{prefix}{name}")).collect()
+}
+
+fn labels(prefix: &str, words: &[String], suffix: &str) -> Vec<String> {
+    let words = words.iter();
+    words
+        .map(|word| format!("{prefix}{word}{suffix}"))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::derive;
+    use crate::model::read;
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    /// Models that have all there is among them: curves that parameters stretch, pivots that may vanish, guards, charts, states of laws.
+    const MODELS: [&str; 6] = [
+        "models/child-seat.yaml",
+        "tests/models/curves.yaml",
+        "tests/models/incline.yaml",
+        "tests/models/pendulum.yaml",
+        "tests/models/poles-bryant.yaml",
+        "tests/models/switches.yaml",
+    ];
+
+    #[test]
+    fn every_method_of_the_lists_has_an_entry() {
+        let mut found = BTreeSet::from([Method::Derived]);
+        for path in MODELS {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+            let (model, _) = read(&path).expect("a valid model");
+            let equations = derive(&model);
+            let inputs = Inputs::new(&model, &equations);
+            let source = Source {
+                model: &model,
+                equations: &equations,
+                inputs: &inputs,
+                matrices: true,
+            };
+            let methods = methods(&source, None);
+            let named = |name| methods.iter().find(|of| of.name == name);
+            let both = named("coordinate_rates").zip(named("accelerations"));
+            let motion = both.map(|(rates, accelerations)| motion(rates, accelerations));
+            let mut names = BTreeSet::new();
+            for method in methods.iter().chain(&motion) {
+                let name = method.name;
+                assert!(names.insert(name), "two methods are called {name}");
+                assert_eq!(method.labels.len(), method.roots.len(), "{name}");
+                assert!(!method.documentation.is_empty(), "{name}");
+                found.extend(method.part_of);
+            }
+        }
+        let missing: Vec<_> = (Method::ALL.iter())
+            .filter(|method| !found.contains(method))
+            .collect();
+        assert!(missing.is_empty(), "{missing:?}");
+    }
+}

@@ -1,0 +1,126 @@
+//! Identifiers: from the words of a model to names that Rust accepts, each used once.
+
+use rustc_hash::FxHashSet;
+
+/// Names taken so far in one scope.
+#[derive(Clone, Default)]
+pub(crate) struct Names {
+    taken: FxHashSet<String>,
+}
+
+impl Names {
+    /// A scope in which these names mean something already.
+    pub(crate) fn with(reserved: &[&str]) -> Self {
+        Self {
+            taken: reserved.iter().map(|name| name.to_string()).collect(),
+        }
+    }
+
+    /// Takes the name, or the first of `name_2`, `name_3` … that is free.
+    pub(crate) fn take(&mut self, wanted: &str) -> String {
+        let mut name = wanted.to_string();
+        let mut number = 1;
+        while !self.taken.insert(name.clone()) {
+            number += 1;
+            name = format!("{wanted}_{number}");
+        }
+        name
+    }
+}
+
+/// Text of the user's on one line: nothing in it can end a comment.
+pub(crate) fn plain(text: &str) -> String {
+    let printable = |c: char| {
+        if c.is_control() || matches!(c, '\u{2028}' | '\u{2029}') {
+            ' '
+        } else {
+            c
+        }
+    };
+    text.chars().map(printable).collect()
+}
+
+/// Words that a target keeps for itself: the keywords of Rust, in lower case. Some cannot even be raw identifiers there, so such a name gets a
+/// trailing underscore instead.
+const RESERVED: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
+    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
+    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
+    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
+/// An identifier in snake case for words such as "man/head.angle"; `value` where nothing of the words is left.
+pub(crate) fn snake(words: &str) -> String {
+    let mut name = String::with_capacity(words.len());
+    for c in words.chars() {
+        if c.is_ascii_alphanumeric() {
+            name.push(c.to_ascii_lowercase());
+        } else if !name.is_empty() && !name.ends_with('_') {
+            name.push('_');
+        }
+    }
+    let name = name.trim_end_matches('_');
+    match name.chars().next() {
+        None => "value".to_string(),
+        Some(c) if c.is_ascii_digit() => format!("n{name}"),
+        Some(_) if RESERVED.contains(&name) => format!("{name}_"),
+        Some(_) => name.to_string(),
+    }
+}
+
+/// The same for constants.
+pub(crate) fn screaming(words: &str) -> String {
+    snake(words).trim_end_matches('_').to_ascii_uppercase()
+}
+
+/// The same for types.
+pub(crate) fn camel(words: &str) -> String {
+    snake(words)
+        .split('_')
+        .flat_map(|word| {
+            let (first, rest) = word.split_at(word.len().min(1));
+            [first.to_ascii_uppercase(), rest.to_string()]
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_become_identifiers() {
+        assert_eq!(snake("man/head.angle"), "man_head_angle");
+        assert_eq!(snake("Lap belt -- left"), "lap_belt_left");
+        assert_eq!(snake("3yo"), "n3yo");
+        assert_eq!(snake("ω"), "value");
+        assert_eq!(screaming("belt chest force"), "BELT_CHEST_FORCE");
+        assert_eq!(camel("mass_matrix"), "MassMatrix");
+    }
+
+    #[test]
+    fn keywords_are_avoided() {
+        for word in [
+            "type", "self", "fn", "loop", "async", "gen", "Self", "super", "crate",
+        ] {
+            let name = snake(word);
+            assert!(syn::parse_str::<syn::Ident>(&name).is_ok(), "{name}");
+            assert_ne!(name, word.to_ascii_lowercase());
+        }
+    }
+
+    #[test]
+    fn what_is_reserved_is_a_keyword_of_rust() {
+        for word in RESERVED.iter().filter(|&&word| word != "gen") {
+            assert!(syn::parse_str::<syn::Ident>(word).is_err(), "{word}");
+        }
+    }
+
+    #[test]
+    fn a_name_is_given_once() {
+        let mut names = Names::with(&["q"]);
+        let given = ["a", "a", "q", "a_2", "a"].map(|name| names.take(name));
+        assert_eq!(given, ["a", "a_2", "q_2", "a_2_2", "a_3"]);
+    }
+}

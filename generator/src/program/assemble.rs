@@ -1,0 +1,126 @@
+//! All methods of a model as lists, of the same schedules as the text.
+
+use super::lower;
+use super::order::Order;
+use super::plan::{Plan, Procedure};
+use super::schedule::Schedule;
+use super::{Costs, Curve, Facts, List, Lists, Method, Options, Routine, Start};
+use crate::equations::Equations;
+use crate::method::inputs::Inputs;
+use crate::model::{ForceKind, Interpolate, Model};
+use std::ops::Range;
+
+/// The methods of a model as lists. They depend on nothing but the arguments and the version of this crate.
+pub fn lists(model: &Model, equations: &Equations, options: &Options) -> Lists {
+    counted_lists(model, equations, options, None).0
+}
+
+/// The same of some methods of the table alone, the others without results; all where nothing is said. Beside them stands what each
+/// costs, as [`costs`](super::costs) has it.
+pub fn counted_lists(
+    model: &Model,
+    equations: &Equations,
+    options: &Options,
+    only: Option<&[&str]>,
+) -> (Lists, Costs) {
+    let plan = Plan::new(model, equations, options, only);
+    let (costs, motion) = (plan.costs(), plan.motion());
+    let Plan { inputs, procedures } = plan;
+    let mut parts = Method::ALL.map(|_| Vec::new());
+    for procedure in motion.into_iter().chain(procedures) {
+        if let Some(method) = procedure.method.part_of {
+            parts[method as usize].push(routine(procedure, &inputs));
+        }
+    }
+    let lists = Lists {
+        facts: Facts::of(model, equations),
+        routines: parts.map(together).into(),
+        curves: curves(model),
+        users: users(model),
+        rules: equations.conditions.iter().map(|c| c.rule).collect(),
+        stretched: equations
+            .stretched_curves_of_time()
+            .map(|(curve, _)| curve as u32)
+            .collect(),
+        quaternions: neighbours(&equations.quaternions),
+        renewed: renewed(equations),
+        derived: inputs.derived.len(),
+    };
+    (lists, costs)
+}
+
+/// A method as a list.
+fn routine(procedure: Procedure, inputs: &Inputs) -> Routine {
+    let Procedure {
+        method,
+        graph,
+        roots,
+    } = procedure;
+    let order = Order::of(method.results);
+    let schedule = Schedule::new(graph, roots, &method.labels, inputs, order, false);
+    Routine {
+        list: lower::list(&schedule, inputs),
+        start: method.start,
+    }
+}
+
+/// The parts of a method as one.
+fn together(mut parts: Vec<Routine>) -> Routine {
+    match parts.len() {
+        1 => parts.remove(0),
+        _ => Routine {
+            start: parts.first().map_or(Start::State, |first| first.start),
+            list: List::joined(parts.iter().map(|routine| &routine.list)),
+        },
+    }
+}
+
+fn curves(model: &Model) -> Vec<Curve> {
+    let curves = model.curves.iter().map(|curve| {
+        let points = 0..curve.points.len();
+        let cubic = curve.interpolate == Interpolate::Cubic;
+        Curve {
+            name: curve.name.clone(),
+            points: curve.points.clone(),
+            tangents: cubic.then(|| points.map(|k| curve.tangent(k)).collect()),
+            extrapolate: curve.extrapolate,
+        }
+    });
+    curves.collect()
+}
+
+fn users(model: &Model) -> Vec<Option<String>> {
+    let users = model.forces.iter().map(|force| match &force.kind {
+        ForceKind::User(user) => Some(user.function.name.clone()),
+        _ => None,
+    });
+    users.collect()
+}
+
+/// The entries of the state that are renewed when a step is accepted.
+fn renewed(equations: &Equations) -> Vec<u32> {
+    let [q, v, z, m] = [
+        equations.coordinates.len(),
+        equations.velocities.len(),
+        equations.auxiliaries.len(),
+        equations.memory.len(),
+    ];
+    let changed = match (m, equations.charts) {
+        (0, _) | (_, 0) => 0,
+        _ => q + v,
+    };
+    let memory = q + v + z..q + v + z + m;
+    (0..changed).chain(memory).map(|i| i as u32).collect()
+}
+
+/// Quaternions by runs of neighbours, which are scaled in one loop.
+pub(crate) fn neighbours(quaternions: &[Range<usize>]) -> Vec<Range<usize>> {
+    let mut ranges: Vec<Range<usize>> = Vec::new();
+    for quaternion in quaternions {
+        match ranges.last_mut() {
+            Some(range) if range.end == quaternion.start => range.end = quaternion.end,
+            _ => ranges.push(quaternion.clone()),
+        }
+    }
+    ranges
+}

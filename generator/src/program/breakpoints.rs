@@ -1,0 +1,53 @@
+//! When curves of time have kinks, as far as that does not depend on parameters.
+//!
+//! A curve of rate · t passes its point x_k at the smallest time with rate · t ≥ x_k as it is computed, so that a step that
+//! ends there has its last stage on the left of the point and the next one its first on the right.
+
+use crate::equations::Equations;
+use crate::model::Model;
+
+/// The times known beforehand, increasing.
+pub(crate) fn constant(model: &Model, equations: &Equations) -> Vec<f64> {
+    let mut times = Vec::new();
+    for &(curve, rate) in &equations.curves_of_time {
+        if let Some(rate) = equations.graph.expr(rate).as_constant() {
+            let points = model.curves[curve].points.iter();
+            times.extend(points.map(|point| passed(point[0], rate)));
+        }
+    }
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// The smallest time t with rate · t ≥ x.
+fn passed(x: f64, rate: f64) -> f64 {
+    let mut t = x / rate;
+    // division and multiplication may disagree by a rounding or two
+    for _ in 0..4 {
+        if t * rate < x {
+            t = t.next_up();
+        } else if t.next_down() * rate >= x {
+            t = t.next_down();
+        }
+    }
+    t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::passed;
+
+    #[test]
+    fn a_point_is_passed_when_the_abscissa_reaches_it() {
+        for rate in [1.0, 0.1, 1.0 / 3.0, 1.0 / 0.7, 12.9] {
+            for x in [-0.3, 0.0, 1e-3, 0.1, 0.7, 5.0] {
+                let t = passed(x, rate);
+                assert!(
+                    t * rate >= x && t.next_down() * rate < x,
+                    "{x}, {rate}: {t}"
+                );
+            }
+        }
+    }
+}

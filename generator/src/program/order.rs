@@ -1,0 +1,284 @@
+//! In which order values are computed.
+//!
+//! Statements come section by section: as many values of a section as can be computed follow one another, in the order in
+//! which they were made. In what integrators evaluate a section stands right before the first one that needs it: there are
+//! more values than registers, and those that wait for their use are written to memory and fetched again.
+
+use super::schedule::{index, uses};
+use crate::expression::{Graph, NodeId};
+use crate::method::results::Results;
+use rustc_hash::FxHashMap;
+use std::cmp::Reverse;
+use std::collections::BTreeSet;
+
+/// Which of the statements that can be next is next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// As many as can be computed of a section follow one another, in the order in which they were made.
+    Section,
+    /// The same, but each section right before the first one that needs it.
+    Need,
+    /// As many as are needed next of an element follow one another, as late as possible.
+    Owner,
+}
+
+impl Order {
+    /// That of a method with these results: what goes to an output writer one by one is computed when it is needed.
+    pub(crate) fn of(results: Results) -> Self {
+        match results.one_by_one() {
+            true => Order::Need,
+            false => Order::Section,
+        }
+    }
+
+    /// All values in use that are operations, operands first, block by block.
+    pub(crate) fn blocks(self, graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
+        match self {
+            Order::Section => vec![by_section(graph, uses)],
+            Order::Need => vec![by_need(graph, uses)],
+            Order::Owner => by_owner(graph, uses),
+        }
+    }
+}
+
+/// The operations that roots need, in the order of [`Order::Owner`], block by block.
+pub(crate) fn blocks_by_owner(graph: &Graph, roots: &[NodeId]) -> Vec<Vec<NodeId>> {
+    by_owner(graph, &uses(graph, roots))
+}
+
+/// All values in use that are operations: operands first, the way of the elements backwards from the results, each done as far as
+/// what needs it is.
+fn by_owner(graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
+    let nodes = graph.nodes();
+    let operation = |id: NodeId| uses[index(id)] > 0 && !nodes[index(id)].is_leaf();
+    let operations = || {
+        (0..nodes.len() as u32)
+            .map(NodeId)
+            .filter(|&id| operation(id))
+    };
+    let owner_of = graph.owners();
+    let mut users = vec![0_u32; nodes.len()];
+    for id in operations() {
+        for operand in nodes[index(id)].operands() {
+            users[index(operand)] += 1;
+        }
+    }
+    let mut ready: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); owner_of.len()];
+    for id in operations().filter(|&id| users[index(id)] == 0) {
+        ready[owner_of[graph.section_of(id)]].insert(id);
+    }
+    let mut blocks = Vec::new();
+    // The owner whose last value was made last, until nothing of it is ready any more.
+    while let Some(current) = (0..ready.len())
+        .filter(|&owner| !ready[owner].is_empty())
+        .max_by_key(|&owner| ready[owner].last().copied())
+    {
+        let mut block = Vec::new();
+        while let Some(id) = ready[current].pop_last() {
+            block.push(id);
+            for operand in nodes[index(id)].operands() {
+                users[index(operand)] -= 1;
+                if users[index(operand)] == 0 && operation(operand) {
+                    ready[owner_of[graph.section_of(operand)]].insert(operand);
+                }
+            }
+        }
+        block.reverse();
+        blocks.push(block);
+    }
+    blocks.reverse();
+    blocks
+}
+
+/// All values in use that are operations: operands first, section by section.
+fn by_section(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
+    let nodes = graph.nodes();
+    let operation = |id: NodeId| uses[index(id)] > 0 && !nodes[index(id)].is_leaf();
+    let mut waiting_for = vec![0_u32; nodes.len()];
+    let mut users: Vec<Vec<NodeId>> = vec![Vec::new(); nodes.len()];
+    let mut ready: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); graph.sections().len()];
+    for id in (0..nodes.len() as u32)
+        .map(NodeId)
+        .filter(|&id| operation(id))
+    {
+        for operand in nodes[index(id)]
+            .operands()
+            .filter(|&operand| operation(operand))
+        {
+            waiting_for[index(id)] += 1;
+            users[index(operand)].push(id);
+        }
+        if waiting_for[index(id)] == 0 {
+            ready[graph.section_of(id)].insert(id);
+        }
+    }
+    let mut order = Vec::new();
+    // The section whose next value was made first, until nothing of it is ready any more.
+    while let Some(current) = (0..ready.len())
+        .filter(|&section| !ready[section].is_empty())
+        .min_by_key(|&section| ready[section].first().copied())
+    {
+        while let Some(id) = ready[current].pop_first() {
+            order.push(id);
+            for &user in &users[index(id)] {
+                waiting_for[index(user)] -= 1;
+                if waiting_for[index(user)] == 0 {
+                    ready[graph.section_of(user)].insert(user);
+                }
+            }
+        }
+    }
+    order
+}
+
+/// All values in use that are operations: operands first, each section right before the first one that needs it. What no other needs, like a
+/// rate of orientation, stands beside what else its owner makes of the same values, while these are at hand.
+fn by_need(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
+    let order = by_section(graph, uses);
+    let section = |id: NodeId| graph.section_of(id);
+    let runs: Vec<&[NodeId]> = order.chunk_by(|&a, &b| section(a) == section(b)).collect();
+    let mut run_of = vec![None; graph.len()];
+    let mut depth = vec![0_u32; graph.len()];
+    let mut deepest = vec![0_u32; runs.len()];
+    for (number, run) in runs.iter().enumerate() {
+        for &id in *run {
+            let operands = graph.node(id).operands();
+            let before = operands.map(|operand| depth[index(operand)]).max();
+            depth[index(id)] = 1 + before.unwrap_or(0);
+            deepest[number] = deepest[number].max(depth[index(id)]);
+            run_of[index(id)] = Some(number);
+        }
+    }
+    // By run: the others whose values it needs; first those that take longest, so that what is soon there waits least.
+    let needs: Vec<Vec<usize>> = (runs.iter().enumerate())
+        .map(|(number, run)| {
+            let operands = run.iter().flat_map(|&id| graph.node(id).operands());
+            let made_in = operands.filter_map(|operand| run_of[index(operand)]);
+            let others: BTreeSet<usize> = made_in.filter(|&run| run != number).collect();
+            let mut others: Vec<usize> = others.into_iter().collect();
+            others.sort_by_key(|&run| Reverse(deepest[run]));
+            others
+        })
+        .collect();
+    let mut needed = vec![false; runs.len()];
+    for &run in needs.iter().flatten() {
+        needed[run] = true;
+    }
+    let owner_of = graph.owners();
+    let owner = |run: usize| runs[run].first().map(|&id| owner_of[section(id)]);
+    let own = |run: usize| needs[run].iter().all(|&need| owner(need) == owner(run));
+    let (beside, last): (Vec<usize>, Vec<usize>) = (0..runs.len())
+        .filter(|&run| !needed[run])
+        .partition(|&run| own(run));
+    let mut beside_of: FxHashMap<_, Vec<usize>> = FxHashMap::default();
+    for &run in &beside {
+        beside_of.entry(owner(run)).or_default().push(run);
+    }
+
+    let mut placed = vec![false; runs.len()];
+    let mut found = Vec::with_capacity(order.len());
+    let mut place = |run: usize| {
+        let beside = || beside_of.get(&owner(run)).into_iter().flatten().copied();
+        for run in beside().chain([run]).chain(beside()) {
+            if !placed[run] && needs[run].iter().all(|&need| placed[need]) {
+                placed[run] = true;
+                found.extend(runs[run]);
+            }
+        }
+    };
+    let mut seen = vec![false; runs.len()];
+    // Runs, with how many of their needs were looked at. Chains may be longer than the call stack is deep.
+    let mut stack: Vec<(usize, usize)> = Vec::new();
+    for run in last.into_iter().chain(beside) {
+        stack.push((run, 0));
+        while let Some((run, looked_at)) = stack.last_mut() {
+            match needs[*run].get(*looked_at) {
+                Some(&need) => {
+                    *looked_at += 1;
+                    if !std::mem::replace(&mut seen[need], true) {
+                        stack.push((need, 0));
+                    }
+                }
+                None => {
+                    place(*run);
+                    stack.pop();
+                }
+            }
+        }
+    }
+    debug_assert_eq!(found.len(), order.len(), "every run is placed once");
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expression::Symbol;
+
+    /// Sections in the order in which [`by_need`] comes to them.
+    fn sections(graph: &Graph, roots: &[NodeId]) -> Vec<String> {
+        let mut sections: Vec<usize> = by_need(graph, &uses(graph, roots))
+            .into_iter()
+            .map(|id| graph.section_of(id))
+            .collect();
+        sections.dedup();
+        let names = sections.into_iter();
+        names.map(|at| graph.sections()[at].clone()).collect()
+    }
+
+    #[test]
+    fn a_section_stands_right_before_the_first_that_needs_it() {
+        let graph = Graph::new();
+        let input = |i: u32| graph.symbol(Symbol::Coordinate(i));
+        graph.section("element a: rate");
+        let rate_of_a = 0.5 * input(0);
+        graph.section("element b: rate");
+        let rate_of_b = 0.5 * input(1);
+        graph.section("element a: axes");
+        let axes_of_a = input(0) * input(0);
+        graph.section("element b: axes");
+        let axes_of_b = input(1) * input(1);
+        graph.section("element b: moments");
+        let moment_of_b = (axes_of_b + input(1)).sqrt();
+        graph.section("element a: moments");
+        let moment_of_a = axes_of_a * input(2) + moment_of_b;
+        graph.section("element b: acceleration");
+        let acceleration_of_b = moment_of_a * axes_of_b;
+        let roots = [rate_of_a, rate_of_b, moment_of_a, acceleration_of_b];
+        let order = [
+            "element b: rate",
+            "element b: axes",
+            "element b: moments",
+            "element a: rate",
+            "element a: axes",
+            "element a: moments",
+            "element b: acceleration",
+        ];
+        assert_eq!(sections(&graph, &roots.map(|root| root.id())), order);
+    }
+
+    #[test]
+    fn what_stands_beside_waits_for_what_it_needs() {
+        let graph = Graph::new();
+        let input = |i: u32| graph.symbol(Symbol::Coordinate(i));
+        graph.section("element a: axes");
+        let axes = input(0).sin();
+        graph.section("element a: rate");
+        let rate = axes * input(1);
+        graph.section("element b: acceleration");
+        let acceleration = axes * input(2);
+        let order = [
+            "element a: axes",
+            "element a: rate",
+            "element b: acceleration",
+        ];
+        let roots = [acceleration.id(), rate.id()];
+        assert_eq!(sections(&graph, &roots), order);
+        // An owner of which nothing else is needed comes last.
+        graph.section("element c: rate");
+        let alone = 2.0 * input(3);
+        let last = sections(&graph, &[alone.id(), roots[0], roots[1]]);
+        assert_eq!(last[..3], order);
+        assert_eq!(last[3..], ["element c: rate"]);
+    }
+}

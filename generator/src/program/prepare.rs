@@ -1,0 +1,208 @@
+//! The passes over the methods of a model: what is known is replaced by inputs, common factors go outside, operations are fused.
+//!
+//! The passes take most of the time of emission, and methods have nothing to do with each other: they are done on all processors. Nothing in the
+//! text depends on how many there are.
+
+use super::hoist;
+use crate::equations::Equations;
+use crate::expression::count::Count;
+use crate::expression::live::Live;
+use crate::expression::passes::{Rewritten, factor, fuse, replace};
+use crate::expression::{Graph, Node, NodeId, Symbol};
+use crate::method::Start;
+use crate::method::inputs::{Input, Inputs};
+use crate::method::table::Specification;
+use rustc_hash::FxHashMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Operations above which `outputs` calls `accelerations` instead of computing them a second time in its own text.
+const REPEATED_OPERATIONS: usize = 50;
+
+/// A method behind the factoring pass.
+pub(crate) struct Factored {
+    /// With all that it needs.
+    alone: Rewritten,
+    /// Starting from accelerations, where it may.
+    short: Option<Rewritten>,
+}
+
+impl Factored {
+    /// The cheaper form, and whether that starts from accelerations.
+    pub(crate) fn chosen(&self, inputs: &Inputs) -> (&Rewritten, bool) {
+        match &self.short {
+            Some(short) if starts_from_accelerations(&self.alone, short, inputs) => (short, true),
+            _ => (&self.alone, false),
+        }
+    }
+}
+
+fn starts_from_accelerations(alone: &Rewritten, short: &Rewritten, inputs: &Inputs) -> bool {
+    let total = |r: &Rewritten| Count::of(&r.graph, &r.roots).total();
+    uses_accelerations(&short.graph, inputs) && total(alone) > total(short) + REPEATED_OPERATIONS
+}
+
+/// What stands for values that a method is given.
+type Known = FxHashMap<NodeId, (Symbol, bool)>;
+
+/// The values that depend on parameters alone, as fields of the mechanism.
+fn known(derived: &[NodeId], inputs: &Inputs) -> Known {
+    let fields = derived.iter().enumerate();
+    fields
+        .map(|(i, &id)| (id, (inputs.symbol(Input::Derived(i)), false)))
+        .collect()
+}
+
+/// The same with what a method starts from.
+fn with_start(known: &Known, start: Start, equations: &Equations, inputs: &Inputs) -> Known {
+    let mut known = known.clone();
+    let graph = &equations.graph;
+    match start {
+        Start::State => {}
+        Start::Guards => {
+            for (i, guard) in equations.guards.iter().enumerate() {
+                let symbol = inputs.symbol(Input::Guard(i));
+                know(&mut known, graph, guard.value, symbol);
+            }
+        }
+        Start::Accelerations => {
+            for (i, &id) in equations.accelerations.iter().enumerate() {
+                let symbol = inputs.symbol(Input::Acceleration(i));
+                know(&mut known, graph, id, symbol);
+            }
+        }
+    }
+    known
+}
+
+/// Methods behind the factoring pass, where these values are known.
+pub(crate) fn factored(
+    equations: &Equations,
+    methods: &[Specification],
+    derived: &[NodeId],
+    inputs: &Inputs,
+) -> Vec<Factored> {
+    let known = known(derived, inputs);
+    // a task for each form of each method
+    let mut tasks: Vec<(&[NodeId], Known)> = Vec::new();
+    for method in methods {
+        let plain = match method.start {
+            Start::Guards => with_start(&known, Start::Guards, equations, inputs),
+            _ => known.clone(),
+        };
+        tasks.push((&method.roots, plain));
+        if method.start == Start::Accelerations {
+            let known = with_start(&known, Start::Accelerations, equations, inputs);
+            tasks.push((&method.roots, known));
+        }
+    }
+    let work = |graph: &Graph, (roots, known): &(&[NodeId], Known)| {
+        let Rewritten { graph, roots } = replace(graph, roots, known);
+        factor(&graph, &roots)
+    };
+    let mut done = on_all_processors(&equations.graph, &tasks, &work).into_iter();
+    let forms = methods.iter().filter_map(|method| {
+        Some(Factored {
+            alone: done.next()?,
+            short: match method.start {
+                Start::Accelerations => done.next(),
+                _ => None,
+            },
+        })
+    });
+    forms.collect()
+}
+
+/// Methods behind all passes, each with whether it starts from accelerations. Of the values that depend on parameters alone, the first `before`
+/// were known when the methods were factored; a method that needs one of the others is factored again.
+pub(crate) fn finished(
+    equations: &Equations,
+    methods: &[Specification],
+    mut factored_before: Vec<Factored>,
+    derived: &[NodeId],
+    before: usize,
+    inputs: &Inputs,
+) -> Vec<(Rewritten, bool)> {
+    let graph = &equations.graph;
+    for (method, place) in methods.iter().zip(&mut factored_before) {
+        let live = Live::new(graph, &method.roots);
+        if derived[before..].iter().any(|&value| live.contains(value)) {
+            let again = factored(equations, std::slice::from_ref(method), derived, inputs);
+            if let Some(again) = again.into_iter().next() {
+                *place = again;
+            }
+        }
+    }
+    let finish = |factored: Rewritten| {
+        let Rewritten { graph, roots } = hoist::hoisted(graph, factored, derived, inputs);
+        fuse(&graph, &roots)
+    };
+    let finish = |Factored { alone, short }: Factored| {
+        let alone = finish(alone);
+        match short.map(finish) {
+            Some(short) if starts_from_accelerations(&alone, &short, inputs) => (short, true),
+            _ => (alone, false),
+        }
+    };
+    factored_before.into_iter().map(finish).collect()
+}
+
+/// What `work` makes of each task, in their order. Each thread has a copy of the graph.
+fn on_all_processors<T: Sync, R: Send>(
+    graph: &Graph,
+    tasks: &[T],
+    work: &(impl Fn(&Graph, &T) -> R + Sync),
+) -> Vec<R> {
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    if workers == 1 || graph.len() < WORTH_A_THREAD {
+        return tasks.iter().map(|task| work(graph, task)).collect();
+    }
+    let next = AtomicUsize::new(0);
+    let mut results: Vec<Option<R>> = tasks.iter().map(|_| None).collect();
+    std::thread::scope(|scope| {
+        let workers = (0..workers.min(tasks.len())).map(|_| {
+            let (graph, next) = (graph.clone(), &next);
+            scope.spawn(move || {
+                let mut done = Vec::new();
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(task) = tasks.get(index) else {
+                        return done;
+                    };
+                    done.push((index, work(&graph, task)));
+                }
+            })
+        });
+        for worker in workers.collect::<Vec<_>>() {
+            let done = match worker.join() {
+                Ok(done) => done,
+                Err(panic) => std::panic::resume_unwind(panic),
+            };
+            for (index, result) in done {
+                results[index] = Some(result);
+            }
+        }
+    });
+    results.into_iter().flatten().collect()
+}
+
+/// Smaller graphs are done before a thread has started \[nodes\].
+const WORTH_A_THREAD: usize = 500;
+
+/// Lets a symbol stand for a value from now on, unless the value is no work.
+fn know(known: &mut FxHashMap<NodeId, (Symbol, bool)>, graph: &Graph, id: NodeId, symbol: Symbol) {
+    // Whoever needs −x may be using x, the operand.
+    let (id, negative) = match graph.node(id) {
+        Node::Neg(x) => (x, true),
+        _ => (id, false),
+    };
+    if !graph.node(id).is_leaf() {
+        known.entry(id).or_insert((symbol, negative));
+    }
+}
+
+fn uses_accelerations(graph: &Graph, inputs: &Inputs) -> bool {
+    graph.nodes().iter().any(|node| match node {
+        Node::Symbol(symbol) => matches!(inputs.input(*symbol), Input::Acceleration(_)),
+        _ => false,
+    })
+}

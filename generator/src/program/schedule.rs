@@ -1,0 +1,303 @@
+//! One method as statements: which values are bound, and in which order.
+
+use super::inline::inline;
+use super::order::Order;
+use crate::expression::{Graph, Node, NodeId};
+use crate::method::inputs::Inputs;
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// The values of a method in the order in which they are computed.
+pub(crate) struct Schedule {
+    /// What it computes with.
+    pub graph: Graph,
+    /// What it computes.
+    pub roots: Vec<NodeId>,
+    /// Whether roots are handed over one by one by statements, and not returned.
+    puts: bool,
+    /// The lines, in order.
+    pub lines: Vec<Line>,
+    /// Whether a line binds it, by node.
+    binds: Vec<bool>,
+    /// Of each call with several results, which of them are used, in their order.
+    calls: Vec<Vec<Option<NodeId>>>,
+}
+
+/// One statement, and the section and the block it belongs to.
+pub(crate) struct Line {
+    pub section: usize,
+    /// Number of the block; 0 in order of sections.
+    pub block: usize,
+    pub statement: Statement,
+}
+
+impl Line {
+    /// The section that begins with it, where `current` is that of the line before; what is put into an output writer begins none.
+    pub(crate) fn begins(&self, current: &mut Option<usize>) -> Option<usize> {
+        let binds = !matches!(self.statement, Statement::Put(_));
+        let new = binds && current.replace(self.section) != Some(self.section);
+        new.then_some(self.section)
+    }
+}
+
+/// What a statement binds.
+#[derive(Clone, Copy)]
+pub(crate) enum Statement {
+    /// One value.
+    Value(NodeId),
+    /// Sine and cosine of one argument; either may be of no use.
+    SinCos {
+        argument: NodeId,
+        sin: Option<NodeId>,
+        cos: Option<NodeId>,
+    },
+    /// The results of a call with several, by its place among those.
+    Results(usize),
+    /// None: hands over a root, by its place among those.
+    Put(usize),
+}
+
+impl Schedule {
+    /// Schedules what the roots need. `labels` are the names that the roots get if they have none, in the same order: they say how wide a
+    /// line is, and so which values are bound.
+    pub(crate) fn new(
+        graph: Graph,
+        roots: Vec<NodeId>,
+        labels: &[String],
+        inputs: &Inputs,
+        order: Order,
+        puts: bool,
+    ) -> Self {
+        let labels = labels_of(&graph, &roots, labels);
+        let uses = uses(&graph, &roots);
+        let inline = inline(&graph, &labels, &uses, inputs, order == Order::Owner);
+        let blocks = order.blocks(&graph, &uses);
+        let partners = partners(&graph, &uses);
+        let calls = calls(&graph, &uses);
+        let mut call_of = FxHashMap::default();
+        for (call, results) in calls.iter().enumerate() {
+            call_of.extend(results.iter().flatten().map(|&id| (id, call)));
+        }
+        let mut schedule = Schedule {
+            binds: vec![false; graph.len()],
+            graph,
+            roots,
+            puts,
+            lines: Vec::new(),
+            calls,
+        };
+        let ordered = (blocks.iter().enumerate())
+            .flat_map(|(block, ids)| ids.iter().map(move |&id| (block, id)));
+        for (block, id) in ordered {
+            if inline[index(id)] || schedule.binds[index(id)] {
+                continue;
+            }
+            let statement = match schedule.graph.node(id) {
+                Node::Sin(argument) | Node::Cos(argument) => {
+                    let (sin, cos) = partners[index(argument)];
+                    Statement::SinCos { argument, sin, cos }
+                }
+                Node::Call(..) => match call_of.get(&id) {
+                    Some(&call) => Statement::Results(call),
+                    None => Statement::Value(id),
+                },
+                _ => Statement::Value(id),
+            };
+            for bound in schedule.bound(statement) {
+                schedule.binds[index(bound)] = true;
+            }
+            schedule.lines.push(Line {
+                section: schedule.graph.section_of(id),
+                block,
+                statement,
+            });
+        }
+        if puts {
+            schedule.put_results(order);
+        }
+        schedule
+    }
+
+    /// Has every root put into the output writer as soon as it is known, so that nobody need keep it: behind the line that binds it or, where blocks
+    /// may become calls, at the end of the block. What no line binds comes last.
+    fn put_results(&mut self, order: Order) {
+        let mut line_of = vec![None; self.graph.len()];
+        for (number, line) in self.lines.iter().enumerate() {
+            for id in self.bound(line.statement) {
+                line_of[index(id)] = Some(number);
+            }
+        }
+        let end = self.lines.len();
+        let mut known_at: Vec<Vec<usize>> = vec![Vec::new(); end + 1];
+        for (place, &root) in self.roots.iter().enumerate() {
+            let mut reads = BTreeSet::new();
+            self.reads(root, &mut reads);
+            let line = reads.iter().filter_map(|&id| line_of[index(id)]).max();
+            known_at[line.unwrap_or(end)].push(place);
+        }
+        let unbound = known_at.pop().unwrap_or_default();
+        let mut lines = std::mem::take(&mut self.lines).into_iter().peekable();
+        let mut known = Vec::new();
+        let (mut section, mut block) = (0, 0);
+        for places in known_at {
+            known.extend(places);
+            if let Some(line) = lines.next() {
+                (section, block) = (line.section, line.block);
+                self.lines.push(line);
+            }
+            let ends = lines.peek().is_none_or(|next| next.block != block);
+            if order != Order::Owner || ends {
+                self.put(known.drain(..), section, block);
+            }
+        }
+        self.put(unbound.into_iter(), section, block + 1);
+    }
+
+    /// Lines that put these roots into the output writer.
+    fn put(&mut self, places: impl Iterator<Item = usize>, section: usize, block: usize) {
+        self.lines.extend(places.map(|place| Line {
+            section,
+            block,
+            statement: Statement::Put(place),
+        }));
+    }
+
+    /// The roots that are returned.
+    pub(crate) fn returned(&self) -> &[NodeId] {
+        match self.puts {
+            true => &[],
+            false => &self.roots,
+        }
+    }
+
+    /// How many of these lines bind something.
+    pub(crate) fn binding(&self, lines: Range<usize>) -> usize {
+        let binds = |line: &&Line| !matches!(line.statement, Statement::Put(_));
+        self.lines[lines].iter().filter(binds).count()
+    }
+
+    /// The values that a statement binds.
+    pub(crate) fn bound(&self, statement: Statement) -> Vec<NodeId> {
+        match statement {
+            Statement::Value(id) => vec![id],
+            Statement::SinCos { sin, cos, .. } => sin.into_iter().chain(cos).collect(),
+            Statement::Results(call) => self.calls[call].iter().copied().flatten().collect(),
+            Statement::Put(_) => Vec::new(),
+        }
+    }
+
+    /// The places of what a statement binds, empty where a result is of no use.
+    pub(crate) fn bindings(&self, statement: Statement) -> Vec<Option<NodeId>> {
+        match statement {
+            Statement::Value(id) => vec![Some(id)],
+            Statement::SinCos { sin, cos, .. } => vec![sin, cos],
+            Statement::Results(call) => self.calls[call].clone(),
+            Statement::Put(_) => Vec::new(),
+        }
+    }
+
+    /// Where the values that a statement needs are found: the roots of its expression.
+    pub(crate) fn needs(&self, statement: Statement) -> Vec<NodeId> {
+        match statement {
+            Statement::Value(id) => self.graph.node(id).operands().collect(),
+            Statement::SinCos { argument, .. } => vec![argument],
+            Statement::Results(call) => {
+                let any = self.calls[call].iter().flatten().next();
+                any.map_or_else(Vec::new, |&id| self.graph.node(id).operands().collect())
+            }
+            Statement::Put(place) => vec![self.roots[place]],
+        }
+    }
+
+    /// The results of a call with several: those that are used.
+    pub(crate) fn results(&self, call: usize) -> &[Option<NodeId>] {
+        &self.calls[call]
+    }
+
+    /// Whether a line binds it.
+    pub(crate) fn is_bound(&self, id: NodeId) -> bool {
+        self.binds[index(id)]
+    }
+
+    /// Bound values and inputs that an expression reads.
+    pub(crate) fn reads(&self, expression: NodeId, found: &mut BTreeSet<NodeId>) {
+        if self.is_bound(expression) || matches!(self.graph.node(expression), Node::Symbol(_)) {
+            found.insert(expression);
+        } else {
+            for operand in self.graph.node(expression).operands() {
+                self.reads(operand, found);
+            }
+        }
+    }
+}
+
+/// Where a node is found in lists by node.
+pub(crate) fn index(id: NodeId) -> usize {
+    id.0 as usize
+}
+
+/// How often each value is used; 0 for what the roots do not need.
+pub(crate) fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
+    let mut uses = vec![0; graph.len()];
+    for &root in roots {
+        uses[index(root)] += 1;
+    }
+    for (position, node) in graph.nodes().iter().enumerate().rev() {
+        if uses[position] > 0 {
+            for operand in node.operands() {
+                uses[index(operand)] += 1;
+            }
+        }
+    }
+    uses
+}
+
+/// The label of each root that is an operation.
+pub(crate) fn labels_of(
+    graph: &Graph,
+    roots: &[NodeId],
+    labels: &[String],
+) -> FxHashMap<NodeId, String> {
+    let mut found = FxHashMap::default();
+    for (&root, label) in roots.iter().zip(labels) {
+        if !graph.node(root).is_leaf() {
+            found.entry(root).or_insert_with(|| label.clone());
+        }
+    }
+    found
+}
+
+/// Sine and cosine of each argument, as far as they are used.
+fn partners(graph: &Graph, uses: &[u32]) -> Vec<(Option<NodeId>, Option<NodeId>)> {
+    let mut partners = vec![(None, None); graph.len()];
+    for (position, node) in graph.nodes().iter().enumerate() {
+        let id = NodeId(position as u32);
+        match node {
+            Node::Sin(a) if uses[position] > 0 => partners[index(*a)].0 = Some(id),
+            Node::Cos(a) if uses[position] > 0 => partners[index(*a)].1 = Some(id),
+            _ => {}
+        }
+    }
+    partners
+}
+
+/// The calls with several results, each once, with those of the results that are used.
+fn calls(graph: &Graph, uses: &[u32]) -> Vec<Vec<Option<NodeId>>> {
+    let mut calls: Vec<Vec<Option<NodeId>>> = Vec::new();
+    let mut place: FxHashMap<Node, usize> = FxHashMap::default();
+    for (position, node) in graph.nodes().iter().enumerate() {
+        if uses[position] > 0
+            && let Node::Call(function, arguments) = *node
+            && let Some((part, parts)) = function.part()
+        {
+            let call = Node::Call(function.first_part(), arguments);
+            let at = *place.entry(call).or_insert_with(|| {
+                calls.push(vec![None; parts]);
+                calls.len() - 1
+            });
+            calls[at][part] = Some(NodeId(position as u32));
+        }
+    }
+    calls
+}

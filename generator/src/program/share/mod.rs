@@ -1,0 +1,763 @@
+//! Shared subroutines: what like elements compute in the same way is written once and called for each.
+//!
+//! Two elements are like each other where they do the same operations, but for what they start from and for numbers. A long function outgrows
+//! the caches of the processor, and then most of its time goes into fetching it; and it takes long to compile. The elements of a chain are like
+//! each other, so the function becomes a list of calls of a few short subroutines.
+//!
+//! A block is a run of lines that belong to one element. It is read as a sequence of [`Token`]s: the block's own values are numbered in order,
+//! whatever it reads from elsewhere is a slot, and each of its numbers a place in a list. Blocks of the same tokens are like each other. What
+//! differs is handed over by ports: a reference to the part of an argument that is the element's own, a reference to what
+//! another call returned, a list of numbers; and what fits nowhere is copied into an array. What only the next call of the same subroutine
+//! reads is not returned (`live_through`): it stands in one variable, which such calls overwrite in turn, and so stays in the first cache.
+//!
+//! Of the models at hand only chains have such subroutines: the methods of a person in a car, of a humanoid and of dummy15 are shorter than
+//! [`Options::merged`](super::Options::merged), or have less than half in common. The derivative of the state of a chain, compiled by rustc
+//! 1.95 with `-C opt-level=3` (Intel family 6, model 167; processor time of one compilation; the shortest of 3000 evaluations):
+//!
+//! | | shared | in pieces | in one |
+//! |---|---:|---:|---:|
+//! | chain of 100, `f64`: compiled in | 2.0 s | 6.5 s | 18.1 s |
+//! | memory of the compiler | 0.27 GB | 0.37 GB | 0.36 GB |
+//! | one evaluation | 4.96 µs | 6.97 µs | 8.03 µs |
+//! | chain of 100, every width of registers: compiled in | 8.4 s | 52.9 s | |
+//! | memory of the compiler | 0.30 GB | 1.14 GB | |
+//! | four lanes, per state | 1.00 µs | 1.50 µs | |
+//! | eight lanes, per state | 0.61 µs | 0.80 µs | |
+//! | chain of 200, `f64`: compiled in | 4.6 s | 15.5 s | |
+//! | one evaluation | 10.0 µs | 13.9 µs | |
+
+mod live_through;
+
+use super::formula::{Form, Formulas, Method, Operator};
+use super::order::{Order, blocks_by_owner};
+use super::schedule::{Schedule, Statement};
+use crate::expression::passes::{Rewritten, repeat};
+use crate::expression::{Function, Node, NodeId, Symbol};
+use crate::method::inputs::{Argument, Inputs};
+use live_through::live_through;
+use rustc_hash::FxHashMap;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+pub(crate) use live_through::LiveThrough;
+
+/// Lines below which a call costs more than it saves.
+const SHORT: usize = 8;
+/// Elements from which on what they have in common becomes a subroutine.
+const MANY: usize = 3;
+
+/// Steps that may be left beside what is shared: they are one function, which takes rustc a fifth longer than pieces of 900 do.
+const LEFT: usize = 3000;
+
+/// The function that stands for a call and for all that call alike.
+type Callee<'a> = dyn Fn(Function) -> Function + 'a;
+
+/// A schedule with what its elements have in common.
+pub(crate) struct Sharing {
+    pub subroutines: Vec<Subroutine>,
+    /// What is left: lines, and calls in their places.
+    pub items: Vec<Item>,
+}
+
+/// A step of the function that calls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Item {
+    /// A line of the schedule.
+    Line(usize),
+    /// A call for one of the blocks that are like each other.
+    Call { subroutine: usize, block: usize },
+}
+
+/// What several blocks have in common.
+pub(crate) struct Subroutine {
+    /// In order; the first gives the subroutine its names.
+    pub blocks: Vec<Block>,
+    /// Which of the values of a block others read, by their number.
+    pub outputs: Vec<usize>,
+    /// Where each slot is found.
+    pub slots: Vec<Place>,
+    /// Where each number is found: in the subroutine, or in the list.
+    pub numbers: Vec<Number>,
+    pub ports: Vec<Port>,
+    /// By block: what is copied, as many for each.
+    pub copied: Vec<Vec<NodeId>>,
+    /// By block: the list of numbers, as many for each.
+    pub listed: Vec<Vec<f64>>,
+    /// What a call leaves for the next one alone.
+    pub live_through: Option<LiveThrough>,
+}
+
+/// A run of lines of one element.
+pub(crate) struct Block {
+    pub lines: Range<usize>,
+    /// What it binds.
+    pub values: Vec<NodeId>,
+    /// What it reads from elsewhere, by slot.
+    pub slots: Vec<NodeId>,
+    /// Its numbers, in the order in which they are printed.
+    pub numbers: Vec<f64>,
+    /// The places among the results that it puts something at, by runs of neighbours.
+    pub puts: Vec<Range<usize>>,
+}
+
+/// Where a slot is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// In the mechanism, or the time: the same for all blocks.
+    Common(NodeId),
+    /// An element of what a port of an argument shows.
+    Element { port: usize, index: usize },
+    /// A value of what a port of a call shows, by its number.
+    Value { port: usize, number: usize },
+    /// A copy.
+    Copied(usize),
+}
+
+/// Where a number is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Number {
+    Same(f64),
+    Listed(usize),
+}
+
+/// What blocks are handed by reference.
+pub(crate) enum Port {
+    /// So many elements of an argument, and by block where they begin.
+    Argument {
+        argument: Argument,
+        starts: Vec<usize>,
+        length: usize,
+    },
+    /// What a call of another, or the same, subroutine returned: by block, which of its blocks it was made for, if any.
+    Returned {
+        subroutine: usize,
+        blocks: Vec<Option<usize>>,
+        /// By block: values by the numbers under which they are read, where no one call returned them all.
+        gathered: Vec<Option<Gathered>>,
+    },
+}
+
+/// Values by the numbers under which they are read.
+pub(crate) type Gathered = Vec<(usize, NodeId)>;
+
+/// Where a value was made: subroutine, block, number.
+pub(crate) type Origins = FxHashMap<NodeId, (usize, usize, usize)>;
+
+impl Sharing {
+    /// The same values in the order of elements, with what those have in common; `None` where that is less than half of it, or too much is
+    /// left. What is soon made of inputs is not handed from call to call. `callee` says which function stands for those that call alike.
+    pub(crate) fn in_order_of_owners(
+        schedule: &Schedule,
+        labels: &[String],
+        inputs: &Inputs,
+        puts: bool,
+        callee: &Callee<'_>,
+    ) -> Option<(Schedule, Self)> {
+        let blocks = blocks_by_owner(&schedule.graph, &schedule.roots);
+        let Rewritten { graph, roots } = repeat(&schedule.graph, &schedule.roots, &blocks);
+        let schedule = Schedule::new(graph, roots, labels, inputs, Order::Owner, puts);
+        let sharing = Self::of(&schedule, inputs, callee)?;
+        Some((schedule, sharing))
+    }
+
+    fn of(schedule: &Schedule, inputs: &Inputs, callee: &Callee<'_>) -> Option<Self> {
+        let mut subroutines = subroutines(schedule, callee);
+        let blocks = subroutines.iter().flat_map(|subroutine| &subroutine.blocks);
+        let shared: usize = blocks
+            .map(|block| schedule.binding(block.lines.clone()))
+            .sum();
+        if subroutines.is_empty() || 2 * shared < schedule.binding(0..schedule.lines.len()) {
+            return None;
+        }
+        let items = items(&subroutines, schedule.lines.len());
+        if binding(&items, schedule) > LEFT {
+            return None;
+        }
+        let origins = origins(&subroutines);
+        find_outputs(&mut subroutines, schedule, &items, &origins);
+        for subroutine in &mut subroutines {
+            subroutine.connect(schedule, inputs, &origins);
+        }
+        for subroutine in 0..subroutines.len() {
+            let live_through = live_through(&subroutines, subroutine, schedule, &items, &origins);
+            let subroutine = &mut subroutines[subroutine];
+            if let Some(LiveThrough { numbers, .. }) = &live_through {
+                subroutine
+                    .outputs
+                    .retain(|number| !numbers.contains(number));
+            }
+            subroutine.live_through = live_through;
+        }
+        Some(Self { subroutines, items })
+    }
+
+    /// What lines, calls and the results read.
+    pub(crate) fn read(&self, schedule: &Schedule) -> BTreeSet<NodeId> {
+        read(&self.subroutines, schedule, &self.items)
+    }
+}
+
+/// How many of the steps bind something.
+fn binding(items: &[Item], schedule: &Schedule) -> usize {
+    let binds = |item: &Item| match *item {
+        Item::Line(line) => schedule.binding(line..line + 1),
+        Item::Call { .. } => 1,
+    };
+    items.iter().map(binds).sum()
+}
+
+impl Subroutine {
+    /// The block that gives the subroutine its names.
+    pub(crate) fn first(&self) -> &Block {
+        &self.blocks[0]
+    }
+
+    /// Whether it puts anything into an output writer.
+    pub(crate) fn puts(&self) -> bool {
+        !self.first().puts.is_empty()
+    }
+
+    /// Finds the ports.
+    fn connect(&mut self, schedule: &Schedule, inputs: &Inputs, origins: &Origins) {
+        let count = self.first().slots.len();
+        for slot in 0..count {
+            let sources: Vec<NodeId> = self.blocks.iter().map(|block| block.slots[slot]).collect();
+            let place = self
+                .common(schedule, inputs, &sources)
+                .or_else(|| self.element(schedule, inputs, &sources))
+                .or_else(|| self.returned(&sources, origins))
+                .unwrap_or_else(|| self.copy(&sources));
+            self.slots.push(place);
+        }
+        self.gather(origins);
+        for number in 0..self.first().numbers.len() {
+            let values: Vec<f64> = self.blocks.iter().map(|b| b.numbers[number]).collect();
+            let place = self.place_of(&values);
+            self.numbers.push(place);
+        }
+    }
+
+    fn common(&self, schedule: &Schedule, inputs: &Inputs, sources: &[NodeId]) -> Option<Place> {
+        let first = *sources.first()?;
+        let Node::Symbol(symbol) = schedule.graph.node(first) else {
+            return None;
+        };
+        let common =
+            inputs.input(symbol).element().is_none() && sources.iter().all(|&s| s == first);
+        common.then_some(Place::Common(first))
+    }
+
+    /// The element of an argument, at the same distance from that of the port for all blocks.
+    fn element(
+        &mut self,
+        schedule: &Schedule,
+        inputs: &Inputs,
+        sources: &[NodeId],
+    ) -> Option<Place> {
+        let element = |&id: &NodeId| match schedule.graph.node(id) {
+            Node::Symbol(symbol) => inputs.input(symbol).element(),
+            _ => None,
+        };
+        let elements: Vec<(Argument, usize)> =
+            sources.iter().map(element).collect::<Option<_>>()?;
+        let (argument, _) = *elements.first()?;
+        if elements.iter().any(|&(other, _)| other != argument) {
+            return None;
+        }
+        for (port, shown) in self.ports.iter_mut().enumerate() {
+            let Port::Argument {
+                argument: of,
+                starts,
+                length,
+            } = shown
+            else {
+                continue;
+            };
+            let distance = elements[0].1 as isize - starts[0] as isize;
+            let same = |(&(_, index), &start): (&(Argument, usize), &usize)| {
+                index as isize - start as isize == distance
+            };
+            if *of != argument || !elements.iter().zip(&*starts).all(same) {
+                continue;
+            }
+            // Far apart they are better off alone, but no model has elements with so many coordinates.
+            let before = usize::try_from(-distance).unwrap_or(0);
+            for start in &mut *starts {
+                *start -= before;
+            }
+            let index = usize::try_from(distance).unwrap_or(0);
+            *length = (*length + before).max(index + 1);
+            if before > 0 {
+                for place in &mut self.slots {
+                    if let Place::Element { port: of, index } = place
+                        && *of == port
+                    {
+                        *index += before;
+                    }
+                }
+            }
+            return Some(Place::Element { port, index });
+        }
+        self.ports.push(Port::Argument {
+            argument,
+            starts: elements.iter().map(|&(_, index)| index).collect(),
+            length: 1,
+        });
+        let port = self.ports.len() - 1;
+        Some(Place::Element { port, index: 0 })
+    }
+
+    /// The value of another call, if that is what most blocks read.
+    fn returned(&mut self, sources: &[NodeId], origins: &Origins) -> Option<Place> {
+        let found: Vec<_> = sources.iter().map(|id| origins.get(id).copied()).collect();
+        let mut counts: FxHashMap<(usize, usize), usize> = FxHashMap::default();
+        for &(subroutine, _, number) in found.iter().flatten() {
+            *counts.entry((subroutine, number)).or_default() += 1;
+        }
+        let (&(subroutine, number), &most) = counts
+            .iter()
+            .max_by_key(|&(&place, &count)| (count, std::cmp::Reverse(place)))?;
+        // More than half, so that two slots of one port cannot be the same value.
+        if 2 * most <= sources.len() {
+            return None;
+        }
+        let blocks = found.iter().map(|origin| match *origin {
+            Some((l, block, n)) if (l, n) == (subroutine, number) => Some(block),
+            _ => None,
+        });
+        let blocks: Vec<Option<usize>> = blocks.collect();
+        let fits = |port: &Port| match port {
+            Port::Returned {
+                subroutine: of,
+                blocks: shown,
+                ..
+            } if *of == subroutine => {
+                let pairs = shown.iter().zip(&blocks);
+                pairs
+                    .clone()
+                    .all(|(a, b)| a.is_none() || b.is_none() || a == b)
+            }
+            _ => false,
+        };
+        let port = self.ports.iter().position(fits).unwrap_or_else(|| {
+            self.ports.push(Port::Returned {
+                subroutine,
+                blocks: blocks.clone(),
+                gathered: vec![None; blocks.len()],
+            });
+            self.ports.len() - 1
+        });
+        if let Port::Returned { blocks: shown, .. } = &mut self.ports[port] {
+            for (shown, block) in shown.iter_mut().zip(blocks) {
+                *shown = shown.or(block);
+            }
+        }
+        Some(Place::Value { port, number })
+    }
+
+    /// Has gathered what a port shows where not all of it is what one call returned.
+    fn gather(&mut self, origins: &Origins) {
+        for (port, shown) in self.ports.iter_mut().enumerate() {
+            let Port::Returned {
+                subroutine,
+                blocks,
+                gathered,
+            } = shown
+            else {
+                continue;
+            };
+            let slots: Vec<(usize, usize)> = (self.slots.iter().enumerate())
+                .filter_map(|(slot, place)| match *place {
+                    Place::Value { port: of, number } if of == port => Some((slot, number)),
+                    _ => None,
+                })
+                .collect();
+            for ((block, from), gathered) in self.blocks.iter().zip(&*blocks).zip(gathered) {
+                let whole = from.is_some_and(|from| {
+                    let there = |&(slot, number): &(usize, usize)| {
+                        origins.get(&block.slots[slot]) == Some(&(*subroutine, from, number))
+                    };
+                    slots.iter().all(there)
+                });
+                if !whole {
+                    let values = slots.iter();
+                    let values = values.map(|&(slot, number)| (number, block.slots[slot]));
+                    *gathered = Some(values.collect());
+                }
+            }
+        }
+    }
+
+    fn copy(&mut self, sources: &[NodeId]) -> Place {
+        self.copied.resize(sources.len(), Vec::new());
+        for (copied, &source) in self.copied.iter_mut().zip(sources) {
+            copied.push(source);
+        }
+        Place::Copied(self.copied[0].len() - 1)
+    }
+
+    fn place_of(&mut self, values: &[f64]) -> Number {
+        let same = |a: &f64, b: &f64| a.to_bits() == b.to_bits();
+        if values.iter().all(|value| same(value, &values[0])) {
+            return Number::Same(values[0]);
+        }
+        self.listed.resize(values.len(), Vec::new());
+        let known = (0..self.listed[0].len()).find(|&k| {
+            let column = self.listed.iter().map(|list| &list[k]);
+            column.zip(values).all(|(a, b)| same(a, b))
+        });
+        Number::Listed(known.unwrap_or_else(|| {
+            for (list, &value) in self.listed.iter_mut().zip(values) {
+                list.push(value);
+            }
+            self.listed[0].len() - 1
+        }))
+    }
+}
+
+/// What blocks have in common.
+fn subroutines(schedule: &Schedule, callee: &Callee<'_>) -> Vec<Subroutine> {
+    let mut place: FxHashMap<Vec<Token>, usize> = FxHashMap::default();
+    let mut subroutines: Vec<Vec<Block>> = Vec::new();
+    for lines in blocks(schedule) {
+        let (tokens, block) = Block::read(schedule, callee, lines);
+        let at = *place.entry(tokens).or_insert_with(|| {
+            subroutines.push(Vec::new());
+            subroutines.len() - 1
+        });
+        subroutines[at].push(block);
+    }
+    let many = subroutines
+        .into_iter()
+        .filter(|blocks| blocks.len() >= MANY);
+    let subroutine = many.map(|blocks| Subroutine {
+        copied: vec![Vec::new(); blocks.len()],
+        listed: vec![Vec::new(); blocks.len()],
+        blocks,
+        outputs: Vec::new(),
+        slots: Vec::new(),
+        numbers: Vec::new(),
+        ports: Vec::new(),
+        live_through: None,
+    });
+    subroutine.collect()
+}
+
+/// The runs of lines of one element, as far as they are long enough.
+fn blocks(schedule: &Schedule) -> Vec<Range<usize>> {
+    let mut start = 0;
+    let runs = schedule
+        .lines
+        .chunk_by(|a, b| a.block == b.block)
+        .map(|run| {
+            let lines = start..start + run.len();
+            start = lines.end;
+            lines
+        });
+    runs.filter(|lines| lines.len() >= SHORT).collect()
+}
+
+impl Block {
+    /// A block, and its tokens.
+    fn read(schedule: &Schedule, callee: &Callee<'_>, lines: Range<usize>) -> (Vec<Token>, Block) {
+        let statements = || {
+            schedule.lines[lines.clone()]
+                .iter()
+                .map(|line| line.statement)
+        };
+        let values: Vec<NodeId> = statements().flat_map(|s| schedule.bound(s)).collect();
+        let numbers = values.iter().enumerate().map(|(n, &id)| (id, n));
+        let puts = statements().filter_map(|statement| match statement {
+            Statement::Put(place) => Some(place),
+            _ => None,
+        });
+        let puts = neighbours(puts.collect());
+        let reader = Reader {
+            values: numbers.collect(),
+            callee,
+            slots: RefCell::default(),
+            numbers: RefCell::default(),
+        };
+        let tokens = statements().flat_map(|of| reader.statement(schedule, of, &puts));
+        let tokens: Vec<Token> = tokens.collect();
+        let (slots, numbers) = (reader.slots.into_inner(), reader.numbers.into_inner());
+        (
+            tokens,
+            Block {
+                lines,
+                values,
+                slots,
+                numbers,
+                puts,
+            },
+        )
+    }
+}
+
+/// Places by runs of neighbours.
+fn neighbours(places: BTreeSet<usize>) -> Vec<Range<usize>> {
+    let places = Vec::from_iter(places);
+    let runs = places.chunk_by(|a, b| a + 1 == *b);
+    runs.map(|run| run[0]..run[0] + run.len()).collect()
+}
+
+/// In which run a place is, and how far from its begin.
+pub(crate) fn place_in(runs: &[Range<usize>], place: usize) -> (usize, usize) {
+    let run = runs.partition_point(|run| run.end <= place);
+    (run, place - runs[run].start)
+}
+
+/// What a block does, operands first. Values are told by their order; slots and numbers by the order in which they are met, in which they are
+/// handed over, too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Token {
+    Value(usize),
+    Slot(usize),
+    Number(usize),
+    Negative,
+    Binary(Operator),
+    Method(Method),
+    HalfOfPair(u32),
+    Call(Function),
+    Arguments,
+    /// The end of a statement that binds values.
+    Binds,
+    /// The end of one that binds sine and cosine.
+    BindsPair,
+    /// Whether a value that a statement might bind is used.
+    Used(bool),
+    /// The end of a statement that writes a result: in which run of places, how far from its begin.
+    Puts(usize, usize),
+}
+
+/// Reads a block.
+struct Reader<'a> {
+    values: FxHashMap<NodeId, usize>,
+    callee: &'a Callee<'a>,
+    slots: RefCell<Vec<NodeId>>,
+    numbers: RefCell<Vec<f64>>,
+}
+
+impl Reader<'_> {
+    fn statement(
+        &self,
+        schedule: &Schedule,
+        statement: Statement,
+        puts: &[Range<usize>],
+    ) -> Vec<Token> {
+        let formulas = Formulas {
+            schedule,
+            form: self,
+        };
+        let (mut tokens, end) = match statement {
+            Statement::Value(id) => (formulas.formula(id), Token::Binds),
+            Statement::SinCos { argument, .. } => (formulas.receiver(argument), Token::BindsPair),
+            Statement::Results(call) => {
+                let any = schedule.results(call).iter().flatten().next();
+                let call = any.map_or_else(Vec::new, |&id| formulas.formula(id));
+                (call, Token::Binds)
+            }
+            Statement::Put(place) => {
+                let (run, distance) = place_in(puts, place);
+                let value = formulas.value(schedule.roots[place]);
+                (value, Token::Puts(run, distance))
+            }
+        };
+        tokens.push(end);
+        let bindings = schedule.bindings(statement).into_iter();
+        tokens.extend(bindings.map(|id| Token::Used(id.is_some())));
+        tokens
+    }
+}
+
+/// The tokens of some operands, and of what is done to them.
+fn of(operands: impl IntoIterator<Item = Vec<Token>>, done: Token) -> Vec<Token> {
+    let mut tokens: Vec<Token> = operands.into_iter().flatten().collect();
+    tokens.push(done);
+    tokens
+}
+
+impl Form for Reader<'_> {
+    type Term = Vec<Token>;
+
+    fn number(&self, value: f64) -> Vec<Token> {
+        let mut numbers = self.numbers.borrow_mut();
+        numbers.push(value);
+        vec![Token::Number(numbers.len() - 1)]
+    }
+
+    fn bound(&self, id: NodeId) -> Vec<Token> {
+        if let Some(&number) = self.values.get(&id) {
+            return vec![Token::Value(number)];
+        }
+        let mut slots = self.slots.borrow_mut();
+        let known = slots.iter().position(|&slot| slot == id);
+        let slot = known.unwrap_or_else(|| {
+            slots.push(id);
+            slots.len() - 1
+        });
+        vec![Token::Slot(slot)]
+    }
+
+    fn input(&self, id: NodeId, _symbol: Symbol) -> Vec<Token> {
+        self.bound(id)
+    }
+
+    fn negative(&self, a: Vec<Token>) -> Vec<Token> {
+        of([a], Token::Negative)
+    }
+
+    fn binary(&self, a: Vec<Token>, operator: Operator, b: Vec<Token>) -> Vec<Token> {
+        of([a, b], Token::Binary(operator))
+    }
+
+    fn method<const N: usize>(
+        &self,
+        receiver: Vec<Token>,
+        method: Method,
+        others: [Vec<Token>; N],
+    ) -> Vec<Token> {
+        let operands = std::iter::once(receiver).chain(others);
+        of(operands, Token::Method(method))
+    }
+
+    fn half_of_pair(&self, argument: Vec<Token>, half: u32) -> Vec<Token> {
+        of([argument], Token::HalfOfPair(half))
+    }
+
+    fn call(&self, function: Function, arguments: Vec<Vec<Token>>) -> Vec<Token> {
+        let callee = (self.callee)(function.first_part());
+        of(arguments, Token::Call(callee))
+    }
+
+    fn arguments(&self) -> Vec<Token> {
+        vec![Token::Arguments]
+    }
+
+    fn brackets(&self, a: Vec<Token>) -> Vec<Token> {
+        a
+    }
+}
+
+/// Calls in the places of their blocks, and the lines that are left.
+fn items(subroutines: &[Subroutine], lines: usize) -> Vec<Item> {
+    let mut call: Vec<Option<Item>> = vec![None; lines];
+    let mut left = vec![true; lines];
+    for (subroutine, blocks) in subroutines
+        .iter()
+        .map(|subroutine| &subroutine.blocks)
+        .enumerate()
+    {
+        for (block, Block { lines, .. }) in blocks.iter().enumerate() {
+            left[lines.clone()].fill(false);
+            call[lines.start] = Some(Item::Call { subroutine, block });
+        }
+    }
+    let item = |line: usize| call[line].or_else(|| left[line].then_some(Item::Line(line)));
+    (0..lines).filter_map(item).collect()
+}
+
+fn origins(subroutines: &[Subroutine]) -> Origins {
+    let mut origins = Origins::default();
+    for (subroutine, blocks) in subroutines
+        .iter()
+        .map(|subroutine| &subroutine.blocks)
+        .enumerate()
+    {
+        for (block, Block { values, .. }) in blocks.iter().enumerate() {
+            let numbered = values.iter().enumerate();
+            origins.extend(numbered.map(|(number, &id)| (id, (subroutine, block, number))));
+        }
+    }
+    origins
+}
+
+/// What is read of a block outside of it, for all blocks that are like it.
+fn find_outputs(
+    subroutines: &mut [Subroutine],
+    schedule: &Schedule,
+    items: &[Item],
+    origins: &Origins,
+) {
+    let mut outputs = vec![BTreeSet::new(); subroutines.len()];
+    let read = read(subroutines, schedule, items);
+    for &(subroutine, _, number) in read.iter().filter_map(|id| origins.get(id)) {
+        outputs[subroutine].insert(number);
+    }
+    for (subroutine, outputs) in subroutines.iter_mut().zip(outputs) {
+        subroutine.outputs = outputs.into_iter().collect();
+    }
+}
+
+/// What lines, calls and the results read.
+fn read(subroutines: &[Subroutine], schedule: &Schedule, items: &[Item]) -> BTreeSet<NodeId> {
+    let mut read = read_by_lines(schedule, items);
+    for item in items {
+        if let Item::Call { subroutine, block } = *item {
+            read.extend(&subroutines[subroutine].blocks[block].slots);
+        }
+    }
+    read
+}
+
+/// What lines and the results read.
+pub(crate) fn read_by_lines(schedule: &Schedule, items: &[Item]) -> BTreeSet<NodeId> {
+    let mut read = BTreeSet::new();
+    for item in items {
+        if let Item::Line(line) = *item {
+            for id in schedule.needs(schedule.lines[line].statement) {
+                schedule.reads(id, &mut read);
+            }
+        }
+    }
+    for &root in schedule.returned() {
+        schedule.reads(root, &mut read);
+    }
+    read
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::derive;
+    use crate::expression::Graph;
+    use crate::model::read_str;
+
+    /// The tokens and the numbers of one value.
+    fn read(value: impl FnOnce(&Graph) -> NodeId) -> (Vec<Token>, Vec<f64>) {
+        let text = "{ model: m, dimension: 2, systems: [{ name: s, elements: [{ name: e, mass: 1, cg: [0, -1], inertia: 1 }] }] }";
+        let loader = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
+        let (model, _) = read_str("m.yaml", text, &loader).expect("a model");
+        let inputs = Inputs::new(&model, &derive(&model));
+        let graph = Graph::new();
+        let root = value(&graph);
+        let labels = ["result".to_owned()];
+        let schedule = Schedule::new(graph, vec![root], &labels, &inputs, Order::Owner, false);
+        let lines = 0..schedule.lines.len();
+        let (tokens, block) = Block::read(&schedule, &|function| function, lines);
+        (tokens, block.numbers)
+    }
+
+    #[test]
+    fn formulas_are_like_each_other_but_for_their_numbers() {
+        let formula = |[a, b]: [f64; 2], slope: bool| {
+            read(move |graph| {
+                let x = graph.symbol(Symbol::Coordinate(0));
+                let other = if slope { x.sqrt() } else { x.sin() };
+                (a * x + (b * x + other)).id()
+            })
+        };
+        let (first, numbers) = formula([2.0, 3.0], true);
+        let (like, others) = formula([5.0, 7.0], true);
+        assert_eq!(like, first);
+        let pairs: Vec<_> = numbers.iter().zip(&others).collect();
+        assert_eq!(pairs.len(), 2);
+        assert!(
+            pairs
+                .iter()
+                .all(|pair| [(&2.0, &5.0), (&3.0, &7.0)].contains(pair))
+        );
+        assert_ne!(formula([2.0, 3.0], false).0, first);
+    }
+}

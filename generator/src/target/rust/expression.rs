@@ -1,0 +1,294 @@
+//! Formulas as Rust. Which operations they are made of, and where brackets stand, is said by [`crate::program::formula`].
+
+use super::library::Library;
+use super::naming::Naming;
+use super::syntax;
+use crate::expression::{Function, NodeId, Symbol};
+use crate::method::inputs::{Input, Inputs};
+use crate::program::formula::{Form, Formulas, Method, Operator};
+use crate::program::schedule::{Schedule, Statement};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+use std::cell::Cell;
+use syn::{BinOp, Expr};
+
+/// What named values, inputs and numbers are called where that is not by their own names.
+pub(crate) trait Words {
+    fn value(&self, id: NodeId) -> Expr;
+    fn number(&self, value: f64) -> Expr;
+    /// The place among the results that something is put into a sink at.
+    fn place(&self, place: usize) -> Expr;
+}
+
+/// Prints the expressions of one schedule.
+#[derive(Clone)]
+pub(crate) struct Printer<'a> {
+    schedule: &'a Schedule,
+    names: &'a Naming,
+    inputs: &'a Inputs,
+    library: &'a Library,
+    /// They are a field of the mechanism otherwise.
+    parameters_are_argument: bool,
+    numbers: Cell<bool>,
+    words: Option<&'a dyn Words>,
+}
+
+impl<'a> Printer<'a> {
+    pub(crate) fn new(
+        schedule: &'a Schedule,
+        names: &'a Naming,
+        inputs: &'a Inputs,
+        library: &'a Library,
+        parameters_are_argument: bool,
+    ) -> Self {
+        let numbers = Cell::new(false);
+        Self {
+            schedule,
+            names,
+            inputs,
+            library,
+            parameters_are_argument,
+            numbers,
+            words: None,
+        }
+    }
+
+    /// The same in other words.
+    pub(crate) fn in_words(&self, words: &'a dyn Words) -> Self {
+        Self {
+            words: Some(words),
+            numbers: Cell::new(false),
+            ..self.clone()
+        }
+    }
+
+    /// True where a number was printed, and so `num` is needed.
+    pub(crate) fn prints_numbers(&self) -> bool {
+        self.numbers.get()
+    }
+
+    /// A number as a scalar.
+    pub(crate) fn number(&self, value: f64) -> Expr {
+        self.numbers.set(true);
+        match self.words {
+            Some(words) => words.number(value),
+            None => scalar(value),
+        }
+    }
+
+    fn formulas(&self) -> Formulas<'_, Self> {
+        Formulas {
+            schedule: self.schedule,
+            form: self,
+        }
+    }
+
+    /// A value where it is used: its name, or its formula if it has none.
+    pub(crate) fn value(&self, id: NodeId) -> Expr {
+        self.formulas().value(id)
+    }
+
+    /// What a statement computes: one value, a pair or a list.
+    pub(crate) fn statement(&self, statement: Statement) -> Expr {
+        match statement {
+            Statement::Value(id) => self.formulas().formula(id),
+            Statement::SinCos { argument, .. } => {
+                syntax::method(self.formulas().receiver(argument), "sin_cos", [])
+            }
+            Statement::Results(call) => {
+                let any = self.schedule.results(call).iter().flatten().next();
+                any.map_or_else(
+                    || syntax::word("results"),
+                    |&id| self.formulas().formula(id),
+                )
+            }
+            Statement::Put(place) => {
+                let index = match self.words {
+                    Some(words) => words.place(place),
+                    None => syntax::literal(Literal::usize_unsuffixed(place)),
+                };
+                let value = self.value(self.schedule.roots[place]);
+                syntax::method(syntax::word("sink"), "put", [index, value])
+            }
+        }
+    }
+
+    /// An input by its own name.
+    pub(crate) fn symbol(&self, input: Input) -> Expr {
+        match input {
+            Input::Parameter(i) => {
+                let parameters = match self.parameters_are_argument {
+                    true => syntax::word("parameters"),
+                    false => syntax::field(syntax::word("self"), "parameters"),
+                };
+                syntax::field(parameters, &self.inputs.parameters[i])
+            }
+            Input::Derived(i) => syntax::field(syntax::word("self"), &self.inputs.derived[i]),
+            // Arguments are taken apart, so that their elements have names.
+            Input::Time => syntax::word("t"),
+            Input::Coordinate(i) => syntax::element("q", i),
+            Input::Velocity(i) => syntax::element("v", i),
+            Input::Auxiliary(i) => syntax::element("z", i),
+            Input::Memory(i) => syntax::element("m", i),
+            Input::Acceleration(i) => syntax::element("a", i),
+            Input::Guard(i) => syntax::element("g", i),
+        }
+    }
+}
+
+impl Form for Printer<'_> {
+    type Term = Expr;
+
+    fn number(&self, value: f64) -> Expr {
+        Printer::number(self, value)
+    }
+
+    fn bound(&self, id: NodeId) -> Expr {
+        match self.words {
+            Some(words) => words.value(id),
+            None => syntax::place(self.names.of(id).unwrap_or("unnamed")),
+        }
+    }
+
+    fn input(&self, id: NodeId, symbol: Symbol) -> Expr {
+        match (self.words, self.names.of(id)) {
+            (Some(words), _) => words.value(id),
+            (None, Some(name)) => syntax::place(name),
+            (None, None) => self.symbol(self.inputs.input(symbol)),
+        }
+    }
+
+    fn negative(&self, a: Expr) -> Expr {
+        syntax::negative(a)
+    }
+
+    fn binary(&self, a: Expr, operator: Operator, b: Expr) -> Expr {
+        let operator = match operator {
+            Operator::Plus => BinOp::Add(Default::default()),
+            Operator::Minus => BinOp::Sub(Default::default()),
+            Operator::Times => BinOp::Mul(Default::default()),
+            Operator::Over => BinOp::Div(Default::default()),
+        };
+        syntax::binary(a, operator, b)
+    }
+
+    fn method<const N: usize>(&self, receiver: Expr, method: Method, others: [Expr; N]) -> Expr {
+        let name = match method {
+            Method::Sqrt => "sqrt",
+            Method::Atan2 => "atan2",
+            Method::Max => "max",
+            Method::Min => "min",
+            Method::MulAdd => "mul_add",
+        };
+        syntax::method(receiver, name, others)
+    }
+
+    fn half_of_pair(&self, argument: Expr, half: u32) -> Expr {
+        syntax::tuple_field(syntax::method(argument, "sin_cos", []), half)
+    }
+
+    fn call(&self, function: Function, arguments: Vec<Expr>) -> Expr {
+        match self.library.callee(function) {
+            Callee::Method { of, name } => syntax::method(syntax::word(of), name, arguments),
+            Callee::Function(path) => syntax::call(syntax::word(path), arguments),
+            Callee::Adapter(path) => syntax::call(syntax::word(path), [syntax::array(arguments)]),
+        }
+    }
+
+    fn arguments(&self) -> Expr {
+        syntax::word("arguments")
+    }
+
+    fn brackets(&self, a: Expr) -> Expr {
+        syntax::brackets(a)
+    }
+}
+
+/// What is called.
+pub(crate) enum Callee<'a> {
+    /// A method of a constant.
+    Method { of: &'a str, name: &'static str },
+    /// A function by its path.
+    Function(&'static str),
+    /// The same, of one array.
+    Adapter(&'a str),
+}
+
+/// A number as a scalar, by the function `num`.
+pub(crate) fn scalar(value: f64) -> Expr {
+    let literal = match digits(value) {
+        Some(digits) => syntax::literal(digits),
+        None => syntax::word(unusual(value)),
+    };
+    let value = if value < 0.0 && value.is_finite() {
+        syntax::negative(literal)
+    } else {
+        literal
+    };
+    syntax::call(syntax::word("num"), [value])
+}
+
+/// A name as a token.
+pub(crate) fn ident(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}
+
+/// A number with the fewest digits that read back as the same number.
+pub(crate) fn number(value: f64) -> TokenStream {
+    match digits(value) {
+        Some(digits) if value < 0.0 => quote!(-#digits),
+        Some(digits) => quote!(#digits),
+        None => {
+            let name = syntax::path(unusual(value));
+            quote!(#name)
+        }
+    }
+}
+
+/// The size of a finite number.
+fn digits(value: f64) -> Option<Literal> {
+    // `Literal::f64_unsuffixed` writes 1e300 with all its zeros; `{:?}` does not.
+    let text = format!("{:?}", value.abs());
+    value.is_finite().then(|| {
+        text.parse()
+            .unwrap_or_else(|_| Literal::f64_unsuffixed(value.abs()))
+    })
+}
+
+/// The name of a number that is not finite.
+fn unusual(value: f64) -> &'static str {
+    match value {
+        f64::INFINITY => "f64::INFINITY",
+        f64::NEG_INFINITY => "f64::NEG_INFINITY",
+        _ => "f64::NAN",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_back_exactly() {
+        for value in [
+            0.0,
+            0.1,
+            -9.81,
+            1e-7,
+            1e21,
+            1.0 / 3.0,
+            f64::MAX,
+            f64::MIN_POSITIVE,
+            5e-324,
+        ] {
+            let text = number(value).to_string().replace(' ', "");
+            assert_eq!(text.parse::<f64>().ok(), Some(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_has_a_name() {
+        assert_eq!(number(f64::NEG_INFINITY).to_string(), "f64 :: NEG_INFINITY");
+        assert_eq!(number(f64::NAN).to_string(), "f64 :: NAN");
+    }
+}

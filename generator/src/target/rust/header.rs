@@ -1,0 +1,28 @@
+//! What a reader of the emitted text sees first: what the model is, and what its methods cost.
+
+use super::method::Function;
+use super::operations;
+use crate::equations::Equations;
+use crate::model::Model;
+use crate::program::about;
+
+/// The comment at the top of a module, ending in a newline.
+pub(crate) fn header(model: &Model, equations: &Equations, functions: &[Function]) -> String {
+    let mut text = String::new();
+    for said in about(model, equations) {
+        line(&mut text, said);
+    }
+    operations::tables(&mut text, equations, functions);
+    text
+}
+
+/// Adds a line of comment.
+pub(crate) fn line(text: &mut String, content: impl AsRef<str>) {
+    text.push_str("//");
+    let content = content.as_ref().trim_end();
+    if !content.is_empty() {
+        text.push(' ');
+        text.push_str(content);
+    }
+    text.push('\n');
+}

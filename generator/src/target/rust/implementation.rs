@@ -1,0 +1,465 @@
+//! The model as the runtime wants it: the trait `Model`, by the methods at parts of a state.
+
+use super::expression::ident;
+use super::library::Library;
+use super::method::method_name;
+use super::results;
+use crate::equations::Equations;
+use crate::method::table::{self, Specification};
+use crate::model::Rule;
+use crate::program::neighbours;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+/// The implementation of the trait, and the functions that it calls beside methods.
+pub(crate) fn implementation(
+    equations: &Equations,
+    methods: &[Specification],
+    library: &Library,
+) -> TokenStream {
+    let state = State::of(equations);
+    let (length, accelerations_of) = (state.length(equations), state.accelerations_of());
+    let rates = state.rates();
+    let initial_state = state.initial_state();
+    let at_states = state.at_states(methods);
+    let pivots = (!equations.pivots.is_empty()).then(|| state.smallest_pivot());
+    let conditions = violated(equations);
+    let renew = state.renew(equations);
+    let (normalize, unit) = (normalize(equations), unit(equations));
+    let kink_after = kink_after(equations, library);
+    let states = states(state.z, state.m);
+    quote! {
+        #length
+        #accelerations_of
+
+        impl<T: Real> Model<T> for Mechanism<T> {
+            type With<U: Real> = Mechanism<U>;
+            type Parameters = Parameters<T>;
+            type State = [T; STATE];
+            type Outputs = [T; OUTPUTS];
+            type Guards = [T; GUARDS];
+            type Kinks = [T; KINKS];
+            type Powers = [T; POWERS];
+            type Curves = [T; CURVES];
+            const INFO: &'static Info = &INFO;
+
+            #[inline(always)]
+            fn new(parameters: Parameters<T>) -> Self {
+                Self::new(parameters)
+            }
+
+            fn parameters(&self) -> &Parameters<T> {
+                &self.parameters
+            }
+
+            #initial_state
+            #rates
+            #(#at_states)*
+            #pivots
+            #conditions
+            #renew
+            #normalize
+            #kink_after
+        }
+
+        #unit
+        #states
+    }
+}
+
+/// What a state has besides q and v, and how it is taken apart.
+struct State {
+    z: bool,
+    m: bool,
+    /// A statement that names all parts of `y`.
+    split: TokenStream,
+    /// What methods at parts of a state are given.
+    arguments: TokenStream,
+}
+
+/// The methods that come first in the implementation; others follow in the order of their table.
+const FIRST: [&str; 5] = [
+    "outputs",
+    "kinetic_energy",
+    "powers",
+    "momentum",
+    "external_wrench",
+];
+
+impl State {
+    fn of(equations: &Equations) -> Self {
+        let (has_z, has_m) = (
+            !equations.auxiliaries.is_empty(),
+            !equations.memory.is_empty(),
+        );
+        let (z, m) = (has_z.then(|| quote!(, z)), has_m.then(|| quote!(, m)));
+        Self {
+            z: has_z,
+            m: has_m,
+            split: quote!(let (q, v #z #m) = parts(y);),
+            arguments: quote!(t, q, v #z #m),
+        }
+    }
+
+    fn length(&self, equations: &Equations) -> TokenStream {
+        let text = match (self.z, self.m) {
+            (false, false) => " Length of the state: q followed by v.",
+            (true, false) => " Length of the state: q, v, z.",
+            (false, true) => " Length of the state: q, v, m.",
+            (true, true) => " Length of the state: q, v, z, m.",
+        };
+        let moving = equations.coordinates.len() + equations.velocities.len();
+        let laws = equations.auxiliaries.len() + equations.memory.len();
+        let length = Literal::usize_unsuffixed(moving + laws);
+        quote! {
+            #[doc = #text]
+            pub const STATE: usize = #length;
+        }
+    }
+
+    fn accelerations_of(&self) -> TokenStream {
+        let Self {
+            split, arguments, ..
+        } = self;
+        quote! {
+            #[allow(dead_code)]
+            impl<T: Real> Mechanism<T> {
+                /// v̇ at a whole state, as [`Model::initial_state`] and runs have it. Force laws may get states of their own, and what calls this stays as it is.
+                #[inline(always)]
+                pub fn accelerations_of(&self, t: T, y: &[T; STATE]) -> [T; VELOCITIES] {
+                    #split
+                    self.accelerations(#arguments)
+                }
+            }
+        }
+    }
+
+    fn initial_state(&self) -> TokenStream {
+        let z = self.z.then(|| quote!(, &self.initial_auxiliaries()));
+        let m = self.m.then(|| quote!(, &self.initial_memory()));
+        quote! {
+            #[inline(always)]
+            fn initial_state(&self) -> [T; STATE] {
+                let (q, v) = self.initial_conditions();
+                joined(&q, &v #z #m)
+            }
+        }
+    }
+
+    /// The rate of the state, and that of q alone.
+    fn rates(&self) -> TokenStream {
+        let Self {
+            split, arguments, ..
+        } = self;
+        let motion = ident(table::EACH_MOTION);
+        let z = self.z.then(|| {
+            quote!(self.each_auxiliary_rate(#arguments, &mut Behind::<_, { COORDINATES + VELOCITIES }>(sink));)
+        });
+        // memory does not change during a step
+        let m = self.m.then(|| {
+            quote! {
+                for i in STATE - MEMORY..STATE {
+                    sink.put(i, T::from_f64(0.0));
+                }
+            }
+        });
+        let rest = (self.z || self.m).then(|| quote!(, ..));
+        quote! {
+            #[inline(always)]
+            fn derivative(&self, t: T, y: &[T; STATE]) -> [T; STATE] {
+                let mut rate = [T::from_f64(0.0); STATE];
+                self.each_rate(t, y, &mut rate);
+                rate
+            }
+
+            #[inline(always)]
+            fn each_rate(&self, t: T, y: &[T; STATE], sink: &mut impl Sink<T>) {
+                #split
+                self.#motion(#arguments, sink);
+                #z
+                #m
+            }
+
+            #[inline(always)]
+            fn coordinate_rates(&self, y: &[T; STATE], rate: &mut [T; STATE]) {
+                let (q, v #rest) = parts(y);
+                self.each_coordinate_rate(q, v, rate);
+            }
+        }
+    }
+
+    /// The methods of the trait that are methods at parts of a state, as they are.
+    fn at_states(&self, methods: &[Specification]) -> Vec<TokenStream> {
+        let place = |method: &&Specification| {
+            let place = FIRST.iter().position(|&first| first == method.name);
+            place.unwrap_or(FIRST.len())
+        };
+        let same = |method: &&Specification| method.of_parts && !method.results.one_by_one();
+        let mut methods: Vec<&Specification> = methods.iter().filter(same).collect();
+        methods.sort_by_key(place);
+        methods.into_iter().map(|of| self.at_state(of)).collect()
+    }
+
+    fn at_state(&self, method: &Specification) -> TokenStream {
+        let Self {
+            split, arguments, ..
+        } = self;
+        let (name, at_parts) = (ident(method.name), ident(&method_name(method)));
+        let inline = method.in_lanes.then(|| quote!(#[inline(always)]));
+        if method.name == "onsets" {
+            return quote! {
+                #inline
+                fn onsets(&self, t: T, y: &[T; STATE], onsets: &mut [T]) {
+                    #split
+                    onsets.copy_from_slice(&self.#at_parts(#arguments));
+                }
+            };
+        }
+        let returned = results::returned(method.results);
+        quote! {
+            #inline
+            fn #name(&self, t: T, y: &[T; STATE]) -> #returned {
+                #split
+                self.#at_parts(#arguments)
+            }
+        }
+    }
+
+    fn smallest_pivot(&self) -> TokenStream {
+        let Self {
+            split, arguments, ..
+        } = self;
+        quote! {
+            fn smallest_pivot(&self, t: T, y: &[T; STATE]) -> Option<(usize, T)> {
+                #split
+                let pivots = self.pivots(#arguments).into_iter().enumerate();
+                pivots.min_by(|a, b| a.1.to_f64().total_cmp(&b.1.to_f64()))
+            }
+        }
+    }
+
+    fn renew(&self, equations: &Equations) -> Option<TokenStream> {
+        let Self {
+            split, arguments, ..
+        } = self;
+        let by_guards =
+            table::renews_by_guards(equations).then(|| quote!(, &self.guards_at(#arguments)));
+        let renew = match equations.charts {
+            0 => quote! {
+                let renewed = self.renewed_memory(#arguments #by_guards);
+                y[STATE - MEMORY..].copy_from_slice(&renewed);
+            },
+            _ => quote! {
+                let (q, v, m) = self.renewed(#arguments #by_guards);
+                y[..COORDINATES].copy_from_slice(&q);
+                y[COORDINATES..COORDINATES + VELOCITIES].copy_from_slice(&v);
+                y[STATE - MEMORY..].copy_from_slice(&m);
+            },
+        };
+        self.m.then(|| {
+            quote! {
+                #[inline(always)]
+                fn renew(&self, t: T, y: &mut [T; STATE]) {
+                    #split
+                    #renew
+                }
+            }
+        })
+    }
+}
+
+/// Which condition parameters break, where they must keep any.
+fn violated(equations: &Equations) -> Option<TokenStream> {
+    let rules = equations
+        .conditions
+        .iter()
+        .map(|condition| match condition.rule {
+            Rule::Finite => quote!(|_| true),
+            Rule::NotZero => quote!(|value| value != 0.0),
+            Rule::NotNegative => quote!(|value| value >= 0.0),
+            Rule::Positive => quote!(|value| value > 0.0),
+        });
+    let count = Literal::usize_unsuffixed(equations.conditions.len());
+    (!equations.conditions.is_empty()).then(|| {
+        quote! {
+            fn violated(&self) -> Option<usize> {
+                let rules: [fn(f64) -> bool; #count] = [#(#rules),*];
+                let mut conditions = self.conditions().into_iter().zip(rules);
+                conditions.position(|(value, keeps)| {
+                    let value = value.to_f64();
+                    !(value.is_finite() && keeps(value))
+                })
+            }
+        }
+    })
+}
+
+/// The method by which the runtime asks for the others; nothing where there are none.
+fn kink_after(equations: &Equations, library: &Library) -> Option<TokenStream> {
+    let curves: Vec<Ident> = equations
+        .stretched_curves_of_time()
+        .map(|(curve, _)| format_ident!("{}", library.name(curve)))
+        .collect();
+    let indices = (0..curves.len()).map(Literal::usize_unsuffixed);
+    (!curves.is_empty()).then(|| {
+        quote! {
+            fn kink_after(&self, t: f64) -> T {
+                let rates = self.kink_rates();
+                T::from_f64(f64::INFINITY) #(.min(#curves.kink_after(rates[#indices], t)))*
+            }
+        }
+    })
+}
+
+/// The functions that put a state together and take it apart.
+fn states(has_z: bool, has_m: bool) -> TokenStream {
+    // (name, length, of what)
+    let mut parts = vec![("q", "COORDINATES"), ("v", "VELOCITIES")];
+    if has_z {
+        parts.push(("z", "AUXILIARIES"));
+    }
+    if has_m {
+        parts.push(("m", "MEMORY"));
+    }
+    let names: Vec<_> = parts.iter().map(|(name, _)| ident(name)).collect();
+    let lengths: Vec<_> = parts.iter().map(|(_, length)| ident(length)).collect();
+    let words = match parts.len() {
+        2 => "q and v".to_string(),
+        _ => {
+            let (last, first) = (parts[parts.len() - 1].0, &parts[..parts.len() - 1]);
+            let first: Vec<&str> = first.iter().map(|part| part.0).collect();
+            format!("{} and {last}", first.join(", "))
+        }
+    };
+    let (joins, splits) = (
+        format!(" The state made of {words}."),
+        format!(" {words} of a state."),
+    );
+    if parts.len() == 2 {
+        return quote! {
+            #[doc = #joins]
+            #[inline(always)]
+            fn joined<T: Real>(q: &[T; COORDINATES], v: &[T; VELOCITIES]) -> [T; STATE] {
+                let mut y = [T::from_f64(0.0); STATE];
+                y[..COORDINATES].copy_from_slice(q);
+                y[COORDINATES..].copy_from_slice(v);
+                y
+            }
+
+            #[doc = #splits]
+            #[inline(always)]
+            fn parts<T>(y: &[T; STATE]) -> (&[T; COORDINATES], &[T; VELOCITIES]) {
+                match (y.first_chunk(), y.last_chunk()) {
+                    (Some(q), Some(v)) => (q, v),
+                    _ => unreachable!("a state is as long as q and v together"),
+                }
+            }
+        };
+    }
+    // all but the last are split off from the front
+    let front = &names[..names.len() - 1];
+    let last = &names[names.len() - 1];
+    let too_short = format!("a state is as long as {words} together");
+    quote! {
+        #[doc = #joins]
+        #[inline(always)]
+        fn joined<T: Real>(#(#names: &[T; #lengths]),*) -> [T; STATE] {
+            let mut y = [T::from_f64(0.0); STATE];
+            let parts = [#(&#names[..]),*];
+            for (entry, value) in y.iter_mut().zip(parts.into_iter().flatten()) {
+                *entry = *value;
+            }
+            y
+        }
+
+        #[doc = #splits]
+        #[inline(always)]
+        fn parts<T>(y: &[T; STATE]) -> (#(&[T; #lengths]),*) {
+            let rest = &y[..];
+            #(let Some((#front, rest)) = rest.split_first_chunk() else { unreachable!(#too_short) };)*
+            let Some(#last) = rest.first_chunk() else { unreachable!(#too_short) };
+            (#(#names),*)
+        }
+    }
+}
+
+fn normalize(equations: &Equations) -> TokenStream {
+    if equations.quaternions.is_empty() {
+        return quote!(
+            #[inline(always)]
+            fn normalize(&self, _y: &mut [T; STATE]) {}
+        );
+    }
+    let ranges = neighbours(&equations.quaternions);
+    let literal = Literal::usize_unsuffixed;
+    let loops = ranges.iter().map(|range| {
+        let (start, end) = (literal(range.start), literal(range.end));
+        quote! {
+            for quaternion in y[#start..#end].as_chunks_mut::<4>().0 {
+                *quaternion = unit(*quaternion);
+            }
+        }
+    });
+    // Backwards: what the last stage of a step found last is still near, and what the next one reads first is near then.
+    let mut changes = Vec::new();
+    let mut end = quote!(STATE);
+    for range in ranges.iter().rev() {
+        changes.push(changed(range.end, &end));
+        let (start, number) = (literal(range.start), literal(range.len() / 4));
+        let first = match range.start {
+            0 => quote!(4 * i),
+            _ => quote!(#start + 4 * i),
+        };
+        changes.push(quote! {
+            for i in (0..#number).rev() {
+                let i = #first;
+                [y[i], y[i + 1], y[i + 2], y[i + 3]] = unit([
+                    change.of(i, y[i]),
+                    change.of(i + 1, y[i + 1]),
+                    change.of(i + 2, y[i + 2]),
+                    change.of(i + 3, y[i + 3]),
+                ]);
+            }
+        });
+        end = quote!(#start);
+    }
+    if ranges.first().is_none_or(|range| range.start > 0) {
+        changes.push(changed(0, &end));
+    }
+    quote! {
+        #[inline(always)]
+        fn normalize(&self, y: &mut [T; STATE]) {
+            #(#loops)*
+        }
+
+        #[inline(always)]
+        fn normalize_changed(&self, y: &mut [T; STATE], change: &impl bryant_runtime::Change<T>) {
+            #(#changes)*
+        }
+    }
+}
+
+/// Entries that are no quaternions, changed.
+fn changed(start: usize, end: &TokenStream) -> TokenStream {
+    let start = Literal::usize_unsuffixed(start);
+    quote! {
+        for i in (#start..#end).rev() {
+            y[i] = change.of(i, y[i]);
+        }
+    }
+}
+
+/// What generated code scales quaternions by, where there are any.
+fn unit(equations: &Equations) -> Option<TokenStream> {
+    (!equations.quaternions.is_empty()).then(|| {
+        quote! {
+            /// The quaternion of length 1 in the same direction.
+            #[inline(always)]
+            fn unit<T: Real>([w, x, y, z]: [T; 4]) -> [T; 4] {
+                let squared = w * w + x * x + y * y + z * z;
+                let scale = T::from_f64(1.0) / squared.sqrt();
+                [w * scale, x * scale, y * scale, z * scale]
+            }
+        }
+    })
+}

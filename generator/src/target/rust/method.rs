@@ -1,0 +1,188 @@
+//! A method as Rust: as a whole, in calls of the subroutines that its like elements share, or in pieces.
+
+use super::expression::ident;
+use super::function::{Writer, with_body};
+use super::library::Library;
+use super::naming::Naming;
+use super::results;
+use crate::expression::count::Table;
+use crate::method::Start;
+use crate::method::inputs::{Argument, Inputs};
+use crate::method::results::Results;
+use crate::method::table::Specification;
+use crate::program::Options;
+use crate::program::order::Order;
+use crate::program::plan::Procedure;
+use crate::program::schedule::Schedule;
+use crate::program::share::Sharing;
+use crate::program::split::pieces;
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use std::collections::BTreeSet;
+use syn::{Block, ImplItemFn, parse_quote};
+
+/// The name of a method in the text. Where the trait `Model` has one of the same name, of the whole state, this one would hide it, so its name
+/// says that it is evaluated at parts of a state: `outputs_at(t, q, v)`.
+pub(crate) fn method_name(method: &Specification) -> String {
+    match method.of_parts {
+        true => format!("{}_at", method.name),
+        false => method.name.to_owned(),
+    }
+}
+
+/// True for the method that has no receiver, but makes one from parameters.
+pub(crate) fn constructs(method: &Specification) -> bool {
+    method.results == Results::Mechanism
+}
+
+/// A method as text.
+pub(crate) struct Function {
+    pub name: &'static str,
+    /// The pieces of the method, if it has any, and the method.
+    pub methods: Vec<ImplItemFn>,
+    /// What the pieces hand on.
+    pub structs: Vec<TokenStream>,
+    /// What it costs, by section.
+    pub operations: Table,
+}
+
+/// Writes a method, in calls or in pieces if it is long.
+pub(crate) fn write(
+    procedure: Procedure,
+    inputs: &Inputs,
+    library: &Library,
+    options: &Options,
+) -> Function {
+    let Procedure {
+        method,
+        graph,
+        roots,
+    } = procedure;
+    let (labels, results) = (&method.labels, method.results);
+    let puts = results.one_by_one();
+    let mut schedule = Schedule::new(graph, roots, labels, inputs, Order::of(results), puts);
+    let long = schedule.lines.len() > options.merged && !constructs(&method);
+    let same = |function| library.first_alike(function);
+    let shared = long
+        .then(|| Sharing::in_order_of_owners(&schedule, labels, inputs, puts, &same))
+        .flatten();
+    let sharing = shared.map(|(shared, sharing)| {
+        schedule = shared;
+        sharing
+    });
+    let pieces = match &sharing {
+        Some(_) => Vec::new(),
+        None => pieces(&schedule, options.statements),
+    };
+    let (name, operations) = (method.name, Table::of(&schedule.graph, &schedule.roots));
+    let mut writer = Writer {
+        names: Naming::new(&schedule, labels, inputs, &method.arguments),
+        apart: sharing.is_some() || long && pieces.len() > 1,
+        method,
+        schedule,
+        pieces,
+        inputs,
+        library,
+    };
+    let (structs, methods) = match sharing {
+        Some(sharing) => writer.in_calls(&sharing),
+        None => writer.in_pieces(),
+    };
+    Function {
+        name,
+        methods,
+        structs,
+        operations,
+    }
+}
+
+/// A method whose results are those that `of` writes from an index on, which is the constant of this name.
+pub(crate) fn part_of(method: &Specification, of: &str, from: &str) -> Vec<ImplItemFn> {
+    let (of, from) = (ident(of), ident(from));
+    let given = method.arguments.iter().map(|a| ident(a.name()));
+    let body = parse_quote!({
+        self.#of(#(#given,)* &mut bryant_runtime::Beyond::<_, #from>(sink));
+    });
+    let reads = method.arguments.iter().copied().collect();
+    public_method(method, &reads, true, body)
+}
+
+/// The public method around a body that reads these arguments; two where results go to an output writer, if there are any.
+pub(crate) fn public_method(
+    method: &Specification,
+    reads: &BTreeSet<Argument>,
+    puts_any: bool,
+    body: Block,
+) -> Vec<ImplItemFn> {
+    let name = ident(&method_name(method));
+    let documentation = format!(" {}", method.documentation);
+    let returned = results::returned(method.results);
+    if constructs(method) {
+        return vec![with_body(
+            body,
+            parse_quote! {
+                #[doc = #documentation]
+                #[inline(always)]
+                pub fn #name(parameters: Parameters<T>) -> #returned {}
+            },
+        )];
+    }
+    let asked = method.start == Start::Accelerations;
+    let arguments = method
+        .arguments
+        .iter()
+        .filter(|&&argument| argument != Argument::Accelerations);
+    let given: Vec<_> = arguments.clone().map(|a| ident(a.name())).collect();
+    let every = arguments.clone().map(|argument| argument.declaration(true));
+    let arguments =
+        arguments.map(|argument| argument.declaration(asked || reads.contains(argument)));
+    if let Results::Written { by, length } = method.results {
+        debug_assert!(
+            !asked,
+            "nothing that is put into a sink starts from accelerations"
+        );
+        let by = ident(by);
+        let sink = format_ident!("{}sink", if puts_any { "" } else { "_" });
+        let in_array: Option<ImplItemFn> = length.map(|length| {
+            let length = results::written_length(length);
+            parse_quote! {
+                #[doc = #documentation]
+                #[inline(always)]
+                pub fn #name(&self, #(#every),*) -> [T; #length] {
+                    let mut found = [T::from_f64(0.0); #length];
+                    self.#by(#(#given,)* &mut found);
+                    found
+                }
+            }
+        });
+        let text = match length {
+            Some(_) => format!(" [`Self::{name}`] one by one, each as soon as it is found."),
+            None => documentation.clone(),
+        };
+        let one_by_one = with_body(
+            body,
+            parse_quote! {
+                #[doc = #text]
+                #[inline(always)]
+                pub fn #by(&self, #(#arguments,)* #sink: &mut impl Sink<T>) {}
+            },
+        );
+        return in_array.into_iter().chain([one_by_one]).collect();
+    }
+    let inline = method.in_lanes.then(|| quote!(#[inline(always)]));
+    let mut written = with_body(
+        body,
+        parse_quote! {
+            #[doc = #documentation]
+            #inline
+            pub fn #name(&self, #(#arguments),*) -> #returned {}
+        },
+    );
+    if asked {
+        written
+            .block
+            .stmts
+            .insert(0, parse_quote!(let a = &self.accelerations(#(#given),*);));
+    }
+    vec![written]
+}

@@ -1,0 +1,135 @@
+//! Rust: one file for a model, of items only, so that it can be `include!`d into a module.
+//!
+//! What is written is decided by [`program`](crate::program); here it is printed.
+//!
+//! | file | what |
+//! |---|---|
+//! | `method`, `argument`, `results` | a method: its head, what it is given, what it returns |
+//! | `function` | its body, or the bodies of its pieces |
+//! | `subroutines`, `subroutine_names` | its body as calls of what like elements share |
+//! | `expression`, `syntax`, `naming` | statements and formulas as syntax trees, with names |
+//! | `implementation` | the trait `Model`, by the methods |
+//! | `items`, `library`, `user` | sizes, parameters, constants; curves and laws; functions of the user's |
+//! | `header`, `operations`, `comment` | what a reader sees first; comments between statements |
+//!
+//! What depends on parameters alone is computed once, in `Mechanism::new`; what is known to a method before it runs
+//! stands in its graph as an input. Every method is straight-line code: no branch, no loop, no index that is not a number.
+
+mod argument;
+mod comment;
+mod expression;
+mod function;
+mod header;
+mod implementation;
+mod items;
+mod library;
+mod method;
+mod naming;
+mod operations;
+mod results;
+mod subroutine_names;
+mod subroutines;
+mod syntax;
+mod user;
+
+use crate::equations::Equations;
+use crate::method::inputs::Inputs;
+use crate::method::table::{EACH_MOTION, Specification};
+use crate::model::Model;
+use crate::program::Options;
+use crate::program::plan::{Plan, Procedure};
+use library::{Calls, Library};
+use method::Function;
+use syn::{File, ImplItem, Item, parse_quote};
+
+pub(crate) use user::pasted;
+pub use user::{Adapter, Apart, apart, skeleton};
+
+/// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
+pub const GENERATED_CODE_VERSION: u32 = 14;
+
+/// The text of a model's module. It depends on nothing but the arguments and the version of this crate.
+pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {
+    let plan = Plan::new(model, equations, options, None);
+    let library = Library::new(model);
+    let mut calls = Calls::default();
+    for procedure in &plan.procedures {
+        calls.add(&procedure.graph, &procedure.roots);
+    }
+    calls.add_user(model);
+    let motion = plan.motion();
+    let Plan { inputs, procedures } = plan;
+    let methods: Vec<Specification> = (procedures.iter())
+        .map(|procedure| procedure.method.clone())
+        .collect();
+    let functions = functions(procedures, motion, &inputs, &library, options);
+
+    let uses = items::uses(model, equations, &calls, options);
+    let curves = calls
+        .curves
+        .iter()
+        .map(|&curve| library.constant(model, curve));
+    let sizes = items::sizes(equations);
+    let parameters = items::parameters(model, &inputs);
+    let mechanism = items::mechanism(&inputs);
+    let structs = functions.iter().flat_map(|function| &function.structs);
+    let info = items::info(model, equations);
+    let indices = items::indices(model, equations, &inputs);
+    let implementation = implementation::implementation(equations, &methods, &library);
+    // Nobody needs every method, and a model's numbers may come close to π without meaning it.
+    let mut file: File = parse_quote! {
+        #uses
+        #sizes
+        #(#curves)*
+        #parameters
+        #mechanism
+        #(#structs)*
+        #[allow(
+            dead_code,
+            clippy::approx_constant,
+            clippy::let_and_return,
+            clippy::too_many_arguments
+        )]
+        impl<T: Real> Mechanism<T> {}
+        #implementation
+        #info
+        #indices
+    };
+    let header = header::header(model, equations, &functions);
+    let mut methods = functions.into_iter().flat_map(|function| function.methods);
+    for item in &mut file.items {
+        if let Item::Impl(item) = item
+            && item.trait_.is_none()
+        {
+            item.items.extend(methods.by_ref().map(ImplItem::Fn));
+        }
+    }
+    format!(
+        "{header}\n{}{}",
+        comment::splice(&prettyplease::unparse(&file)),
+        library.users(model)
+    )
+}
+
+/// The methods. That for v̇ is a part of the one for q̇ and v̇ at once.
+fn functions(
+    procedures: Vec<Procedure>,
+    mut motion: Option<Procedure>,
+    inputs: &Inputs,
+    library: &Library,
+    options: &Options,
+) -> Vec<Function> {
+    let written = procedures.into_iter().map(|procedure| {
+        let at_once = motion.take_if(|_| procedure.method.part_of.is_none());
+        match at_once {
+            Some(motion) => {
+                let part = method::part_of(&procedure.method, EACH_MOTION, "COORDINATES");
+                let mut motion = method::write(motion, inputs, library, options);
+                motion.methods.extend(part);
+                motion
+            }
+            None => method::write(procedure, inputs, library, options),
+        }
+    });
+    written.collect()
+}

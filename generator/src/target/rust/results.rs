@@ -1,0 +1,161 @@
+//! How a method returns what it computed, as Rust.
+
+use super::expression::{Printer, ident};
+use crate::expression::Node;
+use crate::method::inputs::Inputs;
+use crate::method::results::{Length, Results};
+use crate::program::schedule::Schedule;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+use syn::Expr;
+
+/// Rows up to which a matrix is written as a table.
+const READABLE_ROWS: usize = 6;
+
+/// The type that a method returns.
+pub(crate) fn returned(results: Results) -> TokenStream {
+    match results {
+        Results::Scalar => quote!(T),
+        Results::Written { .. } => quote!(()),
+        Results::Array(length) => {
+            let length = written_length(length);
+            quote!([T; #length])
+        }
+        Results::Start => quote!(([T; COORDINATES], [T; VELOCITIES])),
+        Results::Renewed => {
+            quote!(([T; COORDINATES], [T; VELOCITIES], [T; MEMORY]))
+        }
+        Results::Vector => quote!(SVector<T, VELOCITIES>),
+        Results::Matrix => quote!(SMatrix<T, VELOCITIES, VELOCITIES>),
+        Results::Mechanism => quote!(Self),
+    }
+}
+
+/// A length as a constant of the module, or as a number.
+pub(crate) fn written_length(length: Length) -> TokenStream {
+    let name = match length {
+        Length::Coordinates => "COORDINATES",
+        Length::Velocities => "VELOCITIES",
+        Length::Auxiliaries => "AUXILIARIES",
+        Length::Memory => "MEMORY",
+        Length::Outputs => "OUTPUTS",
+        Length::Guards => "GUARDS",
+        Length::Kinks => "KINKS",
+        Length::Powers => "POWERS",
+        Length::Curves => "CURVES",
+        Length::Number(number) => {
+            let number = Literal::usize_unsuffixed(number);
+            return quote!(#number);
+        }
+    };
+    let name = ident(name);
+    quote!(#name)
+}
+
+/// The last expression of a method. In pieces, the last one has the parameters by reference.
+pub(crate) fn written(
+    results: Results,
+    schedule: &Schedule,
+    inputs: &Inputs,
+    printer: &Printer<'_>,
+    pieces: bool,
+) -> TokenStream {
+    let values = schedule.returned().iter();
+    let values: Vec<Expr> = values.map(|&id| printer.value(id)).collect();
+    let (coordinates, velocities) = (inputs.coordinates.len(), inputs.velocities.len());
+    match results {
+        Results::Scalar => quote!(#(#values)*),
+        Results::Written { .. } => TokenStream::new(),
+        Results::Array(_) => quote!([#(#values),*]),
+        Results::Start => {
+            let (q, v) = values.split_at(coordinates);
+            quote!(([#(#q),*], [#(#v),*]))
+        }
+        Results::Renewed => {
+            let (q, rest) = values.split_at(coordinates);
+            let (v, m) = rest.split_at(velocities);
+            quote!(([#(#q),*], [#(#v),*], [#(#m),*]))
+        }
+        Results::Vector => quote!(SVector::from([#(#values),*])),
+        Results::Matrix if velocities <= READABLE_ROWS => {
+            let rows = (0..velocities).map(|row| {
+                let entries =
+                    (0..velocities).map(|column| &values[upper_triangle(velocities, row, column)]);
+                quote!([#(#entries),*])
+            });
+            quote!(SMatrix::from([#(#rows),*]))
+        }
+        Results::Matrix => sparse_matrix(schedule, velocities, &values, printer),
+        Results::Mechanism => {
+            let fields = inputs.derived.iter().zip(&values).map(|(field, value)| {
+                let field = ident(field);
+                // A field of its own name is written once.
+                if matches!(value, Expr::Path(path) if path.path.is_ident(&field)) {
+                    quote!(#field)
+                } else {
+                    quote!(#field: #value)
+                }
+            });
+            let copied = if pieces {
+                quote!(parameters: *parameters)
+            } else {
+                quote!(parameters)
+            };
+            quote!(Self { #copied, #(#fields),* })
+        }
+    }
+}
+
+/// A large matrix entry by entry, without its zeros.
+fn sparse_matrix(
+    schedule: &Schedule,
+    rows: usize,
+    values: &[Expr],
+    printer: &Printer<'_>,
+) -> TokenStream {
+    let entries = (0..rows).flat_map(|row| (row..rows).map(move |column| (row, column)));
+    let entries = entries
+        .zip(&schedule.roots)
+        .zip(values)
+        .filter(|&((_, &root), _)| schedule.graph.node(root) != Node::Constant(0.0_f64.to_bits()));
+    let entries = entries.map(|(((row, column), _), value)| {
+        let (row, column) = (
+            Literal::usize_unsuffixed(row),
+            Literal::usize_unsuffixed(column),
+        );
+        if row.to_string() == column.to_string() {
+            quote!(s[(#row, #column)] = #value;)
+        } else {
+            quote!(s[(#row, #column)] = #value; s[(#column, #row)] = #value;)
+        }
+    });
+    let zero = printer.number(0.0);
+    quote! {
+        let mut s = SMatrix::from_element(#zero);
+        #(#entries)*
+        s
+    }
+}
+
+/// Place of an entry of a symmetric matrix in its upper triangle by rows.
+fn upper_triangle(rows: usize, row: usize, column: usize) -> usize {
+    let (row, column) = (row.min(column), row.max(column));
+    row * rows - row * (row + 1) / 2 + column
+}
+
+#[cfg(test)]
+mod tests {
+    use super::upper_triangle;
+
+    #[test]
+    fn the_upper_triangle_is_counted_by_rows() {
+        let mut next = 0;
+        for row in 0..5 {
+            for column in row..5 {
+                assert_eq!(upper_triangle(5, row, column), next);
+                assert_eq!(upper_triangle(5, column, row), next);
+                next += 1;
+            }
+        }
+    }
+}
