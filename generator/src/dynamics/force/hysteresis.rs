@@ -29,12 +29,18 @@ const APART: f64 = 1e-6;
 ///
 /// `owner` is the force that the memory belongs to ("contact seat"), `unit` that of the `abscissa`. `loading` is f at the
 /// abscissa. The abscissa must be one at which the curves have values whatever the state, such as max(δ, 0): what is remembered must be
-/// finite. `below` is the same abscissa made later, with its values below 0. [`watch_turns`] goes with it.
+/// finite. `below` is the same abscissa made later, with its values below 0. [`watch_turns`] goes with it. While the force waits for its switch
+/// (`gate`), nothing is kept of how far it would have been loaded.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "whose, what law, when, and where on it"
+)]
 pub fn apply<'g>(
     loads: &mut Loads<'g>,
     owner: &str,
     unit: &'static str,
     law: &Hysteresis,
+    gate: Gate<'g>,
     abscissa: Expr<'g>,
     loading: Expr<'g>,
     below: impl Fn() -> Expr<'g> + Copy + 'g,
@@ -45,7 +51,9 @@ pub fn apply<'g>(
         Some(_) => format!("{owner}: foot of the unloading line"),
         None => format!("{owner}: permanent set"),
     };
-    let (index, foot) = loads.memory(name, unit, number(graph, &law.foot));
+    let fresh = number(graph, &law.foot);
+    let (index, foot) = loads.memory(name, unit, fresh);
+    let kept = gate.either(foot, fresh);
     let unloading = match &law.unloading {
         Some(unloading) => curve(graph, unloading, abscissa),
         None => graph.constant(0.0),
@@ -56,8 +64,8 @@ pub fn apply<'g>(
 
     let furthest = abscissa - loading / slope;
     let renewed = match &law.unloading {
-        Some(_) => furthest.max(foot.min(abscissa - unloading / slope)),
-        None => furthest.max(foot),
+        Some(_) => furthest.max(kept.min(abscissa - unloading / slope)),
+        None => furthest.max(kept),
     };
     loads.states.memory[index].next = renewed;
     // the line is above a curve while that drags the foot, below after a turn

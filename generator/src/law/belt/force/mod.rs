@@ -488,14 +488,16 @@ fn elastic<'g>(
     ratio: Expr<'g>,
     below: impl Fn() -> Expr<'g> + Copy + 'g,
 ) -> (Expr<'g>, Expr<'g>) {
-    let Law { graph, belt, .. } = law;
+    let Law {
+        graph, gate, belt, ..
+    } = law;
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     match &belt.hysteresis {
         Some(law) => {
             // what is remembered must be finite, and a curve need not be defined while slack
             let elongation = (ratio - one).max(zero);
             let loading = curve(graph, &belt.force, elongation);
-            hysteresis::apply(loads, owner, "", law, elongation, loading, below)
+            hysteresis::apply(loads, owner, "", law, gate, elongation, loading, below)
         }
         None => (curve(graph, &belt.force, ratio - one), zero),
     }
