@@ -33,7 +33,7 @@ use crate::expression::{Expr, Graph};
 use crate::model::part::Field;
 use crate::model::requirement::{Curves, List};
 use crate::model::resolve::Resolver;
-use crate::model::{Body, Dimension, Model, Projection, Quantity};
+use crate::model::{Body, Component, Dimension, Model, Projection, Quantity};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
@@ -213,6 +213,11 @@ pub enum Value<'g> {
 pub trait OfLaw: fmt::Debug {
     /// Of a vector: which number of it.
     fn projection_mut(&mut self) -> Option<&mut Projection> {
+        None
+    }
+
+    /// Of a vector: which component of it, or its resultant.
+    fn component(&self) -> Option<Component> {
         None
     }
 
