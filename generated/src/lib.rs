@@ -2,7 +2,6 @@
 //!
 //! The entry points for `f64` are compiled here, so that crates that use them need not compile the equations again.
 
-use bryant_runtime::batch::rows::Entry as RowsEntry;
 use bryant_runtime::program::Entry;
 
 /// A bundled model.
@@ -10,8 +9,6 @@ use bryant_runtime::program::Entry;
 pub struct Bundled {
     /// The compiled equations, over `f64`.
     pub entry: Entry,
-    /// The same over lanes, for studies.
-    pub rows: RowsEntry,
     /// Names and texts of its YAML files: the model first, then the files that it includes. Names are relative to the directory of the
     /// model.
     pub texts: &'static [(&'static str, &'static str)],
