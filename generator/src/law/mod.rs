@@ -8,8 +8,9 @@
 //! | `force.rs` | the equations ([`Equations`]): forces and moments on bodies, events, states, powers |
 //! | `outputs.rs` | what can be asked of it ([`Outputs`], [`Measures`], [`OfLaw`]) |
 //!
-//! A further law is a folder such as `spring/`, its `mod` here and its line in `laws!`. Nothing else asks which law a force is. Pages and tests are
-//! beside that: `docs/forces/`, `docs/reference.md`, `generator/tests/effects.rs`, `tests/suite/trust/`.
+//! A further law is a folder such as `bushing/`, its `mod` here and its line in `laws!`. Equations and effects ask no force which law it is; pictures and reports
+//! (`src/picture/figure.rs`, `src/report/scene.rs`) draw the laws that they know. Pages and tests are
+//! beside that: `docs/forces/`, `docs/reference.md`, `generator/tests/{effects,short}.rs`, `tests/suite/trust/`, and two lists of all laws in `tests/suite/{snapshots,invariance}.rs`.
 
 pub mod airbag;
 pub mod belt;

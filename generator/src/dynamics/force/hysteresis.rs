@@ -58,7 +58,7 @@ pub fn apply<'g>(
         Some(unloading) => curve(graph, unloading, abscissa),
         None => graph.constant(0.0),
     };
-    // in this order a curve that was left shows: `max` and `min` keep what is no number on their left
+    // keep this order of operands: `max` and `min` pass on a NaN of their left operand, so leaving the curve shows as NaN
     let line = slope * (abscissa - foot);
     let force = loading.min(unloading.max(line));
 
@@ -120,7 +120,7 @@ pub fn apply_both_ways<'g>(
     loads.guard(format!("{owner}: turns from loading to unloading"), rate);
     let furthest = abscissa - loading / slope;
     let Some(unloading) = &law.unloading else {
-        // of each side the other's line is on the wrong side of 0
+        // on each side of 0 the line of the other side has the wrong sign, so the clamp makes it 0
         let mut side = |which: &str, above: bool| {
             let name = format!("{owner}: permanent set {which}");
             let (index, foot) = loads.memory(name, unit, zero);
@@ -147,7 +147,7 @@ pub fn apply_both_ways<'g>(
     let (index, foot) = loads.memory(name, unit, zero);
     let (line, kept) = (slope * (abscissa - foot), gate.of(foot));
     let returns = abscissa - back / slope;
-    // in this order a curve that was left shows: `max` and `min` keep what is no number on their left
+    // keep this order of operands: `max` and `min` pass on a NaN of their left operand, so leaving the curve shows as NaN
     let above = loading.min(back.max(line));
     let below = loading.max(back.min(line));
     let renewed = choose(
