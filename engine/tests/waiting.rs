@@ -82,7 +82,8 @@ fn what_happens_before_the_switch_leaves_no_set() {
                 felt = felt.max((free[i][k] - at[k]).abs());
             }
         }
-        assert_eq!(felt, 0.0, "{law}: the same before it ends");
+        // the same equations but for a selection, which changes the order of operations: roundings of some hundred steps
+        assert!(felt < 1e-10, "{law}: the same before it ends, {felt}");
         let unloaded = 0.4 - acts[20][0];
         assert!(unloaded > 1e-3, "{law}: what it takes is felt, {unloaded}");
         // steps of the two runs differ: a hundred steps of the tolerance each, over some units of rate
