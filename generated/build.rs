@@ -39,10 +39,9 @@ fn all(models: &[Generated]) -> Result<String, Box<dyn std::error::Error>> {
             ));
         }
         let entry = format!("Entry::of::<{module}::Mechanism<f64>>()");
-        let rows = format!("RowsEntry::of::<{module}::Mechanism<f64>>()");
         writeln!(
             table,
-            "    Bundled {{ entry: {entry}, rows: {rows}, texts: &[{}] }},",
+            "    Bundled {{ entry: {entry}, texts: &[{}] }},",
             texts.join(", ")
         )?;
     }

@@ -78,7 +78,7 @@ impl Runs for RustcModel {
     }
 }
 
-/// Runs a job until its end, or until an [interrupt](interrupt); `progress` is called from time to time with the time reached \[s\].
+/// Runs a job until its end, or until an [interrupt]; `progress` is called from time to time with the time reached \[s\].
 pub fn run(model: &dyn Runs, job: &Job, progress: &mut dyn FnMut(f64)) -> Recording {
     let mut recorder = Recorder::new(Header::of(model.info()));
     let start = Clock::now();

@@ -432,7 +432,8 @@ fn lanes_stop_one_by_one() {
         rows.push([speed, braking]);
     }
     rows.extend([[0.0, 3.0], [0.0, 0.0], [-6.0, -4.0]]);
-    let step = 0.2;
+    // in steps of 0.2 s the estimate of errors raises a false alarm: over 5 % of the largest speed, where 0.6 % is true (docs/accuracy.md)
+    let step = 0.1;
     let method = batch::Method::Dopri5;
     for fixed in [true, false] {
         let pace = match fixed {

@@ -801,3 +801,44 @@ forces:
     assert_eq!(belt.to.on, Body::Vehicle(1));
     assert_eq!(model.vehicles[1].angles_at_start[1], Number::Parameter(0));
 }
+
+/// A sensor measures components, so a filter is given to them; of a resultant it is refused, whatever has it.
+#[test]
+fn resultants_are_not_filtered() {
+    let text = |output: &str, what: &str| {
+        format!(
+            "{}{output}, filter: CFC60, {what} }}]\nrun: {{ duration: 1 s, every: 10 ms }}\n",
+            SAMPLE.replace(
+                "  - field: sled",
+                "  - bushing: mount\n    from: { on: frame, at: [0, 0] }\n    to: { on: man/torso, at: [0, 0] }\n    along: { x: { stiffness: 3 }, z: { stiffness: 3 } }\n  - field: sled"
+            )
+            .split("outputs:")
+            .next()
+            .unwrap_or_default()
+            .to_owned()
+                + "outputs: [{ name: of, "
+        )
+    };
+    for of in [
+        "of: bushing mount, what: force",
+        "of: bushing mount, what: displacement",
+        "of: man/head, what: acceleration",
+        "of: joint man/head, what: force",
+    ] {
+        let whole = read_str(
+            "test.yaml",
+            &text(of, "component: resultant"),
+            &nothing_included,
+        );
+        let told = whole.err().map(|told| told.to_string());
+        assert!(
+            told.as_ref()
+                .is_some_and(|told| told.contains("a resultant is not filtered")),
+            "{of}: {told:?}"
+        );
+        assert!(
+            read_str("test.yaml", &text(of, "component: x"), &nothing_included).is_ok(),
+            "{of}"
+        );
+    }
+}

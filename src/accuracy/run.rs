@@ -26,7 +26,7 @@ pub struct Outcome {
     pub took: Duration,
 }
 
-/// Runs a job until its end, or until an [interrupt](interrupt).
+/// Runs a job until its end, or until an [interrupt].
 pub fn run(engine: &Engine, job: &Job) -> Outcome {
     let header = Header::of(engine.info());
     let mut trajectory = Trajectory::default();

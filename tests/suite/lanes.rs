@@ -159,12 +159,18 @@ fn the_motion_of_a_single_run<M: Model<f64>>(duration: f64, continuous: &[&str])
     }
 }
 
+/// The tests of the engine compare all bundled models with generated Rust, in all widths. Here are those that this file runs.
 #[test]
-fn bundled_models_are_the_same_in_every_width() {
-    for bundled in bryant_generated::MODELS {
-        let info = bundled.entry.info;
-        the_same_in_every_width(bundled.rows, info, info.duration.min(0.2));
+fn runs_are_the_same_in_every_width() {
+    fn of<M: Model<f64>>(duration: f64) {
+        the_same_in_every_width(RowsEntry::of::<M>(), M::INFO, duration);
     }
+    of::<bryant_generated::child_seat::Mechanism<f64>>(0.16);
+    of::<webbing::Mechanism<f64>>(0.1);
+    of::<drives::Mechanism<f64>>(0.2);
+    of::<switches::Mechanism<f64>>(0.2);
+    of::<poles_bryant::Mechanism<f64>>(0.2);
+    of::<free_top::Mechanism<f64>>(0.2);
 }
 
 #[test]
@@ -319,18 +325,19 @@ fn fixed_steps_change_charts_as_those_of_a_single_run() {
 
 #[test]
 fn a_row_that_cannot_be_run_disturbs_no_other() {
-    let bundled = bryant_generated::find("child-seat").unwrap();
-    let info = bundled.entry.info;
+    type Seat = bryant_generated::child_seat::Mechanism<f64>;
+    let entry = RowsEntry::of::<Seat>();
+    let info = <Seat as Model<f64>>::INFO;
     let across = info.parameters.len();
     let mut rows = rows(info, 9);
     let job = Job {
         responses: vec![Asked::of(0, Response::Peak)],
         ..job(info, 0.06, Width::widest())
     };
-    let good = (bundled.rows.rows)(&job, &rows).unwrap();
+    let good = (entry.rows)(&job, &rows).unwrap();
     rows[4 * across] = f64::NAN;
     rows[7 * across + 2] = 1e300;
-    let some = (bundled.rows.rows)(&job, &rows).unwrap();
+    let some = (entry.rows)(&job, &rows).unwrap();
     for i in 0..9 {
         match i {
             4 | 7 => {

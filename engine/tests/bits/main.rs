@@ -8,6 +8,7 @@
 //! | `double_doubles` | double-doubles |
 //! | `duals` | dual numbers |
 //! | `lanes` | lanes of every width |
+//! | `scenes` | scenes of real size, which have no generated Rust: machine code and interpreter |
 
 #[macro_use]
 mod common;
@@ -17,4 +18,5 @@ mod doubles;
 mod duals;
 mod fast;
 mod lanes;
+mod scenes;
 mod singles;

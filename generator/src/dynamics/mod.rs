@@ -8,8 +8,8 @@
 //! | H = (s, e) | columns of a joint: motion subspace | `joint/` |
 //! | M, b, J | augmented body | `augmented` |
 //! | K, B, J | articulated inertia | `elimination/`, `spatial/articulated_body`, `link/` |
-//! | D = Hᵀ I H | joint-space inertia, I being the articulated one | there |
-//! | L D Lᵀ | factorisation of S | `factorization` |
+//! | D = Hᵀ I H | joint-space inertia, I being the articulated one | `Ldl` of `factorization`, called from `elimination/`, `spatial/articulated_body`, `link/` |
+//! | L d Lᵀ | factorisation of S, and of each D; no inverse is formed | `factorization` |
 //!
 //! All derivations are written once, for space, in vectors of absolute axes; only `link/` uses the frames of links. In the plane the components along
 //! y and the rotations about x and z are the number 0, so they leave no node behind. The coordinates of an orientation differ only in the list of

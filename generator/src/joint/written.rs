@@ -286,6 +286,13 @@ impl<'r> Reader<'r> {
             ));
             return Direction::unnamed(0);
         }
+        // squares of such numbers would overflow, or lose their digits
+        let largest = vector.iter().map(|n| n.value(&resolver.defaults).abs());
+        let largest = largest.fold(0.0, f64::max);
+        let vector = match (1e-100..1e100).contains(&largest) {
+            true => vector,
+            false => vector.map(|n| Number::quotient(n, Number::Constant(largest))),
+        };
         Direction {
             axis: resolver.unit(vector),
             word: None,

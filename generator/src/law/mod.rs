@@ -8,8 +8,9 @@
 //! | `force.rs` | the equations ([`Equations`]): forces and moments on bodies, events, states, powers |
 //! | `outputs.rs` | what can be asked of it ([`Outputs`], [`Measures`], [`OfLaw`]) |
 //!
-//! A further law is a folder such as `spring/`, its `mod` here and its line in `laws!`. Nothing else asks which law a force is. Pages and tests are
-//! beside that: `docs/forces/`, `docs/reference.md`, `generator/tests/effects.rs`, `tests/suite/trust/`.
+//! A further law is a folder such as `bushing/`, its `mod` here and its line in `laws!`. Equations and effects ask no force which law it is; pictures and reports
+//! (`src/picture/figure.rs`, `src/report/scene.rs`) draw the laws that they know. Pages and tests are
+//! beside that: `docs/forces/`, `docs/reference.md`, `generator/tests/{effects,short}.rs`, `tests/suite/trust/`, and two lists of all laws in `tests/suite/{snapshots,invariance}.rs`.
 
 pub mod airbag;
 pub mod belt;
@@ -33,7 +34,7 @@ use crate::expression::{Expr, Graph};
 use crate::model::part::Field;
 use crate::model::requirement::{Curves, List};
 use crate::model::resolve::Resolver;
-use crate::model::{Body, Dimension, Model, Projection, Quantity};
+use crate::model::{Body, Component, Dimension, Model, Projection, Quantity};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
@@ -213,6 +214,11 @@ pub enum Value<'g> {
 pub trait OfLaw: fmt::Debug {
     /// Of a vector: which number of it.
     fn projection_mut(&mut self) -> Option<&mut Projection> {
+        None
+    }
+
+    /// Of a vector: which component of it, or its resultant.
+    fn component(&self) -> Option<Component> {
         None
     }
 

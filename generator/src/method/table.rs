@@ -29,12 +29,12 @@ pub(crate) struct Specification {
     pub labels: Vec<String>,
     /// How the roots are returned.
     pub results: Results,
-    /// What it need not compute: the guards; the accelerations, where computing them would repeat most of their method.
+    /// Values that it receives ready-made: the guards, or the accelerations where computing them again would repeat most of their method.
     pub start: Start,
     /// Whether it is evaluated over lanes, besides what goes to an output writer. The instructions of wide registers are such only in
     /// functions that are compiled for them, which are the runtime's: all that they call must be part of them.
     pub in_lanes: bool,
-    /// Whether the runtime has a method of the same name, of the whole state instead of its parts. This one is then told from it by its
+    /// Whether the runtime has a method of this name that takes the whole state instead of its parts. This one then gets a different
     /// name.
     pub of_parts: bool,
 }

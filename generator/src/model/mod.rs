@@ -600,6 +600,7 @@ impl Quantity {
             | Quantity::ForceOn { projection, .. }
             | Quantity::ForceOnPoints { projection, .. }
             | Quantity::System { projection, .. } => projection.component == Component::Resultant,
+            Quantity::OfForce { what, .. } => what.component() == Some(Component::Resultant),
             _ => false,
         }
     }

@@ -4,7 +4,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `plan` | a graph for each method of the table in [`method`](crate::method); values that depend on parameters alone (`hoist`) |
+//! | `plan` | a graph for each method of the table in `method`; values that depend on parameters alone (`hoist`) |
 //! | `prepare` | the passes over each graph: what is known is an input, common factors go outside, operations are fused |
 //! | `order`, `inline`, `schedule` | the operations of a graph in their order, as statements |
 //! | `share` | what like elements do alike, as subroutines |

@@ -502,16 +502,17 @@ outputs: [{ name: angle, of: joint wheel/body, what: angle }]
 run: { duration: 1 s, every: 10 ms }
 ";
 
-/// Steps of ωh = ½ by rk4 keep 1 − y⁶/72 + y⁸/576 of the energy each, y = ωh: 4.1 % are lost in the 200 of a run.
+/// Steps of ωh = ½ by rk4 keep 1 − y⁶/72 + y⁸/576 of the energy each, y = ωh: 4.1 % are lost in the 200 of a run. Angle and velocity lose the same. The
+/// balance has the work at the velocities that there are, so it lacks what the velocity loses: 2.05 %.
 #[test]
 fn the_limit_of_missing_energy_is_that_of_the_study() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
     std::fs::write(at.join("swings.yaml"), SWINGS).unwrap();
     for (limit, ends) in [
-        ("", "doubtful"),
-        (", energy_limit: 3 %", "doubtful"),
-        (", energy_limit: 5 %", "done"),
+        (", energy_limit: 1 %", "doubtful"),
+        (", energy_limit: 1.8 %", "doubtful"),
+        (", energy_limit: 2.3 %", "done"),
     ] {
         let study = format!(
             "model: swings.yaml\ndesign: list\nrows: [{{ rate: 1 }}, {{ rate: 3 }}]\nrun: {{ step: 5 ms, method: rk4{limit} }}\n\

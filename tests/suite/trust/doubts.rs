@@ -211,7 +211,7 @@ fn steps_that_are_too_long_are_told() {
         "{unstable:?}"
     );
     let lossy = kinds(&stiff, &with(Formula::Rk4, 0.0275));
-    assert_eq!(lossy, ["energy"]);
+    assert_eq!(lossy, ["energy", "error"]);
     assert_eq!(kinds(&stiff, &with(Formula::Rk4, 0.0005)), [""; 0]);
 }
 
@@ -685,7 +685,9 @@ fn ellipsoids_that_sink_through_each_other_say_so() {
             let round = !text.contains("[3 mm");
             let beside = [5e-3, 1e-3, -1e-3].into_iter().filter(|_| round);
             for offset in beside.chain([19.9e-3]) {
-                let found = kinds(&text, &with(offset, 100.0, method));
+                let mut found = kinds(&text, &with(offset, 100.0, method));
+                // a touch of 20 µs is two fixed steps, which err by more than 5 % in the spin that it gives
+                found.retain(|kind| method.is_none() || kind != "error");
                 assert_eq!(found, [""; 0], "{offset} {method:?} {text}");
             }
         }

@@ -131,6 +131,7 @@ forces:
   - { joint: rod/body, name: steady, motor: <motor=0.5>, drive: { to: <drive.to=0.1>, stiffness: 1 } }
   - { field: gravity, acceleration: [<acceleration[0]=0>, { curve: pulse, times: <acceleration[1].times=1>, stretch: <acceleration[1].stretch=1> }] }
   - { load: push, on: rod/body, at: [<at=0.1>, <at#2=0>], force: [<force[0]=1>, <force[1]=2>], moment: <moment=0.5> }
+  - { load: pull, on: rod/body, force: [{ curve: pulse, times: <force[0].times=0.1>, stretch: <force[0].stretch=1> }, 0] }
 switches: [{ switch: shut, when: { time: 10 ms } }]
 outputs:
   - { name: torque, of: joint rod/body, what: torque }
@@ -237,6 +238,7 @@ HEAD
   nod: { points: [[0, 0], [0.02, 0.1]], interpolate: cubic }
 vehicles:
   - { name: car, acceleration: [{ curve: pulse, times: <motion.times=1>, stretch: <motion.stretch=1> }, 0], angles: { curve: nod, times: <angles.times=1>, stretch: <angles.stretch=1> } }
+  - { name: stand, angles: <angles=0.1> }
 systems:
   - name: post
     reference: { velocity: [0, { curve: pulse, times: <reference.times=1>, stretch: <reference.stretch=1> }] }
@@ -254,6 +256,7 @@ forces:
     length: <length=0.4>
     damping: <damping=2>
   - { spring: straight, from: { on: cart/body, at: [0, 0] }, to: { on: car, at: [0.5, 0.1] }, stiffness: <stiffness=30> }
+  - { spring: stay, from: { on: cart/body, at: [0, 0] }, to: { on: stand, at: [0.5, 0.1] }, stiffness: 5 }
   - { spring: leash, from: { on: cart/body, at: [0, 0] }, to: { on: post/top, at: [0, 0.2] }, stiffness: 10 }
   - joint: cart/body
     elastic: { curve: through, times: 0.9 }
@@ -316,6 +319,8 @@ forces:
       y: { elastic: through, unloading: { curve: soft, times: <about.y.unloading.times=1>, stretch: <about.y.unloading.stretch=1> }, unloading_slope: <about.y.unloading_slope=1000>, motor: { curve: pulse, times: <about.y.motor.times=0.2>, stretch: <about.y.motor.stretch=1> } }
     flexion: { elastic: { curve: line, times: 0.05 }, unloading: { curve: low, times: <flexion.unloading.times=0.05>, stretch: <flexion.unloading.stretch=1> }, unloading_slope: 100 }
     torsion: { elastic: through, unloading: { curve: soft, times: <torsion.unloading.times=1>, stretch: <torsion.unloading.stretch=1> }, unloading_slope: <torsion.unloading_slope=1000>, friction: 0.1, friction_displacement: <torsion.friction_displacement=1e-3>, motor: { curve: pulse, times: <torsion.motor.times=0.2>, stretch: <torsion.motor.stretch=1> }, drive: { to: <torsion.drive.to=0.1>, stiffness: <torsion.drive.stiffness=2>, damping: <torsion.drive.damping=0.2>, limit: <torsion.drive.limit=3> } }
+  - { joint: arm/body, name: straight, axis: z, flexion: { stiffness: <flexion.stiffness=0.02> }, torsion: { stiffness: <torsion.stiffness=0.1> } }
+  - { load: twist, on: arm/body, moment: [<moment[0]=0.01>, 0, 0] }
 outputs:
   - { name: x, of: joint arm/body, what: torque, about: x }
   - { name: y, of: joint arm/body, what: torque, about: y }

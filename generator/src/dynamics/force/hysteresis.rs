@@ -29,12 +29,18 @@ const APART: f64 = 1e-6;
 ///
 /// `owner` is the force that the memory belongs to ("contact seat"), `unit` that of the `abscissa`. `loading` is f at the
 /// abscissa. The abscissa must be one at which the curves have values whatever the state, such as max(δ, 0): what is remembered must be
-/// finite. `below` is the same abscissa made later, with its values below 0. [`watch_turns`] goes with it.
+/// finite. `below` is the same abscissa made later, with its values below 0. [`watch_turns`] goes with it. While the force waits for its switch
+/// (`gate`), nothing is kept of how far it would have been loaded.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "whose, what law, when, and where on it"
+)]
 pub fn apply<'g>(
     loads: &mut Loads<'g>,
     owner: &str,
     unit: &'static str,
     law: &Hysteresis,
+    gate: Gate<'g>,
     abscissa: Expr<'g>,
     loading: Expr<'g>,
     below: impl Fn() -> Expr<'g> + Copy + 'g,
@@ -45,19 +51,21 @@ pub fn apply<'g>(
         Some(_) => format!("{owner}: foot of the unloading line"),
         None => format!("{owner}: permanent set"),
     };
-    let (index, foot) = loads.memory(name, unit, number(graph, &law.foot));
+    let fresh = number(graph, &law.foot);
+    let (index, foot) = loads.memory(name, unit, fresh);
+    let kept = gate.either(foot, fresh);
     let unloading = match &law.unloading {
         Some(unloading) => curve(graph, unloading, abscissa),
         None => graph.constant(0.0),
     };
-    // in this order a curve that was left shows: `max` and `min` keep what is no number on their left
+    // keep this order of operands: `max` and `min` pass on a NaN of their left operand, so leaving the curve shows as NaN
     let line = slope * (abscissa - foot);
     let force = loading.min(unloading.max(line));
 
     let furthest = abscissa - loading / slope;
     let renewed = match &law.unloading {
-        Some(_) => furthest.max(foot.min(abscissa - unloading / slope)),
-        None => furthest.max(foot),
+        Some(_) => furthest.max(kept.min(abscissa - unloading / slope)),
+        None => furthest.max(kept),
     };
     loads.states.memory[index].next = renewed;
     // the line is above a curve while that drags the foot, below after a turn
@@ -112,7 +120,7 @@ pub fn apply_both_ways<'g>(
     loads.guard(format!("{owner}: turns from loading to unloading"), rate);
     let furthest = abscissa - loading / slope;
     let Some(unloading) = &law.unloading else {
-        // of each side the other's line is on the wrong side of 0
+        // on each side of 0 the line of the other side has the wrong sign, so the clamp makes it 0
         let mut side = |which: &str, above: bool| {
             let name = format!("{owner}: permanent set {which}");
             let (index, foot) = loads.memory(name, unit, zero);
@@ -139,7 +147,7 @@ pub fn apply_both_ways<'g>(
     let (index, foot) = loads.memory(name, unit, zero);
     let (line, kept) = (slope * (abscissa - foot), gate.of(foot));
     let returns = abscissa - back / slope;
-    // in this order a curve that was left shows: `max` and `min` keep what is no number on their left
+    // keep this order of operands: `max` and `min` pass on a NaN of their left operand, so leaving the curve shows as NaN
     let above = loading.min(back.max(line));
     let below = loading.max(back.min(line));
     let renewed = choose(

@@ -47,20 +47,24 @@ pub struct Gate<'g> {
 impl<'g> Gate<'g> {
     /// The value while the force acts, else 0.
     pub fn of(self, value: Expr<'g>) -> Expr<'g> {
-        let zero = value.graph().constant(0.0);
-        let value = self.since.map_or(value, |switch| switch.once(value, zero));
-        self.until.map_or(value, |switch| switch.once(zero, value))
+        self.either(value, value.graph().constant(0.0))
+    }
+
+    /// The value while the force acts, else another one.
+    pub fn either(self, value: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
+        let value = self
+            .since
+            .map_or(value, |switch| switch.once(value, otherwise));
+        self.until
+            .map_or(value, |switch| switch.once(otherwise, value))
     }
 
     /// The onset of a law while the force acts; else nothing begins.
     pub fn of_onset(self, onset: Onset<'g>) -> Onset<'g> {
         let graph = onset.gap.graph();
         let far = graph.constant(FAR);
-        let gap = self
-            .since
-            .map_or(onset.gap, |switch| switch.once(onset.gap, far));
         Onset {
-            gap: self.until.map_or(gap, |switch| switch.once(far, gap)),
+            gap: self.either(onset.gap, far),
             speed: self.of(onset.speed),
         }
     }

@@ -124,7 +124,7 @@ pub struct Ring {
     pub on: Attachment,
     /// Coefficient of friction μ: webbing slips where the tensions differ by more than the factor e^(μ θ).
     pub friction: Option<Number>,
-    /// By what the tensions exceed that, per rate of slip \[N s/m\], positive.
+    /// Resistance: tension beyond the ratio e^(μθ), per rate of slip \[N s/m\], positive.
     pub resistance: Number,
 }
 

@@ -77,7 +77,7 @@ impl Terms for Belt {
     }
 
     fn settle(&mut self) {
-        // No length is such that no force is the pretension.
+        // Without an elastic force no length gives the pretension.
         if !self.force.is_in() && matches!(self.length, BeltLength::Pretension(_)) {
             self.length.leave_out();
         }
@@ -194,7 +194,7 @@ as_written! {
 }
 
 impl List<'_> {
-    /// A tension belongs to one elongation only where the curve rises to it. That it does so all the way, or falls, is of its points.
+    /// A tension has exactly one elongation only if the curve rises up to it. Its points decide whether it rises all the way.
     fn reached(&mut self, path: &str, tension: &Number, curve: &Curve, times: &Number) {
         let last = curve.points.len() - 1;
         let reach = curve.points[last][1];

@@ -32,6 +32,16 @@ impl OfLaw for BushingQuantity {
         }
     }
 
+    fn component(&self) -> Option<Component> {
+        match self {
+            BushingQuantity::Force(_, projection) | BushingQuantity::Moment(_, projection) => {
+                Some(projection.component)
+            }
+            BushingQuantity::Displacement(component) => Some(*component),
+            BushingQuantity::Angle(_) => None,
+        }
+    }
+
     fn exists_in_plane(&self) -> bool {
         match self {
             BushingQuantity::Force(_, projection) => projection.lies_in_plane(),

@@ -36,15 +36,8 @@ impl Resolver<'_> {
         }
     }
 
-    /// A vector at unit length.
+    /// A vector at unit length. Its components are neither so large nor so small that their squares overflow or lose their digits.
     pub fn unit(&self, vector: [Number; 3]) -> [Number; 3] {
-        // squares of such numbers would overflow, or lose their digits
-        let largest = vector.iter().map(|n| n.value(&self.defaults).abs());
-        let largest = largest.fold(0.0, f64::max);
-        let vector = match (1e-100..1e100).contains(&largest) {
-            true => vector,
-            false => vector.map(|n| Number::quotient(n, Number::Constant(largest))),
-        };
         let length = if vector.iter().all(|n| n.constant().is_some()) {
             let squares = vector.iter().map(|n| n.value(&self.defaults).powi(2));
             Number::Constant(squares.sum::<f64>().sqrt())

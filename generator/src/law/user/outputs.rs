@@ -9,7 +9,7 @@ use crate::expression::vector::Vec3;
 use crate::law::joint::JointMeasures;
 use crate::law::{Asked as OfForce, Measures, OfLaw, Outputs, Value};
 use crate::model::resolve::Resolver;
-use crate::model::{Body, Projection, Quantity};
+use crate::model::{Body, Component, Projection, Quantity};
 
 /// Of a user force; indices are into its points, bodies, lines, joints, states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +43,15 @@ impl OfLaw for UserQuantity {
         match self {
             UserQuantity::Force(_, projection) | UserQuantity::Moment(_, projection) => {
                 Some(projection)
+            }
+            _ => None,
+        }
+    }
+
+    fn component(&self) -> Option<Component> {
+        match self {
+            UserQuantity::Force(_, projection) | UserQuantity::Moment(_, projection) => {
+                Some(projection.component)
             }
             _ => None,
         }

@@ -43,9 +43,10 @@ use webbing::{Limiter, NOISE, Webbing, webbing};
 /// Smallest squared length that a division by the length sees \[m²\]: ends that are closer than 1e-10 m give a direction of (nearly) 0 and so no force,
 /// instead of NaN.
 ///
-/// Generated text has no branches, so both sides of "slack or taut" are computed and every divisor must be safe in every state. The other
-/// divisor, the untensioned length, is positive by the rules for its numbers: `terms.rs` of this law, `dynamics/conditions.rs`, and at least
-/// [`SHORTEST`] where a pretensioner takes webbing in.
+/// Generated text has no branches, so both sides of "slack or taut" are computed and every divisor must be safe in every state. The untensioned
+/// length is positive by the rules for its numbers (`terms.rs` of this law, `dynamics/conditions.rs`), and at least [`SHORTEST`] where a pretensioner or slip
+/// through a ring takes webbing in. 1 + ε and the resistance of a ring (`webbing.rs`, `ring.rs`), the slope of unloading and the stretch of damping are positive by
+/// their rules.
 const SMALLEST_SQUARED_LENGTH: f64 = 1e-20;
 
 /// A belt that is being applied.
@@ -488,14 +489,16 @@ fn elastic<'g>(
     ratio: Expr<'g>,
     below: impl Fn() -> Expr<'g> + Copy + 'g,
 ) -> (Expr<'g>, Expr<'g>) {
-    let Law { graph, belt, .. } = law;
+    let Law {
+        graph, gate, belt, ..
+    } = law;
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     match &belt.hysteresis {
         Some(law) => {
             // what is remembered must be finite, and a curve need not be defined while slack
             let elongation = (ratio - one).max(zero);
             let loading = curve(graph, &belt.force, elongation);
-            hysteresis::apply(loads, owner, "", law, elongation, loading, below)
+            hysteresis::apply(loads, owner, "", law, gate, elongation, loading, below)
         }
         None => (curve(graph, &belt.force, ratio - one), zero),
     }

@@ -29,8 +29,8 @@ use crate::model::{Belt, Number};
 /// Most kinks of the curve of a pretensioner that steps end at; those of a curve of more points are passed as smooth.
 const MOST_KINKS: usize = 32;
 
-/// Rate below which nothing is said of whether webbing grows or shrinks, where some slips \[m/s\]: slip settles within a time that is short
-/// beside a step, and leaves the sign of a small rate to errors of the last digits.
+/// Where webbing slips, the sign of rates below this is ignored \[m/s\]: slip settles within less than a step, so the sign of a smaller rate is
+/// rounding.
 pub const NOISE: f64 = 1e-3;
 
 /// Time within which a film spool takes back the webbing that it gave, where nothing pulls \[s\].

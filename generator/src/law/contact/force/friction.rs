@@ -44,14 +44,14 @@ pub fn friction<'g>(
     let tolerance = number(graph, &law.tolerance);
     match displacement {
         Some(displacement) => {
-            let deflection = number(graph, displacement);
+            let bristle_limit = number(graph, displacement);
             sticking(
                 loads,
                 dimension,
                 owner,
                 pressure,
                 limit,
-                [deflection, tolerance],
+                [bristle_limit, tolerance],
                 touch,
             )
         }

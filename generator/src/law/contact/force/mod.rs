@@ -120,7 +120,7 @@ fn apply<'g>(
         force: mut pressure,
         mut stored,
         permanent_set,
-    } = pressed(graph, loads, &owner, contact, &touch);
+    } = pressed(graph, loads, &owner, gate, contact, &touch);
     pressure = gate.of(pressure);
     let pair = Pair::of(graph, dimension, motion, contact);
     begins(loads, &owner, gate, contact, &touch, pair);
@@ -245,6 +245,7 @@ fn pressed<'g>(
     graph: &'g Graph,
     loads: &mut Loads<'g>,
     owner: &str,
+    gate: Gate<'g>,
     contact: &Contact,
     touch: &Touch<'g>,
 ) -> Pressed<'g> {
@@ -261,7 +262,9 @@ fn pressed<'g>(
     let (elastic, permanent_set) = match &contact.hysteresis {
         Some(law) => {
             let elastic =
-                hysteresis::apply(loads, owner, "m", law, depth, loading, move || penetration);
+                hysteresis::apply(loads, owner, "m", law, gate, depth, loading, move || {
+                    penetration
+                });
             hysteresis::watch_turns(loads, owner, depth, approach);
             elastic
         }
