@@ -274,7 +274,8 @@ fn join(parts: &[Part]) -> List {
     joined
 }
 
-/// An operation with its operands. Of a call these stand in a box.
+/// An operation with its operands. Of a call these stand in a box. Summands stand in one order, because a + b and b + a have the same bits, for every
+/// scalar. Those of products may differ in their slopes, where they are rounded in the order of the factors.
 #[derive(PartialEq, Eq, Hash)]
 enum Key {
     Algebra(std::mem::Discriminant<Operation>, [u32; 3]),
@@ -289,6 +290,9 @@ impl Key {
                 let mut all = [u32::MAX; 3];
                 for (place, operand) in all.iter_mut().zip(operands) {
                     *place = operand.0;
+                }
+                if matches!(algebra, Operation::Add(..)) {
+                    all[..2].sort_unstable();
                 }
                 Key::Algebra(std::mem::discriminant(&algebra), all)
             }

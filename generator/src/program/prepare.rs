@@ -2,13 +2,16 @@
 //!
 //! The passes take most of the time of emission, and methods have nothing to do with each other: they are done on all processors. Nothing in the
 //! text depends on how many there are.
+//!
+//! One thing methods have in common: arguments of calls that accelerations need are computed by every method as by `accelerations`. So all
+//! methods call a contact, a curve or a law with the same bits, and a list that joins several methods calls it once.
 
 use super::hoist;
 use crate::equations::Equations;
 use crate::expression::count::Count;
 use crate::expression::live::Live;
-use crate::expression::passes::{Rewritten, factor, fuse, replace};
-use crate::expression::{Graph, Node, NodeId, Symbol};
+use crate::expression::passes::{Rewritten, factor, fuse, needed, replace, restore};
+use crate::expression::{Function, Graph, Node, NodeId, Symbol};
 use crate::method::Start;
 use crate::method::inputs::{Input, Inputs};
 use crate::method::table::Specification;
@@ -74,6 +77,71 @@ fn with_start(known: &Known, start: Start, equations: &Equations, inputs: &Input
     known
 }
 
+/// The arguments of calls that accelerations need, as nodes of the equations.
+struct Arguments {
+    /// The place of `accelerations` among the methods; `None` where it is not wanted, and nothing is in common then.
+    by: Option<usize>,
+    nodes: Vec<NodeId>,
+}
+
+impl Arguments {
+    fn of(graph: &Graph, methods: &[Specification], known: &Known) -> Self {
+        let by = methods.iter().position(|of| of.name == ACCELERATIONS);
+        let roots = by.map_or(&[][..], |by| &methods[by].roots);
+        let needed = needed(graph, roots, known);
+        let mut is_argument = vec![false; graph.len()];
+        // lists of arguments are older than the calls and younger than what they list
+        for &id in needed.iter().rev() {
+            let node = graph.node(id);
+            let is_list = is_argument[id.0 as usize] && matches!(node, Node::Arguments(_));
+            if is_list || is_expensive(&node) && !known.contains_key(&id) {
+                for operand in node.operands() {
+                    is_argument[operand.0 as usize] = true;
+                }
+            }
+        }
+        let is_work = |id: NodeId| {
+            let node = graph.node(id);
+            !node.is_leaf() && !matches!(node, Node::Arguments(_)) && !known.contains_key(&id)
+        };
+        let is_shared = |id: &NodeId| is_argument[id.0 as usize] && is_work(*id);
+        Arguments {
+            by,
+            nodes: needed.into_iter().filter(is_shared).collect(),
+        }
+    }
+
+    /// The input that stands for an argument until the methods are finished: an entry of memory that no model has.
+    fn stand_in(index: usize) -> Symbol {
+        Symbol::Memory(u32::MAX - index as u32)
+    }
+
+    fn stand_ins(&self) -> impl Iterator<Item = (NodeId, Symbol)> {
+        let nodes = self.nodes.iter().enumerate();
+        nodes.map(|(index, &node)| (node, Self::stand_in(index)))
+    }
+
+    /// What the passes are to make of a method: of `accelerations`, the arguments, too.
+    fn roots(&self, method: usize, methods: &[Specification]) -> Vec<NodeId> {
+        let mut roots = methods[method].roots.clone();
+        if self.by == Some(method) {
+            roots.extend(&self.nodes);
+        }
+        roots
+    }
+}
+
+/// Whether a call takes so long that it is worth more than the few operations by which its arguments could be cheaper in another method.
+fn is_expensive(node: &Node) -> bool {
+    matches!(
+        node,
+        Node::Call(Function::Approach(_) | Function::Support(_), _)
+    )
+}
+
+/// The method that decides how arguments of calls are computed.
+const ACCELERATIONS: &str = "accelerations";
+
 /// Methods behind the factoring pass, where these values are known.
 pub(crate) fn factored(
     equations: &Equations,
@@ -81,29 +149,51 @@ pub(crate) fn factored(
     derived: &[NodeId],
     inputs: &Inputs,
 ) -> Vec<Factored> {
+    let all: Vec<usize> = (0..methods.len()).collect();
+    let arguments = Arguments::of(&equations.graph, methods, &known(derived, inputs));
+    factored_of(&all, equations, methods, &arguments, derived, inputs)
+}
+
+/// The same of these methods alone.
+fn factored_of(
+    wanted: &[usize],
+    equations: &Equations,
+    methods: &[Specification],
+    arguments: &Arguments,
+    derived: &[NodeId],
+    inputs: &Inputs,
+) -> Vec<Factored> {
     let known = known(derived, inputs);
     // a task for each form of each method
-    let mut tasks: Vec<(&[NodeId], Known)> = Vec::new();
-    for method in methods {
+    let mut tasks: Vec<(Vec<NodeId>, Known)> = Vec::new();
+    for &index in wanted {
+        let method = &methods[index];
+        let mut known = known.clone();
+        if arguments.by != Some(index) {
+            known.extend(arguments.stand_ins().map(|(node, by)| (node, (by, false))));
+        }
         let plain = match method.start {
             Start::Guards => with_start(&known, Start::Guards, equations, inputs),
             _ => known.clone(),
         };
-        tasks.push((&method.roots, plain));
+        let roots = arguments.roots(index, methods);
         if method.start == Start::Accelerations {
             let known = with_start(&known, Start::Accelerations, equations, inputs);
-            tasks.push((&method.roots, known));
+            tasks.push((roots.clone(), plain));
+            tasks.push((roots, known));
+        } else {
+            tasks.push((roots, plain));
         }
     }
-    let work = |graph: &Graph, (roots, known): &(&[NodeId], Known)| {
+    let work = |graph: &Graph, (roots, known): &(Vec<NodeId>, Known)| {
         let Rewritten { graph, roots } = replace(graph, roots, known);
         factor(&graph, &roots)
     };
     let mut done = on_all_processors(&equations.graph, &tasks, &work).into_iter();
-    let forms = methods.iter().filter_map(|method| {
+    let forms = wanted.iter().filter_map(|&index| {
         Some(Factored {
             alone: done.next()?,
-            short: match method.start {
+            short: match methods[index].start {
                 Start::Accelerations => done.next(),
                 _ => None,
             },
@@ -123,27 +213,43 @@ pub(crate) fn finished(
     inputs: &Inputs,
 ) -> Vec<(Rewritten, bool)> {
     let graph = &equations.graph;
-    for (method, place) in methods.iter().zip(&mut factored_before) {
+    let arguments = Arguments::of(graph, methods, &known(&derived[..before], inputs));
+    let needs_more = |method: &Specification| {
         let live = Live::new(graph, &method.roots);
-        if derived[before..].iter().any(|&value| live.contains(value)) {
-            let again = factored(equations, std::slice::from_ref(method), derived, inputs);
-            if let Some(again) = again.into_iter().next() {
-                *place = again;
-            }
-        }
+        derived[before..].iter().any(|&value| live.contains(value))
+    };
+    let again: Vec<usize> = (0..methods.len())
+        .filter(|&index| needs_more(&methods[index]))
+        .collect();
+    let factored = factored_of(&again, equations, methods, &arguments, derived, inputs);
+    for (index, factored) in again.into_iter().zip(factored) {
+        factored_before[index] = factored;
     }
     let finish = |factored: Rewritten| {
         let Rewritten { graph, roots } = hoist::hoisted(graph, factored, derived, inputs);
         fuse(&graph, &roots)
     };
-    let finish = |Factored { alone, short }: Factored| {
-        let alone = finish(alone);
-        match short.map(finish) {
+    let finish = |Factored { alone, short }: Factored| (finish(alone), short.map(finish));
+    let mut finished: Vec<(Rewritten, Option<Rewritten>)> =
+        factored_before.into_iter().map(finish).collect();
+    let values = arguments.by.map(|by| {
+        let (Rewritten { graph, roots }, _) = &mut finished[by];
+        let values = roots.split_off(methods[by].roots.len());
+        let stand_ins = arguments.stand_ins().map(|(_, stand_in)| stand_in);
+        (graph.clone(), stand_ins.zip(values).collect())
+    });
+    let complete = |method: Rewritten| match &values {
+        Some((graph, values)) => restore(&method, graph, values),
+        None => method,
+    };
+    let chosen = finished.into_iter().map(|(alone, short)| {
+        let alone = complete(alone);
+        match short.map(complete) {
             Some(short) if starts_from_accelerations(&alone, &short, inputs) => (short, true),
             _ => (alone, false),
         }
-    };
-    factored_before.into_iter().map(finish).collect()
+    });
+    chosen.collect()
 }
 
 /// What `work` makes of each task, in their order. Each thread has a copy of the graph.

@@ -1,6 +1,7 @@
 //! Passes: each turns a graph and its roots into a smaller or better graph. Sections and names are kept.
 //!
-//! [`rebuild()`] drops nodes that are not needed. [`join()`] merges several graphs. [`replace()`] replaces values that are already known.
+//! [`rebuild()`] drops nodes that are not needed. [`join()`] merges several graphs. [`replace()`] replaces values that are already known,
+//! and [`restore()`] puts values back.
 //! [`factor()`] reduces the number of operations. [`fuse()`] selects fused multiply-adds and comes last. [`repeat()`] then undoes some sharing
 //! between nodes that are evaluated far apart. [`recall()`] works on an expression of a graph that continues to grow. The roots should be those of
 //! one evaluation: a value that two functions use once each is not shared between them.
@@ -19,4 +20,4 @@ pub use fuse::fuse;
 pub use rebuild::{Rewritten, join, rebuild};
 pub use recall::recall;
 pub use repeat::repeat;
-pub use replace::replace;
+pub use replace::{needed, replace, restore};

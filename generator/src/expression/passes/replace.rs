@@ -1,7 +1,8 @@
-//! Replaces values that are already known by inputs. The nodes below them are then not needed.
+//! Replaces values that are already known by inputs, so that the nodes below them are not needed; and inputs by values that another graph computes.
 
 use super::rebuild::{Copier, Rewritten};
 use crate::expression::graph::Graph;
+use crate::expression::live::Live;
 use crate::expression::node::{Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 
@@ -29,8 +30,40 @@ pub fn replace(
     copy.finish(roots)
 }
 
+/// The graph with each of these inputs turned into a value of `other`, and with the nodes that compute it. The opposite of [`replace`].
+pub fn restore(rewritten: &Rewritten, other: &Graph, by: &FxHashMap<Symbol, NodeId>) -> Rewritten {
+    let Rewritten { graph, roots } = rewritten;
+    let live = Live::new(graph, roots);
+    let value = |id: NodeId| match graph.node(id) {
+        Node::Symbol(symbol) => by.get(&symbol).copied(),
+        _ => None,
+    };
+    let values: Vec<NodeId> = live.nodes().iter().filter_map(|&id| value(id)).collect();
+    let mut copy = Copier::new(other);
+    for &id in Live::new(other, &values).nodes() {
+        copy.keep(id);
+    }
+    let Rewritten {
+        graph: new,
+        roots: values,
+    } = copy.finish(&values);
+    let mut values = values.into_iter();
+    let mut copy = Copier::onto(new, graph);
+    for &id in live.nodes() {
+        match value(id).and_then(|_| values.next()) {
+            Some(value) => copy.set(id, value),
+            None => copy.keep(id),
+        }
+    }
+    copy.finish(roots)
+}
+
 /// The nodes that the roots need, in order of creation, without those below replaced nodes.
-fn needed(graph: &Graph, roots: &[NodeId], by: &FxHashMap<NodeId, (Symbol, bool)>) -> Vec<NodeId> {
+pub fn needed(
+    graph: &Graph,
+    roots: &[NodeId],
+    by: &FxHashMap<NodeId, (Symbol, bool)>,
+) -> Vec<NodeId> {
     let nodes = graph.nodes();
     let mut needed = vec![false; nodes.len()];
     for root in roots {
@@ -66,6 +99,27 @@ mod tests {
         assert_eq!(new.graph.node(new.roots[0]), Node::Div(p, y));
         assert_eq!(new.roots[1], p);
         assert_eq!(new.graph.len(), 3);
+    }
+
+    #[test]
+    fn a_restored_value_is_that_of_the_other_graph() {
+        let graph = Graph::new();
+        let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
+        let known = (x * y).sqrt();
+        let value = known / y + x * y;
+        let stand_in = Symbol::Parameter(7);
+        let by = FxHashMap::from_iter([(known.id(), (stand_in, false))]);
+        let without = replace(&graph, &[value.id()], &by);
+        let by = FxHashMap::from_iter([(stand_in, known.id())]);
+        let again = restore(&without, &graph, &by);
+        assert_eq!(again.graph.len(), graph.len());
+        let Node::Add(quotient, product) = again.graph.node(again.roots[0]) else {
+            panic!("it is a sum");
+        };
+        let Node::Div(root, _) = again.graph.node(quotient) else {
+            panic!("of a quotient");
+        };
+        assert_eq!(again.graph.node(root), Node::Sqrt(product));
     }
 
     #[test]
