@@ -76,8 +76,8 @@ pub trait Dynamics<T: Real> {
     fn kink_after(&self, t: f64) -> T;
 }
 
-/// Where [`Dynamics::arrive`] writes what is needed at the end of a step. The slices have the lengths that [`Info`] gives. Most entries need the contacts;
-/// an implementation that computes all entries at once finds the contacts once.
+/// Where [`Dynamics::arrive`] writes what is needed at the end of a step. The slices have the lengths that [`Info`] gives. Most entries need the contacts.
+/// An implementation that computes all entries at once searches each contact of ellipsoids once for its force and once for its distance.
 #[derive(Debug)]
 pub struct Arrival<'a, T> {
     /// [`Dynamics::guards`]
