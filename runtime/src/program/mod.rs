@@ -397,7 +397,7 @@ fn execute<T: Real>(
         },
         &mut in_time,
     );
-    let doubts = watch.iter().flat_map(Watch::doubts);
+    let doubts = watch.iter().flat_map(Watch::diagnostics);
     let doubts: Vec<Finding> = doubts.map(Finding::from).collect();
     let notes = watch.as_ref().map(finding::notes).unwrap_or_default();
     let result = match result {

@@ -6,6 +6,7 @@
 //! force laws ([`Model::kinks`]). After each accepted step the memory of force laws is renewed.
 
 pub(crate) mod balance;
+mod diagnostic;
 mod event;
 pub(crate) mod excursion;
 pub(crate) mod onset;
@@ -22,13 +23,14 @@ pub(crate) mod watch;
 
 pub use crate::integrate::workspace::Buffer;
 pub use balance::{Balance, Momentum};
+pub(crate) use diagnostic::Beyond;
+#[cfg(feature = "std")]
+pub(crate) use diagnostic::Time;
+pub use diagnostic::{Diagnostic, Problem};
 pub use settings::{Adaptive, Method, Pace, Settings};
-pub(crate) use watch::Beyond;
 #[cfg(feature = "std")]
 pub use watch::History;
-#[cfg(feature = "std")]
-pub(crate) use watch::Time;
-pub use watch::{Doubt, ENERGY_LIMIT, Left, Suspicion, Watch};
+pub use watch::{ENERGY_LIMIT, Left, Watch};
 
 use crate::failure::Failure;
 #[cfg(feature = "std")]

@@ -760,29 +760,29 @@ fn a_bag_that_is_pressed_flat_says_so() {
 
 /// The tests of each reason: its enumeration, its name, and the tests with and without it.
 const PAIRS: &[(&str, &str, &[&str])] = &[
-    ("Suspicion", "Step", &["steps_that_are_too_long_are_told"]),
+    ("Problem", "Step", &["steps_that_are_too_long_are_told"]),
     (
-        "Suspicion",
+        "Problem",
         "Curve",
         &[
             "a_curve_counts_while_its_force_acts",
             "a_line_through_nothing_goes_on_for_ever",
         ],
     ),
-    ("Suspicion", "Missed", &["what_steps_pass_over_is_told"]),
+    ("Problem", "Missed", &["what_steps_pass_over_is_told"]),
     (
-        "Suspicion",
+        "Problem",
         "Flexion",
         &["a_flexion_through_half_a_turn_says_so"],
     ),
     (
-        "Suspicion",
+        "Problem",
         "Sunk",
         &["ellipsoids_that_sink_through_each_other_say_so"],
     ),
-    ("Suspicion", "Energy", &["steps_that_are_too_long_are_told"]),
-    ("Suspicion", "Momentum", &["momentum_that_is_lost_is_told"]),
-    ("Suspicion", "Error", &["what_a_stage_alone_meets_is_told"]),
+    ("Problem", "Energy", &["steps_that_are_too_long_are_told"]),
+    ("Problem", "Momentum", &["momentum_that_is_lost_is_told"]),
+    ("Problem", "Error", &["what_a_stage_alone_meets_is_told"]),
     ("Reason", "NonFinite", &["what_grows_without_end_ends"]),
     (
         "Reason",
@@ -898,7 +898,7 @@ fn every_reason_has_a_scene_that_trips_it_and_one_that_does_not() {
         };
     }
     let enumerations = [
-        ("Suspicion", source!("runtime/src/simulate/watch.rs")),
+        ("Problem", source!("runtime/src/simulate/diagnostic.rs")),
         ("Reason", source!("runtime/src/failure.rs")),
         ("ErrorKind", source!("runtime/src/program/error.rs")),
         ("Doubt", source!("runtime/src/batch/scenario.rs")),
