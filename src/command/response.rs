@@ -130,95 +130,34 @@ impl Response {
                 .map(|response| Response::of_study(&response))
                 .map_err(|message| Error::Input(format!("{option} '{words}': {message}")));
         }
+        let fault = |Fault { message, help }| {
+            Error::Input(format!(
+                "{option} '{}': {message}\n  help: {help}",
+                text.escape_debug()
+            ))
+        };
         let behind = words.rsplit_once(',');
         let behind = behind.and_then(|(before, last)| Some((before, Filter::named(last.trim())?)));
         let (words, filter) = match behind {
             Some((before, filter)) => (before.trim(), Some(filter.to_string())),
             None => (words, None),
         };
-        let known = || NAMES.map(|(name, _)| name).join(", ");
-        let fault = |message: String, help: String| {
-            Error::Input(format!(
-                "{option} '{}': {message}\n  help: {help}",
-                text.escape_debug()
-            ))
-        };
-        let (time_before, rest) = time_before(words).unwrap_or(("", words));
-        let Some((name, what, rest)) = kind(rest) else {
-            let said = words.split(" of ").next().unwrap_or(words);
-            let names = NAMES.map(|(name, _)| name);
-            let near = nearest(said, &names).map(|near| format!("did you mean \"{near}\"? "));
-            let near = near.unwrap_or_default();
-            return Err(fault(
-                "it does not begin with a response".into(),
-                format!("{near}write WHAT of OUTPUT with one of {}", known()),
-            ));
-        };
-        let (title, what, rest) = if TIMED.contains(&name) {
-            let (written, rest) = match (time_before, rest.split_once(" of ")) {
-                ("", Some((written, rest))) => {
-                    (written.trim().trim_start_matches("at ").trim(), rest)
-                }
-                ("", None) => ("", rest),
-                (time, _) => (time, rest.strip_prefix("of ").unwrap_or(rest)),
-            };
-            if written.is_empty() {
-                return Err(fault(
-                    format!("\"{name}\" needs a time"),
-                    match name {
-                        "value" => "write `value at 80 ms of OUTPUT`".into(),
-                        name => format!("write `3 ms {name} of OUTPUT`"),
-                    },
-                ));
-            }
-            let time = quantity::time(written)
-                .map_err(|error| fault(error.to_string(), "write a time".into()))?;
-            let what = match what {
-                What::Value { .. } => What::Value { at: time },
-                What::Clip { .. } => What::Clip { duration: time },
-                _ => What::ContiguousClip { duration: time },
-            };
-            let outside = match what {
-                What::Value { .. } => !(start..=end).contains(&time),
-                _ => time > end - start,
-            };
-            if outside && start > 0.0 {
-                return Err(fault(
-                    format!("{time} s is outside of the run from {start} s to {end} s"),
-                    "take a time within it".into(),
-                ));
-            }
-            if outside {
-                return Err(fault(
-                    format!("{time} s is beyond the run of {end} s"),
-                    "take an earlier time, or a longer run by --duration".into(),
-                ));
-            }
-            // the same title as in a study
-            let title = match what {
-                What::Value { .. } => format!("value at {written}"),
-                _ => format!("{written} {name}"),
-            };
-            (title, what, rest)
-        } else {
-            let rest = rest.strip_prefix("of ").unwrap_or(rest);
-            (name.to_owned(), what, rest)
-        };
-        let output = output(rest.trim(), facts).map_err(|help| {
-            fault(
-                format!("no output is \"{}\"", rest.trim().escape_debug()),
+        let (title, what, rest) = titled(words, [start, end]).map_err(fault)?;
+        let output = output(rest, facts).map_err(|help| {
+            fault(Fault {
+                message: format!("no output is \"{}\"", rest.escape_debug()),
                 help,
-            )
+            })
         })?;
         let of = &facts.outputs[output];
         if what.is_injury_criterion() && of.unit != "m/s^2" {
-            return Err(fault(
-                format!(
-                    "{name} needs an acceleration, and \"{}\" is in {}",
+            return Err(fault(Fault {
+                message: format!(
+                    "{title} needs an acceleration, and \"{}\" is in {}",
                     of.name, of.unit
                 ),
-                "name an output in m/s^2".into(),
-            ));
+                help: "name an output in m/s^2".into(),
+            }));
         }
         Ok(Response {
             name: match &filter {
@@ -232,6 +171,80 @@ impl Response {
                 response: response_of(what),
             },
         })
+    }
+}
+
+/// Why a response cannot be read, and what to write instead.
+struct Fault {
+    message: String,
+    help: String,
+}
+
+/// The response that a text begins with: its title, as in a study, its kind, and the name of the output that follows.
+fn titled(words: &str, [start, end]: [f64; 2]) -> Result<(String, What, &str), Fault> {
+    let (time_before, rest) = time_before(words).unwrap_or(("", words));
+    let Some((name, what, rest)) = kind(rest) else {
+        let said = words.split(" of ").next().unwrap_or(words);
+        let names = NAMES.map(|(name, _)| name);
+        let near = nearest(said, &names).map(|near| format!("did you mean \"{near}\"? "));
+        let near = near.unwrap_or_default();
+        return Err(Fault {
+            message: "it does not begin with a response".into(),
+            help: format!(
+                "{near}write WHAT of OUTPUT with one of {}",
+                names.join(", ")
+            ),
+        });
+    };
+    if !TIMED.contains(&name) {
+        let output = rest.strip_prefix("of ").unwrap_or(rest);
+        return Ok((name.to_owned(), what, output.trim()));
+    }
+    let (written, output) = match (time_before, rest.split_once(" of ")) {
+        ("", Some((written, rest))) => (written.trim().trim_start_matches("at ").trim(), rest),
+        ("", None) => ("", rest),
+        (time, _) => (time, rest.strip_prefix("of ").unwrap_or(rest)),
+    };
+    if written.is_empty() {
+        return Err(Fault {
+            message: format!("\"{name}\" needs a time"),
+            help: match name {
+                "value" => "write `value at 80 ms of OUTPUT`".into(),
+                name => format!("write `3 ms {name} of OUTPUT`"),
+            },
+        });
+    }
+    let time = quantity::time(written).map_err(|error| Fault {
+        message: error.to_string(),
+        help: "write a time".into(),
+    })?;
+    let (what, title, outside) = match what {
+        What::Value { .. } => (
+            What::Value { at: time },
+            format!("value at {written}"),
+            !(start..=end).contains(&time),
+        ),
+        What::Clip { .. } => (
+            What::Clip { duration: time },
+            format!("{written} {name}"),
+            time > end - start,
+        ),
+        _ => (
+            What::ContiguousClip { duration: time },
+            format!("{written} {name}"),
+            time > end - start,
+        ),
+    };
+    match (outside, start > 0.0) {
+        (false, _) => Ok((title, what, output.trim())),
+        (true, true) => Err(Fault {
+            message: format!("{time} s is outside of the run from {start} s to {end} s"),
+            help: "take a time within it".into(),
+        }),
+        (true, false) => Err(Fault {
+            message: format!("{time} s is beyond the run of {end} s"),
+            help: "take an earlier time, or a longer run by --duration".into(),
+        }),
     }
 }
 

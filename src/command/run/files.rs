@@ -71,15 +71,7 @@ impl Files {
         }
         if let Some(folder) = &arguments.mme {
             outputs.take("--mme", &folder.join(format!("{}.mme", model.name)))?;
-            let duration = arguments.duration.unwrap_or(model.run.duration);
-            let every = arguments.every.unwrap_or(model.run.every);
-            let rows = duration / every;
-            if (rows - rows.round()).abs() > 1e-6 * rows.max(1.0) {
-                return Err(Error::Input(format!(
-                    "--mme: channels have samples at equal intervals, and {duration} s is no whole number of {every} s\n  \
-                     help: give another --every or --duration"
-                )));
-            }
+            has_equal_intervals(arguments, model)?;
         }
         let binary = [
             ("--parquet", &arguments.parquet),
@@ -102,32 +94,7 @@ impl Files {
             }
             outputs.take("--report", path)?;
         }
-        let columns = model.outputs.iter();
-        let columns = columns.map(|output| (output.name.as_str(), output.unit.as_str()));
-        let columns: Vec<_> = std::iter::once(("time", "s")).chain(columns).collect();
-        let mut plots = Vec::new();
-        for text in &arguments.plot {
-            let plot = Request::read(text, &columns).map_err(Error::input)?;
-            let path = directory.join(format!(
-                "{}-{}.{}",
-                model.name,
-                plot.slug(),
-                arguments.pictures.ending()
-            ));
-            outputs.take(&format!("--plot '{}'", plot.text()), &path)?;
-            plots.push((plot, path));
-        }
-        let corridors = arguments.corridor.iter();
-        let corridors = corridors.map(|text| Corridor::read(text, &columns).map_err(Error::Input));
-        let corridors: Vec<Corridor> = corridors.collect::<Result<_, _>>()?;
-        for corridor in &corridors {
-            if !plots.iter().any(|(plot, _)| plot.shows(corridor)) {
-                let of = &corridor.of;
-                return Err(Error::Input(format!(
-                    "--corridor: no plot shows \"{of}\" over time\n  help: add --plot '{of}'"
-                )));
-            }
-        }
+        let (plots, corridors) = plots(arguments, model, &directory, &mut outputs)?;
         Ok(Files {
             csv,
             final_state,
@@ -220,6 +187,56 @@ impl Files {
         }
         Ok(())
     }
+}
+
+/// Refuses rows for ISO-MME whose last interval is shorter than the others.
+fn has_equal_intervals(arguments: &Arguments, model: &Model) -> Result<(), Error> {
+    let duration = arguments.duration.unwrap_or(model.run.duration);
+    let every = arguments.every.unwrap_or(model.run.every);
+    let rows = duration / every;
+    match (rows - rows.round()).abs() > 1e-6 * rows.max(1.0) {
+        true => Err(Error::Input(format!(
+            "--mme: channels have samples at equal intervals, and {duration} s is no whole number of {every} s\n  \
+             help: give another --every or --duration"
+        ))),
+        false => Ok(()),
+    }
+}
+
+/// The requested plots with their files in `directory`, and the corridors in them.
+fn plots(
+    arguments: &Arguments,
+    model: &Model,
+    directory: &Path,
+    outputs: &mut Outputs,
+) -> Result<(Vec<(Request, PathBuf)>, Vec<Corridor>), Error> {
+    let columns = model.outputs.iter();
+    let columns = columns.map(|output| (output.name.as_str(), output.unit.as_str()));
+    let columns: Vec<_> = std::iter::once(("time", "s")).chain(columns).collect();
+    let mut plots = Vec::new();
+    for text in &arguments.plot {
+        let plot = Request::read(text, &columns).map_err(Error::input)?;
+        let path = directory.join(format!(
+            "{}-{}.{}",
+            model.name,
+            plot.slug(),
+            arguments.pictures.ending()
+        ));
+        outputs.take(&format!("--plot '{}'", plot.text()), &path)?;
+        plots.push((plot, path));
+    }
+    let corridors = arguments.corridor.iter();
+    let corridors = corridors.map(|text| Corridor::read(text, &columns).map_err(Error::Input));
+    let corridors: Vec<Corridor> = corridors.collect::<Result<_, _>>()?;
+    for corridor in &corridors {
+        if !plots.iter().any(|(plot, _)| plot.shows(corridor)) {
+            let of = &corridor.of;
+            return Err(Error::Input(format!(
+                "--corridor: no plot shows \"{of}\" over time\n  help: add --plot '{of}'"
+            )));
+        }
+    }
+    Ok((plots, corridors))
 }
 
 /// Writes the outputs as channels of ISO-MME; returns the path of the file about the test.

@@ -53,67 +53,32 @@ impl Responses {
         let model = &found.model;
         let facts = ModelFacts::of(&found.scene);
         let end = arguments.duration.unwrap_or(model.run.duration);
-        let mut sampling = arguments.sampling;
-        let mut otherwise = None;
-        let mut asked = Vec::new();
-        if let Some(path) = &arguments.responses {
-            let (study, _) = sweep::read(path)?;
-            let (responses, every) = study
-                .responses(&facts, end, arguments.sampling)
-                .map_err(Error::Model)?;
-            asked.extend(responses.iter().map(Response::of_study));
-            sampling = Some(every);
-            let other = study.duration(&facts).filter(|other| *other != end);
-            otherwise = other.map(|other| {
-                format!(
-                    "the runs of {} end at {other} s, this one at {end} s: --duration '{other} s' makes it like them",
-                    path.display()
-                )
-            });
-        }
-        for text in &arguments.response {
-            asked.push(Response::read("--response", text, &facts, [start, end])?);
-        }
-        for (index, response) in asked.iter().enumerate() {
-            let name = &response.name;
-            if asked[..index].iter().any(|earlier| earlier.name == *name) {
-                return Err(Error::Input(format!(
-                    "the response \"{name}\" is asked for twice\n  help: leave one of them out"
-                )));
-            }
-        }
-        if asked.is_empty() && arguments.sampling.is_some() {
-            return Err(Error::Input(
-                "--sampling says when responses are sampled, and there are none\n  \
-                 help: ask for one with --response 'WHAT of OUTPUT', or leave out --sampling; --every gives the rows of the table"
-                    .into(),
-            ));
-        }
+        let Requested {
+            responses: mut asked,
+            sampling,
+            otherwise,
+        } = Requested::of(arguments, &facts, [start, end])?;
         let own = asked.len();
         let criteria = Criteria::of(arguments, &facts)?;
         asked.extend(criteria.iter().flat_map(Criteria::responses));
         let mut kept = filtered(model);
         let columns = kept.len();
         kept.extend(criteria.iter().flat_map(Criteria::kept));
-        let classes = kept
-            .iter()
-            .filter_map(|kept| kept.channel.filter.map(|filter| filter.class));
-        let needed = classes.map(Class::longest_interval);
-        let needed = needed.fold(response::sampling(facts.run.sampling, &asked), f64::min);
-        let sampling = sampling.unwrap_or(needed);
-        let mut classes = kept
-            .iter()
-            .filter_map(|kept| kept.channel.filter.map(|filter| filter.class));
-        if let Some(class) = classes.find(|class| !class.allows(sampling)) {
-            return Err(response::too_coarse(class, sampling));
+        let filters = kept.iter().filter_map(|kept| kept.channel.filter);
+        let classes: Vec<Class> = filters.map(|filter| filter.class).collect();
+        let sampling = sampling.unwrap_or_else(|| {
+            let needed = classes.iter().copied().map(Class::longest_interval);
+            needed.fold(response::sampling(facts.run.sampling, &asked), f64::min)
+        });
+        if let Some(class) = classes.iter().find(|class| !class.allows(sampling)) {
+            return Err(response::too_coarse(*class, sampling));
         }
         let intervals = match end > start && !(asked.is_empty() && kept.is_empty()) {
             true => intervals(sampling, end - start, &asked, size_of::<f64>())?,
             // the run itself will report this
             false => 1,
         };
-        if kept.iter().any(|kept| kept.channel.filter.is_some()) && end > start && intervals < MEAN
-        {
+        if !classes.is_empty() && end > start && intervals < MEAN {
             return Err(response::too_short(end - start));
         }
         Ok(Responses {
@@ -213,6 +178,63 @@ impl Responses {
                 })
             });
         each.collect()
+    }
+}
+
+/// The responses that the user requests, by a study and one by one.
+struct Requested {
+    responses: Vec<Response>,
+    /// Time between the samples, if it is given \[s\].
+    sampling: Option<f64>,
+    /// How the run differs from those of the study, in words.
+    otherwise: Option<String>,
+}
+
+impl Requested {
+    /// For a run from one time to another \[s\].
+    fn of(arguments: &Arguments, facts: &ModelFacts, span: [f64; 2]) -> Result<Self, Error> {
+        let [_, end] = span;
+        let mut requested = Requested {
+            responses: Vec::new(),
+            sampling: arguments.sampling,
+            otherwise: None,
+        };
+        if let Some(path) = &arguments.responses {
+            let (study, _) = sweep::read(path)?;
+            let (responses, every) = study
+                .responses(facts, end, arguments.sampling)
+                .map_err(Error::Model)?;
+            let responses = responses.iter().map(Response::of_study);
+            requested.responses.extend(responses);
+            requested.sampling = Some(every);
+            let other = study.duration(facts).filter(|other| *other != end);
+            requested.otherwise = other.map(|other| {
+                format!(
+                    "the runs of {} end at {other} s, this one at {end} s: --duration '{other} s' makes it like them",
+                    path.display()
+                )
+            });
+        }
+        for text in &arguments.response {
+            let response = Response::read("--response", text, facts, span)?;
+            requested.responses.push(response);
+        }
+        for (index, Response { name, .. }) in requested.responses.iter().enumerate() {
+            let mut earlier = requested.responses[..index].iter();
+            if earlier.any(|earlier| earlier.name == *name) {
+                return Err(Error::Input(format!(
+                    "the response \"{name}\" is asked for twice\n  help: leave one of them out"
+                )));
+            }
+        }
+        if requested.responses.is_empty() && arguments.sampling.is_some() {
+            return Err(Error::Input(
+                "--sampling says when responses are sampled, and there are none\n  \
+                 help: ask for one with --response 'WHAT of OUTPUT', or leave out --sampling; --every gives the rows of the table"
+                    .into(),
+            ));
+        }
+        Ok(requested)
     }
 }
 
