@@ -15,6 +15,7 @@ use bryant_runtime::program::Job;
 use bryant_signal::filter::{Standard, class_of_code, filtered};
 use bryant_signal::mme::{self, About};
 use bryant_signal::{Channel, Signal};
+use bryant_study::table::parquet::{Numbers, write_numbers};
 use std::path::{Path, PathBuf};
 
 /// The files of a run, and the output that is printed.
@@ -289,6 +290,30 @@ fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<Path
     mme::write(folder, &model.name, &recording, &about)
         .map_err(|error| Error::system(format!("{}: {error}", path.display())))?;
     Ok(path)
+}
+
+/// The table of a run as Apache Parquet; its metadata have units, model, digest and version.
+pub fn parquet(
+    out: &mut dyn std::io::Write,
+    model: &str,
+    recording: &Recording,
+) -> std::io::Result<()> {
+    let columns = &recording.table.columns;
+    let units = columns
+        .iter()
+        .map(|c| (c.name.clone(), c.unit.clone().into()));
+    let units: serde_json::Map<String, serde_json::Value> = units.collect();
+    let metadata = [
+        ("units", serde_json::Value::Object(units).to_string()),
+        ("model", model.to_owned()),
+        ("digest", recording.header.digest.clone()),
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+    ];
+    let numbers = columns.iter().map(|column| Numbers {
+        name: &column.name,
+        values: &column.values,
+    });
+    write_numbers(out, model, &numbers.collect::<Vec<_>>(), &metadata)
 }
 
 /// The picture in the format that the ending of its file says.

@@ -5,8 +5,9 @@ use super::super::model_argument::Found;
 use super::super::prepare::prepare_model;
 use super::super::terminal::Terminal;
 use super::super::trust::Trust;
+use super::outcome;
 use super::responses::Responses;
-use super::{Arguments, beside, report};
+use super::{Arguments, beside};
 use crate::accuracy::setting::Setting;
 use crate::balance;
 use crate::picture::Instant;
@@ -85,7 +86,7 @@ pub fn html(
         "notes": notes,
         "doubts": recording.doubts.iter().map(|doubt| &doubt.message).collect::<Vec<_>>(),
         "failure": recording.result.as_ref().err().map(|error| error.message.clone()),
-        "report": report(recording),
+        "report": outcome::report(recording),
         "effects": effect::summary(model),
         "parameters": values.collect::<serde_json::Map<_, _>>(),
     });
