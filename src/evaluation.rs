@@ -232,6 +232,19 @@ fn check_finite(matrix: &[f64], vectors: &[f64], velocities: &[String]) -> Resul
     Ok(())
 }
 
+/// The state in which a run begins.
+pub fn start(model: &Model, equations: &Equations, parameters: &[f64]) -> State {
+    let at = |roots: &[NodeId]| of_parameters(model, equations, roots, parameters);
+    let of_laws = |states: &[LawState]| initial(model, equations, states, parameters);
+    State {
+        t: 0.0,
+        q: at(&equations.initial_coordinates),
+        v: at(&equations.initial_velocities),
+        z: of_laws(&equations.auxiliaries),
+        m: of_laws(&equations.memory),
+    }
+}
+
 /// The states of force laws at the start of a run.
 fn initial(
     model: &Model,

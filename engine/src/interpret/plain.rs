@@ -3,7 +3,7 @@
 use super::Layout;
 use crate::call::Library;
 use bryant_generator::expression::Function;
-use bryant_generator::program::{Input, List, Operation, Value};
+use bryant_generator::program::{List, Operation, Value};
 use bryant_runtime::{Real, Task};
 use std::collections::HashMap;
 
@@ -73,13 +73,7 @@ impl Code {
 pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> Code {
     let mut place: Vec<Place> = Vec::with_capacity(list.values());
     place.extend(list.constants.iter().map(|c| constants[&c.to_bits()]));
-    place.extend(list.inputs.iter().map(|input| match *input {
-        Input::Time => layout.time,
-        Input::State(i) => layout.state + i,
-        Input::Acceleration(i) | Input::Guard(i) => layout.before + i,
-        Input::Parameter(i) => layout.parameters + i,
-        Input::Derived(i) => layout.derived + i,
-    }));
+    place.extend(list.inputs.iter().map(|input| layout.place(*input)));
     let leaves = place.len();
     let last_use = last_uses(list);
     let mut frame = Places {
