@@ -8,11 +8,11 @@ use super::model_argument::{find, nearest};
 use super::parameters::{parse_parameters, values_of};
 use super::prepare::prepare;
 use super::progress::{Progress, Whole};
-use super::response::{self, Response};
+use super::response::{self, Requested};
 use super::run::{TIME_LIMIT, time_limit};
 use super::terminal::Terminal;
 use crate::accuracy::check::{FAR, PROMISED};
-use crate::accuracy::finding::percent;
+use crate::accuracy::conclusion::percent;
 use crate::interrupt;
 use bryant_generator::model::{Model, Parameter};
 use bryant_runtime::batch::rows::Job;
@@ -107,10 +107,10 @@ impl Arguments {
         let wrt = self.parameters(model)?;
         let facts = ModelFacts::of(&found.scene);
         let duration = self.duration.unwrap_or(facts.run.duration);
-        let responses: Vec<Response> = self
+        let responses: Vec<Requested> = self
             .of
             .iter()
-            .map(|text| Response::read("--of", text, &facts, [0.0, duration]))
+            .map(|text| Requested::read("--of", text, &facts, [0.0, duration]))
             .collect::<Result<_, _>>()?;
         let varied: Vec<usize> = wrt.iter().map(|(index, _)| *index).collect();
         let job = self.job(&facts, duration, &responses, &point, varied)?;
@@ -167,7 +167,7 @@ impl Arguments {
         &self,
         facts: &ModelFacts,
         duration: f64,
-        responses: &[Response],
+        responses: &[Requested],
         point: &[f64],
         varied: Vec<usize>,
     ) -> Result<Job, Error> {

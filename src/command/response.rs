@@ -13,7 +13,7 @@ use bryant_study::facts::ModelFacts;
 use bryant_study::response::{self, NAMES, What, channel_of};
 
 /// A requested response.
-pub struct Response {
+pub struct Requested {
     /// Its name, the same as in a study.
     pub name: String,
     /// SI unit, "" for a pure number.
@@ -34,7 +34,7 @@ const MOST_SAMPLES: f64 = 1e6;
 pub fn intervals(
     every: f64,
     duration: f64,
-    responses: &[Response],
+    responses: &[Requested],
     bytes: usize,
 ) -> Result<usize, Error> {
     let fault = |what: &str, length: f64| {
@@ -84,23 +84,23 @@ pub fn too_coarse(class: Class, every: f64) -> Error {
 }
 
 /// The time between samples if the user gives none \[s\]: `usual`, or less if filters need it.
-pub fn sampling(usual: f64, responses: &[Response]) -> f64 {
-    let filters = responses.iter().filter_map(Response::filter);
+pub fn sampling(usual: f64, responses: &[Requested]) -> f64 {
+    let filters = responses.iter().filter_map(Requested::filter);
     filters.map(Class::longest_interval).fold(usual, f64::min)
 }
 
 /// Kinds of responses that need a time.
 const TIMED: [&str; 3] = ["value", "clip", "contiguous clip"];
 
-impl Response {
+impl Requested {
     /// Its filter, if it has one.
     pub fn filter(&self) -> Option<Class> {
         self.asked.channel.filter.map(|filter| filter.class)
     }
 
     /// The response of a study.
-    pub fn of_study(response: &response::Response) -> Response {
-        Response {
+    pub fn of_study(response: &response::Response) -> Requested {
+        Requested {
             name: response.name.clone(),
             unit: response.unit.clone(),
             window: response.what.window(),
@@ -122,12 +122,12 @@ impl Response {
         text: &str,
         facts: &ModelFacts,
         [start, end]: [f64; 2],
-    ) -> Result<Response, Error> {
+    ) -> Result<Requested, Error> {
         let words = text.replace('_', " ");
         let words = words.trim();
         if let Some(criterion) = Criterion::named(words) {
             return criteria::named(facts, criterion.name)
-                .map(|response| Response::of_study(&response))
+                .map(|response| Requested::of_study(&response))
                 .map_err(|message| Error::Input(format!("{option} '{words}': {message}")));
         }
         let fault = |Fault { message, help }| {
@@ -159,7 +159,7 @@ impl Response {
                 help: "name an output in m/s^2".into(),
             }));
         }
-        Ok(Response {
+        Ok(Requested {
             name: match &filter {
                 Some(filter) => format!("{title} of {}, {filter}", of.name),
                 None => format!("{title} of {}", of.name),
@@ -308,8 +308,8 @@ mod tests {
         ModelFacts::of(&bundled::scene(bundled::find("child-seat").unwrap()).unwrap())
     }
 
-    fn read(text: &str, model: &ModelFacts) -> Result<Response, Error> {
-        Response::read("--of", text, model, [0.0, 0.12])
+    fn read(text: &str, model: &ModelFacts) -> Result<Requested, Error> {
+        Requested::read("--of", text, model, [0.0, 0.12])
     }
 
     #[test]
@@ -434,7 +434,7 @@ mod tests {
 
     #[test]
     fn times_are_within_a_run_that_begins_later() {
-        let read = |text| Response::read("--response", text, &seat(), [0.06, 0.12]);
+        let read = |text| Requested::read("--response", text, &seat(), [0.06, 0.12]);
         assert!(read("value at 80 ms of head excursion").is_ok());
         for text in [
             "value at 50 ms of head excursion",

@@ -11,13 +11,13 @@ use super::Error;
 use super::accuracy::accuracy;
 use super::caution::{self, singular::Near};
 use super::compare::{filter_standard, pair};
+use super::error_report::ErrorReport;
 use super::model_argument::{Found, find};
 use super::outputs;
 use super::parameters::parse_parameters;
 use super::prepare::{by_rustc, prepare};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
-use super::trust::Trust;
 use crate::accuracy::check::{self, Verdict};
 use crate::accuracy::conditioning;
 use crate::accuracy::fastest::fastest;
@@ -306,7 +306,7 @@ impl Arguments {
             Some(compiled) => compiled,
             None => &*engine,
         };
-        let (mut recording, trust) = self.record(evaluated, &job, &found.model, terminal);
+        let (mut recording, errors) = self.record(evaluated, &job, &found.model, terminal);
         engine.check()?;
         self.look_for_cause(&engine, &found.model, &job, &mut recording);
         if let Some(failure) = compiled.as_ref().and_then(RustcModel::failure) {
@@ -323,7 +323,7 @@ impl Arguments {
             found: &found,
             job: &job,
             recording: &recording,
-            trust: &trust,
+            errors: &errors,
             responses: &responses,
             verdict: responses.verdict(&recording),
         };
@@ -335,7 +335,7 @@ impl Arguments {
             terminal.note(&format!("wrote {}", file.display()));
         }
         let duration = job.duration.unwrap_or(found.model.run.duration);
-        let outcome = self.conclude(&recording, &trust, duration, terminal);
+        let outcome = self.conclude(&recording, &errors, duration, terminal);
         terminal.end(printed, outcome)
     }
 
@@ -361,7 +361,7 @@ impl Arguments {
     fn conclude(
         &self,
         recording: &Recording,
-        trust: &Trust,
+        errors: &ErrorReport,
         duration: f64,
         terminal: &mut Terminal,
     ) -> Result<(), Error> {
@@ -371,7 +371,7 @@ impl Arguments {
                     terminal.note(&balance::text(&recording.header, energy, self.energy));
                 }
                 terminal.note(&outcome::report(recording));
-                for line in trust.lines().iter().chain(&recording.notes) {
+                for line in errors.lines().iter().chain(&recording.notes) {
                     terminal.note(line);
                 }
                 outcome::doubtful(recording)?;
@@ -380,7 +380,7 @@ impl Arguments {
                         "the table is complete, but not all of the runs that its error is estimated from were done".into(),
                     ));
                 }
-                trust.check()
+                errors.check()
             }
             Err(error) if error.kind == ErrorKind::Stopped => Err(Error::Interrupted(format!(
                 "{}; the samples after t = {} s up to {duration} s are missing",
@@ -460,7 +460,7 @@ impl Arguments {
         job: &Job,
         model: &Model,
         terminal: &Terminal,
-    ) -> (Recording, Trust) {
+    ) -> (Recording, ErrorReport) {
         let duration = job.duration.unwrap_or(model.run.duration);
         let what = format!("running {}", model.name);
         let begin = job.start.as_ref().map_or(0.0, |start| start.t);
@@ -468,26 +468,26 @@ impl Arguments {
         let mut hear = |t: f64| progress.set(t - begin);
         interrupt::watch();
         let chosen = job.method.is_some();
-        let (recording, trust) = match self.accuracy {
+        let (recording, errors) = match self.accuracy {
             Some(wanted) => {
                 let accurate = target::run(engine, job, wanted, &mut hear);
-                let trust = Trust::of_accurate(&accurate, wanted);
-                (accurate.recording, trust)
+                let errors = ErrorReport::of_accurate(&accurate, wanted);
+                (accurate.recording, errors)
             }
             None if self.verify || self.no_verify => {
                 let recording = simulation::run(engine, job, &mut hear);
-                let trust = Trust::new(&recording.header, chosen);
-                (recording, trust)
+                let errors = ErrorReport::new(&recording.header, chosen);
+                (recording, errors)
             }
             None => {
                 let checked = check::run(engine, job, chosen, &mut hear);
-                let trust = Trust::of_checked(&checked);
-                (checked.recording, trust)
+                let errors = ErrorReport::of_checked(&checked);
+                (checked.recording, errors)
             }
         };
-        let trust = match self.verify && recording.result.is_ok() {
+        let errors = match self.verify && recording.result.is_ok() {
             true => {
-                let opinion = target::second_opinion(&trust.setting().unwrap_or(Setting::of(job)));
+                let opinion = target::second_opinion(&errors.setting().unwrap_or(Setting::of(job)));
                 let patience = f64::INFINITY;
                 let second = check::second(engine, job, &opinion, patience, &mut hear);
                 let floors = conditioning::reach(engine, job, &recording);
@@ -498,12 +498,12 @@ impl Arguments {
                     (&job.reading.asked, &[]),
                     patience,
                 );
-                trust.verified(opinion, verdict)
+                errors.verified(opinion, verdict)
             }
-            false => trust,
+            false => errors,
         };
         drop(progress);
-        (recording, trust)
+        (recording, errors)
     }
 }
 
@@ -513,7 +513,7 @@ struct Done<'a> {
     found: &'a Found,
     job: &'a Job,
     recording: &'a Recording,
-    trust: &'a Trust,
+    errors: &'a ErrorReport,
     responses: &'a Responses,
     /// `None` if no criteria are requested, `Some(None)` if they are not judged.
     verdict: Option<Option<crate::criteria::Verdict>>,
@@ -531,7 +531,7 @@ impl Done<'_> {
         } = *self;
         let mut written = files.write(arguments, &found.model, job, recording)?;
         if let Some(path) = &arguments.report {
-            let of_run = (recording, self.trust);
+            let of_run = (recording, self.errors);
             let judged = self.verdict.as_ref().map(judged_json);
             let judged = (self.responses, judged);
             let page = report::html(arguments, found, job, of_run, judged, terminal)?;
@@ -565,19 +565,19 @@ impl Done<'_> {
             arguments,
             job,
             recording,
-            trust,
+            errors,
             responses,
             ..
         } = *self;
         if arguments.json {
-            let mut value = outcome::json(&arguments.engine, job, recording, trust, written);
-            value["responses"] = responses.json(recording, trust);
+            let mut value = outcome::json(&arguments.engine, job, recording, errors, written);
+            value["responses"] = responses.json(recording, errors);
             if let Some(verdict) = &self.verdict {
                 value["criteria"] = judged_json(verdict);
             }
             return terminal.print_json(&value);
         }
-        let mut text = responses.text(recording, trust);
+        let mut text = responses.text(recording, errors);
         if let Some(verdict) = &self.verdict {
             text.push('\n');
             match verdict {

@@ -1,8 +1,8 @@
 //! The derivatives as a table for people, and as JSON.
 
 use super::slopes::{MOVED, SHARP, size};
-use crate::accuracy::finding::percent;
-use crate::command::response::Response;
+use crate::accuracy::conclusion::percent;
+use crate::command::response::Requested;
 use bryant_generator::model::Parameter;
 use serde_json::json;
 
@@ -13,7 +13,7 @@ const NOISE: f64 = SHARP / MOVED / AGREE;
 
 /// The derivatives of some responses with respect to some parameters.
 pub(super) struct Table<'a> {
-    pub responses: &'a [Response],
+    pub responses: &'a [Requested],
     pub parameters: &'a [&'a Parameter],
     /// The values of the parameters.
     pub row: &'a [f64],

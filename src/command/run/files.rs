@@ -18,13 +18,16 @@ use bryant_signal::{Channel, Signal};
 use bryant_study::table::parquet::{Numbers, write_numbers};
 use std::path::{Path, PathBuf};
 
+/// A requested plot, and its file.
+type Plot = (Request, PathBuf);
+
 /// The files of a run, and the output that is printed.
 pub struct Files {
     csv: Option<PathBuf>,
     final_state: Option<PathBuf>,
     mme: Option<PathBuf>,
     picture: Option<PathBuf>,
-    plots: Vec<(Request, PathBuf)>,
+    plots: Vec<Plot>,
     corridors: Vec<Corridor>,
 }
 
@@ -210,7 +213,7 @@ fn plots(
     model: &Model,
     directory: &Path,
     outputs: &mut Outputs,
-) -> Result<(Vec<(Request, PathBuf)>, Vec<Corridor>), Error> {
+) -> Result<(Vec<Plot>, Vec<Corridor>), Error> {
     let columns = model.outputs.iter();
     let columns = columns.map(|output| (output.name.as_str(), output.unit.as_str()));
     let columns: Vec<_> = std::iter::once(("time", "s")).chain(columns).collect();

@@ -1,6 +1,6 @@
 //! What is said of a run that is over: its cost, why it cannot be trusted, why it failed; for people and as JSON.
 
-use super::{Error, Trust};
+use super::{Error, ErrorReport};
 use crate::balance;
 use crate::simulation::Recording;
 use bryant_runtime::Cause;
@@ -13,7 +13,7 @@ pub fn json(
     engine: &str,
     job: &Job,
     recording: &Recording,
-    trust: &Trust,
+    errors: &ErrorReport,
     written: &[PathBuf],
 ) -> serde_json::Value {
     let mut value = recording.table.json();
@@ -35,7 +35,7 @@ pub fn json(
     }
     value["doubts"] = doubts(&recording.doubts);
     value["notes"] = json!(recording.notes);
-    value["accuracy"] = trust.json();
+    value["accuracy"] = errors.json();
     match &recording.result {
         Ok(report) => {
             let wall = recording.wall.as_secs_f64();

@@ -3,10 +3,10 @@
 //! They are read off samples of their own, so that they do not depend on the rows of the table.
 
 use super::criteria::Criteria;
-use super::{Arguments, Error, Trust};
-use crate::accuracy::finding::percent;
+use super::{Arguments, Error, ErrorReport};
+use crate::accuracy::conclusion::percent;
 use crate::command::model_argument::Found;
-use crate::command::response::{self, Response, intervals};
+use crate::command::response::{self, Requested, intervals};
 use crate::command::sweep;
 use crate::criteria::Verdict;
 use crate::simulation::Recording;
@@ -21,7 +21,7 @@ use serde_json::{Value, json};
 /// The responses of a run.
 pub struct Responses {
     /// The requested responses, followed by those of the criteria.
-    asked: Vec<Response>,
+    asked: Vec<Requested>,
     /// The number of requested responses.
     own: usize,
     /// The criteria that the run is judged by.
@@ -53,11 +53,11 @@ impl Responses {
         let model = &found.model;
         let facts = ModelFacts::of(&found.scene);
         let end = arguments.duration.unwrap_or(model.run.duration);
-        let Requested {
+        let Requests {
             responses: mut asked,
             sampling,
             otherwise,
-        } = Requested::of(arguments, &facts, [start, end])?;
+        } = Requests::of(arguments, &facts, [start, end])?;
         let own = asked.len();
         let criteria = Criteria::of(arguments, &facts)?;
         asked.extend(criteria.iter().flat_map(Criteria::responses));
@@ -107,14 +107,14 @@ impl Responses {
     fn values<'a>(
         &'a self,
         recording: &'a Recording,
-        trust: &'a Trust,
-    ) -> impl Iterator<Item = (&'a Response, Option<f64>, Option<f64>)> {
+        errors: &'a ErrorReport,
+    ) -> impl Iterator<Item = (&'a Requested, Option<f64>, Option<f64>)> {
         self.asked[..self.own]
             .iter()
             .enumerate()
             .map(|(index, response)| {
                 let answer = recording.answers.get(index).map(|answer| answer.value);
-                let apart = trust.responses().and_then(|all| all.get(index).copied());
+                let apart = errors.responses().and_then(|all| all.get(index).copied());
                 (
                     response,
                     answer.filter(|value| value.is_finite()),
@@ -124,12 +124,12 @@ impl Responses {
     }
 
     /// The responses for people, a line each, after an empty line; empty if none are requested.
-    pub fn text(&self, recording: &Recording, trust: &Trust) -> String {
+    pub fn text(&self, recording: &Recording, errors: &ErrorReport) -> String {
         if self.own == 0 {
             return String::new();
         }
         let lines: Vec<[String; 3]> = self
-            .values(recording, trust)
+            .values(recording, errors)
             .map(|(response, value, apart)| {
                 let value = match (value, response.unit.as_str()) {
                     (None, _) => "not known".to_owned(),
@@ -166,9 +166,9 @@ impl Responses {
     }
 
     /// `[{"response", "value", "unit", "difference"}, …]`; an unknown value is `null`.
-    pub fn json(&self, recording: &Recording, trust: &Trust) -> Value {
+    pub fn json(&self, recording: &Recording, errors: &ErrorReport) -> Value {
         let each = self
-            .values(recording, trust)
+            .values(recording, errors)
             .map(|(response, value, apart)| {
                 json!({
                     "response": response.name,
@@ -182,19 +182,19 @@ impl Responses {
 }
 
 /// The responses that the user requests, by a study and one by one.
-struct Requested {
-    responses: Vec<Response>,
+struct Requests {
+    responses: Vec<Requested>,
     /// Time between the samples, if it is given \[s\].
     sampling: Option<f64>,
     /// How the run differs from those of the study, in words.
     otherwise: Option<String>,
 }
 
-impl Requested {
+impl Requests {
     /// For a run from one time to another \[s\].
     fn of(arguments: &Arguments, facts: &ModelFacts, span: [f64; 2]) -> Result<Self, Error> {
         let [_, end] = span;
-        let mut requested = Requested {
+        let mut requests = Requests {
             responses: Vec::new(),
             sampling: arguments.sampling,
             otherwise: None,
@@ -204,11 +204,11 @@ impl Requested {
             let (responses, every) = study
                 .responses(facts, end, arguments.sampling)
                 .map_err(Error::Model)?;
-            let responses = responses.iter().map(Response::of_study);
-            requested.responses.extend(responses);
-            requested.sampling = Some(every);
+            let responses = responses.iter().map(Requested::of_study);
+            requests.responses.extend(responses);
+            requests.sampling = Some(every);
             let other = study.duration(facts).filter(|other| *other != end);
-            requested.otherwise = other.map(|other| {
+            requests.otherwise = other.map(|other| {
                 format!(
                     "the runs of {} end at {other} s, this one at {end} s: --duration '{other} s' makes it like them",
                     path.display()
@@ -216,25 +216,25 @@ impl Requested {
             });
         }
         for text in &arguments.response {
-            let response = Response::read("--response", text, facts, span)?;
-            requested.responses.push(response);
+            let response = Requested::read("--response", text, facts, span)?;
+            requests.responses.push(response);
         }
-        for (index, Response { name, .. }) in requested.responses.iter().enumerate() {
-            let mut earlier = requested.responses[..index].iter();
+        for (index, Requested { name, .. }) in requests.responses.iter().enumerate() {
+            let mut earlier = requests.responses[..index].iter();
             if earlier.any(|earlier| earlier.name == *name) {
                 return Err(Error::Input(format!(
                     "the response \"{name}\" is asked for twice\n  help: leave one of them out"
                 )));
             }
         }
-        if requested.responses.is_empty() && arguments.sampling.is_some() {
+        if requests.responses.is_empty() && arguments.sampling.is_some() {
             return Err(Error::Input(
                 "--sampling says when responses are sampled, and there are none\n  \
                  help: ask for one with --response 'WHAT of OUTPUT', or leave out --sampling; --every gives the rows of the table"
                     .into(),
             ));
         }
-        Ok(requested)
+        Ok(requests)
     }
 }
 
