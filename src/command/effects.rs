@@ -66,7 +66,7 @@ pub struct Arguments {
     #[arg(long)]
     all: bool,
 
-    /// Print JSON: every effect, mentioned or not
+    /// Print JSON, with every effect, also those that the text does not mention
     #[arg(long)]
     json: bool,
 }
@@ -169,7 +169,7 @@ impl Arguments {
     }
 }
 
-/// Indices among the tasks: the scene itself, its outputs, and the scene with nothing left out.
+/// Indices among the derivations: the scene itself, its outputs, and the scene with nothing left out.
 const SCENE: usize = 0;
 const OUTPUTS: usize = 1;
 const GENERAL: usize = 2;
@@ -320,7 +320,7 @@ fn time_of_one(scene: &Derivation, users: Option<Arc<UserForces>>) -> Result<f64
     Ok(begin.elapsed().as_secs_f64() * (1.0 + bases / GROUP as f64))
 }
 
-/// The engine of a task, which may be taken once; `None` if its equations were not derived.
+/// The engine of a derivation, which may be taken once; `None` if its equations were not derived.
 fn engine(
     lists: &mut [Option<Lists>],
     index: usize,

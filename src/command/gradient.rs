@@ -32,17 +32,18 @@ A response is WHAT of OUTPUT, as in a study: peak, minimum, magnitude, time of p
 excursion, integral, value at TIME, clip TIME, contiguous clip TIME. Underscores stand for spaces, and some words of an
 output's name suffice.
 
-Derivatives are those of the computed run, with its steps held: exact to the accuracy of the run. Where a switch fires or a belt
-locks, its time depends on the parameters, and the derivative jumps as it should (saltation). Where an output itself jumps there, an
-acceleration for one, responses are those of both sides of the jump, at its time: samples of a study know a jump to within their interval.
+The derivatives are those of the computed run, with its steps held. They are as exact as the run. If a switch fires or a belt locks,
+the time of this event depends on the parameters, and the derivative includes this (saltation). If an output such as an acceleration
+jumps at the event, responses use its values on both sides of the jump, at the exact time. A study knows the time of a jump only to
+within the interval of its samples.
 
 Windows of HIC begin and end on samples and jumps. This hardly changes its value, but it changes its derivative: by 0.4 % in child-seat at a sample
 every 0.1 ms, by 0.02 to 0.1 % with `--sampling '10 us'`.
 
-Derivatives are compared with those of a run at ten times the tolerance. Where they are not as accurate as 0.1 %, sharper runs follow; what stays
-beyond 1 %, or beyond 10 % at a --tolerance of your own, ends with exit code 3.
+The command compares the derivatives with those of a run at ten times the tolerance. If they are not as accurate as 0.1 %, it repeats the
+run at smaller tolerances. If their error stays above 1 %, or above 10 % at a --tolerance of your own, it ends with exit code 3.
 
-Ctrl-C ends it with the table of the derivatives that are there, after those under way, and exit code 130.
+After Ctrl-C it finishes the derivatives under way, prints the table of those that are done, and ends with exit code 130.
 
 Examples:
   bryant gradient child-seat --of peak_lap_force --wrt webbing_scale,lap_slack

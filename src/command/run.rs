@@ -86,7 +86,8 @@ pub struct Arguments {
     #[arg(long)]
     verify: bool,
 
-    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance. Where outputs or responses differ by more than 0.1 %, the run is repeated sharper
+    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance. If outputs or responses differ
+    /// by more than 0.1 %, the run is repeated at a smaller tolerance
     #[arg(long, conflicts_with = "verify")]
     no_verify: bool,
 
@@ -129,7 +130,7 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     max_steps: Option<u64>,
 
-    /// Share of energy and momentum that may be missing in their balances; where more is missing, the run cannot be trusted; or off
+    /// Share of energy and momentum that may be missing in their balances, or off. If more is missing, the run cannot be trusted
     /// [default: 2%]
     #[arg(long, value_name = "SHARE", value_parser = energy_limit, allow_hyphen_values = true)]
     energy_limit: Option<f64>,
@@ -151,7 +152,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 
-    /// Write a report: one page of HTML with the motion, the curves and what the run says of itself; any browser shows it, without a network
+    /// Write a report: one page of HTML with the motion, the curves and the messages of the run; any browser shows it, without a network
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
 
@@ -186,7 +187,7 @@ pub struct Arguments {
     #[arg(long)]
     no_files: bool,
 
-    /// Plot columns of the table over one of them, NAMES over NAME, or over time; may be repeated
+    /// Plot columns of the table over time, or over another column as NAMES over NAME; may be repeated
     #[arg(long, value_name = "'NAMES over NAME'", allow_hyphen_values = true)]
     plot: Vec<String>,
 
@@ -199,7 +200,7 @@ pub struct Arguments {
     )]
     corridor: Vec<String>,
 
-    /// Response that is read off the run, WHAT of OUTPUT, as a study heads its columns: 'HIC15 of head acceleration', '3 ms clip of chest
+    /// Response that is read off the run, as WHAT of OUTPUT: 'HIC15 of head acceleration', '3 ms clip of chest
     /// acceleration', 'time of peak of belt force', 'value at 80 ms of head excursion'. Some words of an output's name suffice. May be
     /// repeated
     #[arg(
@@ -650,7 +651,7 @@ fn look_for_singular_joint(model: &Model, job: &Job, recording: &mut Recording) 
     }
 }
 
-/// Doubts a run that starts in a singular position of a joint: rounding alone says how it leaves that.
+/// Adds a finding for a run that starts in a singular position of a joint: rounding errors alone decide how it leaves this position.
 fn doubt_singular_start(model: &Model, job: &Job, recording: &mut Recording) {
     let coordinates = &recording.header.coordinates;
     let value = |name: &str| {
