@@ -1,6 +1,6 @@
 //! The ways in which a run can fail, in the words of the model.
 
-use crate::simulate::Beyond;
+use crate::simulate::OutOfRange;
 use crate::{Cause, Dynamics, Extrapolate, Formula, Info, Real};
 use core::fmt;
 
@@ -289,7 +289,7 @@ impl Failure {
         match self.culprit() {
             Culprit::Unknown => Ok(()),
             Culprit::Curve { curve, argument } => match self.info.curves.get(curve) {
-                Some(curve) => write!(f, ": {}", Beyond { curve, argument }),
+                Some(curve) => write!(f, ": {}", OutOfRange { curve, argument }),
                 None => Ok(()),
             },
             Culprit::Inertia { pivot, share } => {

@@ -1,7 +1,7 @@
 //! Reasons not to trust a run that went on, in words.
 
 use crate::Real;
-use crate::simulate::{Beyond, Diagnostic, Watch};
+use crate::simulate::{Diagnostic, OutOfRange, Watch};
 
 /// A reason not to trust a run that went on: [`Diagnostic`] in words.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +40,7 @@ pub(super) fn notes<T: Real>(watch: &Watch<'_, T>) -> Vec<String> {
     harmless
         .filter_map(|left| {
             let curve = info.curves.get(left.curve)?;
-            let beyond = Beyond {
+            let beyond = OutOfRange {
                 curve,
                 argument: left.argument,
             };

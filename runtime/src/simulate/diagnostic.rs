@@ -222,7 +222,7 @@ impl fmt::Display for Diagnostic {
                 )
             }
             Problem::Curve { curve, argument } => match self.info.curves.get(curve) {
-                Some(curve) => Beyond { curve, argument }.fmt(f),
+                Some(curve) => OutOfRange { curve, argument }.fmt(f),
                 None => f.write_str("the argument of a curve is outside of its points"),
             },
             Problem::Missed { onset, steps } => {
@@ -274,14 +274,14 @@ impl fmt::Display for Diagnostic {
 }
 
 /// By how much the argument of a curve exceeds its points, and how the curve is extended, in words.
-pub(crate) struct Beyond<'a> {
+pub(crate) struct OutOfRange<'a> {
     pub curve: &'a CurveInfo,
     pub argument: f64,
 }
 
-impl fmt::Display for Beyond<'_> {
+impl fmt::Display for OutOfRange<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Beyond { curve, argument } = self;
+        let OutOfRange { curve, argument } = self;
         if curve.kind == CurveKind::Volume {
             let (name, left) = (curve.name, 100.0 * (1.0 - curve.last));
             return write!(

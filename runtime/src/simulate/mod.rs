@@ -23,7 +23,7 @@ pub(crate) mod watch;
 
 pub use crate::integrate::workspace::Buffer;
 pub use balance::{Balance, Momentum};
-pub(crate) use diagnostic::Beyond;
+pub(crate) use diagnostic::OutOfRange;
 #[cfg(feature = "std")]
 pub(crate) use diagnostic::Time;
 pub use diagnostic::{Diagnostic, Problem};
