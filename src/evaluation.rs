@@ -1,7 +1,7 @@
 //! S, r_s, r_k and v̇ at one state, by evaluation of the graph of the equations. Only functions of user forces are compiled.
 
 use bryant_engine::UserFunctions;
-use bryant_generator::equations::{Equations, LawState};
+use bryant_generator::equations::{Equations, LawState, Variable};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::model::{ForceKind, Model};
@@ -116,6 +116,66 @@ pub fn at(
     state: &State,
     users: Option<&dyn UserFunctions>,
 ) -> Result<Evaluation, StateError> {
+    knows_user_forces(model, users)?;
+    if let Some(condition) = refused(model, equations, parameters) {
+        return Err(StateError::Refused { condition });
+    }
+    let names = |variables: &[Variable]| -> Vec<String> {
+        variables.iter().map(|v| v.name.clone()).collect()
+    };
+    let coordinates = names(&equations.coordinates);
+    let velocities = names(&equations.velocities);
+    check_length("q", "coordinates", state.q.len(), &coordinates)?;
+    check_length("v", "velocities", state.v.len(), &velocities)?;
+    check_quaternions(&coordinates, &state.q)?;
+    let laws = |key, what, states: &[LawState], given: &[f64]| {
+        let values = match given.is_empty() {
+            true => initial(model, equations, states, parameters),
+            false => given.to_vec(),
+        };
+        let names: Vec<String> = states.iter().map(|s| s.name.clone()).collect();
+        check_length(key, what, values.len(), &names).map(|()| values)
+    };
+    let z = laws(
+        "z",
+        "states of force laws",
+        &equations.auxiliaries,
+        &state.z,
+    )?;
+    let m = laws("m", "memories of force laws", &equations.memory, &state.m)?;
+    let inputs = Inputs {
+        time: state.t,
+        coordinates: &state.q,
+        velocities: &state.v,
+        parameters,
+        auxiliaries: &z,
+        memory: &m,
+    };
+    let mut roots: Vec<NodeId> = equations.mass_matrix.iter().flatten().copied().collect();
+    roots.extend(&equations.velocity_forces);
+    roots.extend(&equations.applied_forces);
+    roots.extend(&equations.accelerations);
+    let functions = functions_with(model, users);
+    let mut values = evaluate(&equations.graph, &roots, &inputs, &functions);
+    // a zero has no sign
+    values.iter_mut().for_each(|value| *value += 0.0);
+    let size = velocities.len();
+    let (matrix, vectors) = values.split_at(size * size);
+    check_finite(matrix, vectors, &velocities)?;
+    let mut vectors = vectors.chunks(size.max(1)).map(<[f64]>::to_vec);
+    let mut vector = || vectors.next().unwrap_or_default();
+    Ok(Evaluation {
+        coordinates,
+        velocities,
+        mass_matrix: matrix.chunks(size.max(1)).map(<[f64]>::to_vec).collect(),
+        r_s: vector(),
+        r_k: vector(),
+        acceleration: vector(),
+    })
+}
+
+/// Refuses a model with a user force whose function is not in `users`.
+fn knows_user_forces(model: &Model, users: Option<&dyn UserFunctions>) -> Result<(), StateError> {
     for (index, force) in model.forces.iter().enumerate() {
         let known = users.is_some_and(|users| users.knows(index));
         if let ForceKind::User(user) = &force.kind
@@ -127,94 +187,62 @@ pub fn at(
             });
         }
     }
-    if let Some(condition) = refused(model, equations, parameters) {
-        return Err(StateError::Refused { condition });
-    }
-    let names = |variables: &[bryant_generator::equations::Variable]| -> Vec<String> {
-        variables.iter().map(|v| v.name.clone()).collect()
-    };
-    let coordinates = names(&equations.coordinates);
-    let velocities = names(&equations.velocities);
-    let check = |key, what, given: usize, names: &Vec<String>| {
-        let names = names.clone();
-        if given == names.len() {
-            Ok(())
-        } else {
-            Err(StateError::Length {
-                key,
-                what,
-                given,
-                names,
-            })
-        }
-    };
-    check("q", "coordinates", state.q.len(), &coordinates)?;
-    check("v", "velocities", state.v.len(), &velocities)?;
-    check_quaternions(&coordinates, &state.q)?;
-    let laws = |states: &[LawState], given: &[f64]| {
-        if given.is_empty() {
-            initial(model, equations, states, parameters)
-        } else {
-            given.to_vec()
-        }
-    };
-    let law_names = |states: &[LawState]| states.iter().map(|s| s.name.clone()).collect();
-    let z = laws(&equations.auxiliaries, &state.z);
-    let m = laws(&equations.memory, &state.m);
-    let what = "states of force laws";
-    check("z", what, z.len(), &law_names(&equations.auxiliaries))?;
-    let what = "memories of force laws";
-    check("m", what, m.len(), &law_names(&equations.memory))?;
+    Ok(())
+}
 
-    let size = velocities.len();
-    let mut roots: Vec<NodeId> = equations.mass_matrix.iter().flatten().copied().collect();
-    roots.extend(&equations.velocity_forces);
-    roots.extend(&equations.applied_forces);
-    roots.extend(&equations.accelerations);
-    let inputs = Inputs {
-        time: state.t,
-        coordinates: &state.q,
-        velocities: &state.v,
-        parameters,
-        auxiliaries: &z,
-        memory: &m,
-    };
-    let mut values = evaluate(
-        &equations.graph,
-        &roots,
-        &inputs,
-        &functions_with(model, users),
-    );
-    // a zero has no sign
-    values.iter_mut().for_each(|value| *value += 0.0);
-    let (matrix, vectors) = values.split_at(size * size);
-    if let Some(entry) = matrix.iter().position(|value| !value.is_finite()) {
-        return Err(StateError::NotFinite {
-            quantity: "a number in the row of S",
-            velocity: velocities[entry / size].clone(),
-            value: matrix[entry],
-        });
+/// `given` numbers of a state must be as many as their names.
+fn check_length(
+    key: &'static str,
+    what: &'static str,
+    given: usize,
+    names: &[String],
+) -> Result<(), StateError> {
+    match given == names.len() {
+        true => Ok(()),
+        false => Err(StateError::Length {
+            key,
+            what,
+            given,
+            names: names.to_vec(),
+        }),
     }
-    let quantities = ["r_s", "r_k", "the acceleration"];
-    for (quantity, rows) in quantities.into_iter().zip(vectors.chunks(size.max(1))) {
-        if let Some(row) = rows.iter().position(|value| !value.is_finite()) {
+}
+
+/// S, by rows, and the vectors r_s, r_k and v̇, one after the other, must be finite.
+fn check_finite(matrix: &[f64], vectors: &[f64], velocities: &[String]) -> Result<(), StateError> {
+    let size = velocities.len().max(1);
+    let rows = matrix.chunks(size).enumerate();
+    let rows = rows.map(|(row, values)| ("a number in the row of S", row, values));
+    let quantities = ["r_s", "r_k", "the acceleration"].into_iter();
+    let entries = quantities
+        .zip(vectors.chunks(size))
+        .flat_map(|(quantity, vector)| {
+            let entries = vector.chunks(1).enumerate();
+            entries.map(move |(row, value)| (quantity, row, value))
+        });
+    for (quantity, row, values) in rows.chain(entries) {
+        if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
             return Err(StateError::NotFinite {
                 quantity,
                 velocity: velocities[row].clone(),
-                value: rows[row],
+                value,
             });
         }
     }
-    let mut vectors = vectors.chunks(size.max(1)).map(<[f64]>::to_vec);
-    let mut vector = || vectors.next().unwrap_or_default();
-    Ok(Evaluation {
-        coordinates,
-        velocities,
-        mass_matrix: matrix.chunks(size.max(1)).map(<[f64]>::to_vec).collect(),
-        r_s: vector(),
-        r_k: vector(),
-        acceleration: vector(),
-    })
+    Ok(())
+}
+
+/// The state in which a run begins.
+pub fn start(model: &Model, equations: &Equations, parameters: &[f64]) -> State {
+    let at = |roots: &[NodeId]| of_parameters(model, equations, roots, parameters);
+    let of_laws = |states: &[LawState]| initial(model, equations, states, parameters);
+    State {
+        t: 0.0,
+        q: at(&equations.initial_coordinates),
+        v: at(&equations.initial_velocities),
+        z: of_laws(&equations.auxiliaries),
+        m: of_laws(&equations.memory),
+    }
 }
 
 /// The states of force laws at the start of a run.

@@ -1,6 +1,6 @@
 //! The positions of all bodies: x_c = x_p + A_p s_c, from the root of each tree to its leaves.
 //!
-//! The coordinates of a tree are those of its reference joint, if it is free, followed by those of every element: the freedoms of its
+//! The coordinates of a tree are those of its reference joint, if it is free, followed by those of every element: the degrees of freedom of its
 //! joint, relative to its carrier, or its orientation on a ball joint: one angle in the plane, three Bryant angles or a unit quaternion (w,
 //! x, y, z) in space. Orientations are absolute. States in Bryant angles may be in another chart; they are converted to
 //! [quaternions](crate::orientation) first.
@@ -139,14 +139,14 @@ impl Pose {
                         rotation: rotation(own),
                         origin,
                     },
-                    Joint::Freedoms(freedoms) => {
+                    Joint::Freedoms(degrees_of_freedom) => {
                         let carrier = match (element.parent, &system.reference) {
                             (Some(parent), _) => frames[parent],
                             (None, Reference::Riding { vehicle, .. }) => vehicles[*vehicle],
                             (None, _) => Frame::ABSOLUTE,
                         };
                         let mut own = own.iter();
-                        let q: Vec<f64> = (freedoms.iter())
+                        let q: Vec<f64> = (degrees_of_freedom.iter())
                             .filter_map(|freedom| match &freedom.follows {
                                 None => own.next().copied(),
                                 Some(follows) => {
@@ -157,8 +157,12 @@ impl Pose {
                                 }
                             })
                             .collect();
-                        let (rotation, origin) =
-                            placed((carrier.rotation, origin), freedoms, &q, parameters);
+                        let (rotation, origin) = placed(
+                            (carrier.rotation, origin),
+                            degrees_of_freedom,
+                            &q,
+                            parameters,
+                        );
                         Frame { rotation, origin }
                     }
                 });

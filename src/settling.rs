@@ -245,10 +245,10 @@ impl<'m> Motion<'m> {
     /// Follows the accelerations by implicit steps of growing length, until the accelerations are small or all steps are used.
     fn follow(&mut self, small: f64) {
         let (count, first) = (self.state.len(), self.coordinates());
-        let freedoms = self.velocities().len();
+        let degrees_of_freedom = self.velocities().len();
         let (mut by_state, mut by_time) = (vec![0.0; count * count], vec![0.0; count]);
         let size = |rate: &[f64]| {
-            rate[first..first + freedoms]
+            rate[first..first + degrees_of_freedom]
                 .iter()
                 .map(|a| a * a)
                 .sum::<f64>()
@@ -264,7 +264,7 @@ impl<'m> Motion<'m> {
                 return;
             }
             self.evaluations += count as u64;
-            let pull = self.rate[first..first + freedoms]
+            let pull = self.rate[first..first + degrees_of_freedom]
                 .iter()
                 .fold(0.0, |most: f64, a| most.max(a.abs()));
             length = length.min(LONGEST / pull);
@@ -273,8 +273,8 @@ impl<'m> Motion<'m> {
                 let of_row = &by_state[(first + row) * count..][..first];
                 of_row.iter().zip(&columns[k]).map(|(a, b)| a * b).sum()
             };
-            let pulled: Vec<Vec<f64>> = (0..freedoms)
-                .map(|row| (0..freedoms).map(|k| entry(row, k)).collect())
+            let pulled: Vec<Vec<f64>> = (0..degrees_of_freedom)
+                .map(|row| (0..degrees_of_freedom).map(|k| entry(row, k)).collect())
                 .collect();
             loop {
                 let mut matrix = pulled.clone();
@@ -282,7 +282,10 @@ impl<'m> Motion<'m> {
                     row.iter_mut().for_each(|entry| *entry = -*entry);
                     row[i] += 1.0 / length;
                 }
-                let step = solved(matrix, self.rate[first..first + freedoms].to_vec());
+                let step = solved(
+                    matrix,
+                    self.rate[first..first + degrees_of_freedom].to_vec(),
+                );
                 let longest = step
                     .iter()
                     .fold(0.0, |most: f64, step| most.max(step.abs()));
@@ -304,7 +307,7 @@ impl<'m> Motion<'m> {
         }
     }
 
-    /// For each freedom, the rates of the coordinates at a velocity of 1.
+    /// For each degree of freedom, the rates of the coordinates at a velocity of 1.
     fn directions(&self) -> Vec<Vec<f64>> {
         let velocities = self.velocities();
         let column = |index: usize| {
@@ -317,7 +320,7 @@ impl<'m> Motion<'m> {
         velocities.clone().map(column).collect()
     }
 
-    /// The motion after a step in each freedom.
+    /// The motion after a step in each degree of freedom.
     fn moved(&self, columns: &[Vec<f64>], step: &[f64]) -> Motion<'m> {
         let mut moved = Motion {
             state: self.state.clone(),

@@ -18,19 +18,21 @@ pub struct Library {
     users: Option<Arc<dyn UserFunctions>>,
 }
 
+/// A curve as the runtime evaluates it.
+pub fn table(curve: &Curve) -> Table {
+    let beyond = extrapolate(curve.extrapolate);
+    match &curve.tangents {
+        None => Table::of_lines(&curve.points, beyond),
+        Some(tangents) => {
+            let points = curve.points.iter().zip(tangents);
+            let given: Vec<[f64; 3]> = points.map(|(&[x, y], &m)| [x, y, m]).collect();
+            Table::of_cubics(&given, beyond)
+        }
+    }
+}
+
 impl Library {
     pub fn new(curves: &[Curve], users: Option<Arc<dyn UserFunctions>>) -> Self {
-        let table = |curve: &Curve| {
-            let beyond = extrapolate(curve.extrapolate);
-            match &curve.tangents {
-                None => Table::of_lines(&curve.points, beyond),
-                Some(tangents) => {
-                    let points = curve.points.iter().zip(tangents);
-                    let given: Vec<[f64; 3]> = points.map(|(&[x, y], &m)| [x, y, m]).collect();
-                    Table::of_cubics(&given, beyond)
-                }
-            }
-        };
         Library {
             curves: curves.iter().map(table).collect(),
             users,

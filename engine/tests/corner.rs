@@ -242,7 +242,7 @@ fn fixed_steps_tell_of_what_they_do_not_see() {
                     end = sample.outputs[0];
                     ControlFlow::Continue(())
                 });
-                let told = done.is_err() || watch.doubts().next().is_some();
+                let told = done.is_err() || watch.diagnostics().next().is_some();
                 let mistake = match (told, step == RESOLVED) {
                     (true, true) => Some(format!("{speed} m/s: told for nothing")),
                     (true, false) => None,

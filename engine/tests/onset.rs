@@ -164,7 +164,7 @@ fn fixed_steps_tell_what_they_go_over() {
                 ControlFlow::Continue(())
             });
             // a step into a stiff obstacle may end in NaN, which is a warning, too
-            let told = done.is_err() || watch.doubts().next().is_some();
+            let told = done.is_err() || watch.diagnostics().next().is_some();
             told_of += usize::from(told);
             let mistake = judged_if_told(case, &exact[i], &end, told);
             wrong.extend(

@@ -555,6 +555,7 @@ fn sign_of(side: f64) -> f64 {
 
 /// A body that stops, compared with the same body that goes on. Before the stop both are equal. The body is at rest from the first time at
 /// which the other has turned back, and not before.
+// one loop, whose steps share the two bodies and their curve
 #[test]
 fn random_pulses_end_where_the_free_motion_turns() {
     let mut random = Random(7);

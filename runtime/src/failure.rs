@@ -1,6 +1,6 @@
 //! The ways in which a run can fail, in the words of the model.
 
-use crate::simulate::Beyond;
+use crate::simulate::OutOfRange;
 use crate::{Cause, Dynamics, Extrapolate, Formula, Info, Real};
 use core::fmt;
 
@@ -213,25 +213,104 @@ impl Failure {
     }
 }
 
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Failure {
+    /// "coordinate", "velocity" or another noun, and the name of an entry of the state.
+    fn entry(&self, index: usize) -> (&'static str, &'static str) {
+        let name = self.info.state_name(index).unwrap_or("?");
+        (self.info.state_noun(index), name)
+    }
+
+    /// Writes why a run was refused before it began; `None` for a run that began.
+    fn write_refusal(&self, f: &mut fmt::Formatter<'_>) -> Option<fmt::Result> {
         let info = self.info;
-        let entry = |index: usize| {
-            let kind = info.state_noun(index);
-            (kind, info.state_name(index).unwrap_or("?"))
-        };
-        match self.reason {
+        Some(match self.reason {
             Reason::InvalidSettings(Setting { name, value, must }) => {
-                return write!(f, "{name} is {value}, but must be {must}");
+                write!(f, "{name} is {value}, but must be {must}")
             }
             Reason::Refused(Refusal::NotFinite(index, value)) => {
                 let name = info.parameters.get(index).map_or("?", |p| p.name);
-                return write!(f, "the parameter \"{name}\" is {value}, but must be finite");
+                write!(f, "the parameter \"{name}\" is {value}, but must be finite")
             }
             Reason::Refused(Refusal::Condition(index)) => {
                 let condition = info.conditions.get(index).copied().unwrap_or("?");
-                return write!(f, "{condition}, which is not so with these parameters");
+                write!(f, "{condition}, which is not so with these parameters")
             }
+            _ => return None,
+        })
+    }
+
+    /// Writes what is not finite. `index` is that of an entry of the state, or of an output.
+    fn write_non_finite(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        of: Quantity,
+        index: usize,
+    ) -> fmt::Result {
+        let (t, (kind, name)) = (self.t, self.entry(index));
+        match of {
+            Quantity::InitialState => write!(f, "at the start the {kind} \"{name}\"")?,
+            Quantity::State => write!(f, "at t = {t} s the {kind} \"{name}\"")?,
+            Quantity::Derivative => write!(f, "at t = {t} s the rate of the {kind} \"{name}\"")?,
+            Quantity::Output => {
+                let outputs = self.info.outputs;
+                let name = outputs.get(index).map_or("?", |output| output.name);
+                write!(f, "at t = {t} s the output \"{name}\"")?;
+            }
+        }
+        f.write_str(" is not finite")
+    }
+
+    /// Writes what limited the last steps of a run that took too many.
+    fn write_limit(&self, f: &mut fmt::Formatter<'_>, cause: Cause, step: f64) -> fmt::Result {
+        let name = |names: &[&'static str], index: usize| names.get(index).copied().unwrap_or("?");
+        match cause {
+            Cause::Tolerance(index) => {
+                let (kind, name) = self.entry(index);
+                write!(
+                    f,
+                    "; the error of the {kind} \"{name}\" keeps steps at {step:.1e} s"
+                )
+            }
+            Cause::Kink(index) => {
+                let name = name(self.info.kinks, index);
+                write!(f, "; the kink \"{name}\" keeps steps at {step:.1e} s")
+            }
+            Cause::Guard(index) => {
+                let name = name(self.info.guards, index);
+                write!(f, "; the event \"{name}\" ends steps after {step:.1e} s")
+            }
+            Cause::Fixed => write!(f, "; the step is {step:e} s"),
+            _ => write!(f, "; the last step is {step:.1e} s"),
+        }
+    }
+
+    /// Writes the known cause in the model, if there is one.
+    fn write_culprit(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.culprit() {
+            Culprit::Unknown => Ok(()),
+            Culprit::Curve { curve, argument } => match self.info.curves.get(curve) {
+                Some(curve) => write!(f, ": {}", OutOfRange { curve, argument }),
+                None => Ok(()),
+            },
+            Culprit::Inertia { pivot, share } => {
+                let name = self.info.pivots.get(pivot).copied().unwrap_or("?");
+                write!(
+                    f,
+                    ": the inertia of \"{name}\" vanishes in this position ({share:.0e} of it is left)"
+                )
+            }
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(written) = self.write_refusal(f) {
+            return written;
+        }
+        let t = self.t;
+        match self.reason {
+            Reason::InvalidSettings(_) | Reason::Refused(_) => {}
             Reason::NoJacobian { formula } => {
                 write!(
                     f,
@@ -239,80 +318,27 @@ impl fmt::Display for Failure {
                 )?;
             }
             Reason::NonFinite {
-                index,
-                of: Quantity::Output,
-                ..
-            } => {
-                let name = info.outputs.get(index).map_or("?", |output| output.name);
-                write!(f, "at t = {} s the output \"{name}\" is not finite", self.t)?;
-            }
-            Reason::NonFinite {
                 index, of, output, ..
             } => {
-                let (kind, name) = entry(index);
-                match of {
-                    Quantity::InitialState => write!(f, "at the start the {kind} \"{name}\"")?,
-                    Quantity::State | Quantity::Output => {
-                        write!(f, "at t = {} s the {kind} \"{name}\"", self.t)?;
-                    }
-                    Quantity::Derivative => {
-                        write!(f, "at t = {} s the rate of the {kind} \"{name}\"", self.t)?;
-                    }
-                }
-                write!(f, " is not finite")?;
-                if let Some(output) = output.and_then(|i| info.outputs.get(i)) {
+                self.write_non_finite(f, of, index)?;
+                let output = output.filter(|_| of != Quantity::Output);
+                if let Some(output) = output.and_then(|i| self.info.outputs.get(i)) {
                     write!(f, ", nor is the output \"{}\"", output.name)?;
                 }
             }
             Reason::StepTooSmall { step, index, .. } => {
-                let (kind, name) = entry(index);
-                let t = self.t;
+                let (kind, name) = self.entry(index);
                 write!(
                     f,
                     "at t = {t} s the {kind} \"{name}\" asks for a step of {step:e} s"
                 )?;
             }
             Reason::TooManySteps { limit, cause, step } => {
-                let t = self.t;
                 write!(f, "at t = {t} s the limit of {limit} steps is reached")?;
-                let name =
-                    |names: &[&'static str], index: usize| names.get(index).copied().unwrap_or("?");
-                match cause {
-                    Cause::Tolerance(index) => {
-                        let (kind, name) = entry(index);
-                        write!(
-                            f,
-                            "; the error of the {kind} \"{name}\" keeps steps at {step:.1e} s"
-                        )?;
-                    }
-                    Cause::Kink(index) => {
-                        let name = name(info.kinks, index);
-                        write!(f, "; the kink \"{name}\" keeps steps at {step:.1e} s")?;
-                    }
-                    Cause::Guard(index) => {
-                        let name = name(info.guards, index);
-                        write!(f, "; the event \"{name}\" ends steps after {step:.1e} s")?;
-                    }
-                    Cause::Fixed => write!(f, "; the step is {step:e} s")?,
-                    _ => write!(f, "; the last step is {step:.1e} s")?,
-                }
+                self.write_limit(f, cause, step)?;
             }
         }
-        match self.culprit() {
-            Culprit::Unknown => {}
-            Culprit::Curve { curve, argument } => {
-                if let Some(curve) = info.curves.get(curve) {
-                    write!(f, ": {}", Beyond { curve, argument })?;
-                }
-            }
-            Culprit::Inertia { pivot, share } => {
-                let name = info.pivots.get(pivot).copied().unwrap_or("?");
-                write!(
-                    f,
-                    ": the inertia of \"{name}\" vanishes in this position ({share:.0e} of it is left)"
-                )?;
-            }
-        }
+        self.write_culprit(f)?;
         write!(f, "; likely cause: {}", self.cause())
     }
 }

@@ -205,8 +205,8 @@ pub use response::{Response, reduce};
 #[cfg(feature = "std")]
 pub use simulate::simulate;
 pub use simulate::{
-    Adaptive, Balance, Cause, Doubt, ENERGY_LIMIT, Method, Pace, Report, Sample, SampleKind,
-    Settings, Suspicion, Watch,
+    Adaptive, Balance, Cause, Diagnostic, ENERGY_LIMIT, Method, Pace, Problem, Report, Sample,
+    SampleKind, Settings, Watch,
 };
 pub use version::{GENERATED_CODE_VERSION, check_generated_code_version};
 

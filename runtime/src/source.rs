@@ -120,6 +120,7 @@ files! {
     "response/tests.rs",
     "response/value.rs",
     "simulate/balance.rs",
+    "simulate/diagnostic.rs",
     "simulate/event.rs",
     "simulate/excursion.rs",
     "simulate/mod.rs",

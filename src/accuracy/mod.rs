@@ -12,7 +12,7 @@
 //! | [`norm`], [`reading`], [`hic`] | errors in the state and in what an engineer reads |
 //! | [`run`], [`trajectory`] | one run of a setting; its samples |
 //! | [`point`], [`study`] | the result of one setting; of all of them |
-//! | [`front`], [`finding`] | the settings worth choosing, and the sentence about them |
+//! | [`front`], [`conclusion`] | the settings worth choosing, and the sentence about them |
 //! | [`fastest`] | the motion that bounds the steps of explicit methods |
 //! | [`report`] | table, CSV, JSON, Markdown |
 //! | [`target`] | a run as accurate as wanted |
@@ -21,12 +21,12 @@
 
 pub mod check;
 pub mod closed_form;
+pub mod conclusion;
 pub mod conditioning;
 mod elliptic;
 pub mod environment;
 pub mod exchange;
 pub mod fastest;
-pub mod finding;
 pub mod front;
 pub mod hic;
 pub mod norm;

@@ -8,9 +8,9 @@
 //! rounds over the points, those nearest to the front first, so that a disturbance of the machine slows all of them down.
 
 use super::closed_form::ClosedForm;
+use super::conclusion::bounded_by_stability;
 use super::environment::Environment;
 use super::fastest::{Fastest, fastest};
-use super::finding::bounded_by_stability;
 use super::front::Cost;
 use super::operations::Operations;
 use super::plan::{self, Request, Scene, Series};

@@ -7,9 +7,9 @@ use super::parameters::{parse_parameters, values_of};
 use super::prepare::{prepare, prepare_model};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
+use crate::accuracy::conclusion::Conclusion;
 use crate::accuracy::environment::Environment;
 use crate::accuracy::exchange::exchanged;
-use crate::accuracy::finding::Finding;
 use crate::accuracy::plan::{Range, Request};
 use crate::accuracy::point::Measure;
 use crate::accuracy::reading::Reading;
@@ -168,10 +168,10 @@ impl Arguments {
         };
         let study = self.study(&subject, environment, &effort, terminal)?;
         engine.check()?;
-        let finding = Finding::of(&study, self.accuracy);
+        let conclusion = Conclusion::of(&study, self.accuracy);
 
         // Files come first: a user who closes the pipe after ten lines still has them.
-        let results = self.results(&study, &finding, &places)?;
+        let results = self.results(&study, &conclusion, &places)?;
         let (prints, files): (Vec<_>, Vec<_>) =
             results.into_iter().partition(|(path, _)| is_standard(path));
         let mut written = Vec::new();
@@ -180,12 +180,12 @@ impl Arguments {
             written.push(path);
         }
         let printed = match prints.first() {
-            _ if self.json => terminal.print_json(&json::json(&study, &finding)),
+            _ if self.json => terminal.print_json(&json::json(&study, &conclusion)),
             Some((_, bytes)) => terminal.write(|out| out.write_all(bytes)),
             None => terminal.print(&format!(
                 "{}\n\n{}\n",
-                text::text(&study, &finding),
-                finding.sentence(&study)
+                text::text(&study, &conclusion),
+                conclusion.sentence(&study)
             )),
         };
         let printed = printed.and_then(|()| terminal.flush());
@@ -371,16 +371,16 @@ impl Arguments {
     fn results(
         &self,
         study: &Study,
-        finding: &Finding,
+        conclusion: &Conclusion,
         places: &Places,
     ) -> Result<Vec<(PathBuf, Vec<u8>)>, Error> {
         let mut results = Vec::new();
         if let Some(path) = &places.csv {
             let mut bytes = Vec::new();
-            csv::write(study, finding, &mut bytes).map_err(Error::system)?;
+            csv::write(study, conclusion, &mut bytes).map_err(Error::system)?;
             results.push((path.clone(), bytes));
         }
-        let drawing = diagram::diagram(study, finding).drawing();
+        let drawing = diagram::diagram(study, conclusion).drawing();
         for path in &places.pictures {
             let format = Format::of(path).unwrap_or(Format::Svg);
             results.push((path.clone(), drawing.bytes(format).map_err(Error::system)?));
@@ -388,7 +388,7 @@ impl Arguments {
         if let Some(path) = &self.markdown {
             let picture = places.pictures.iter().find(|path| !is_standard(path));
             let picture = picture.map(|picture| link(path, picture));
-            let section = markdown::section(study, finding, picture.as_deref(), &self.command());
+            let section = markdown::section(study, conclusion, picture.as_deref(), &self.command());
             results.push((path.clone(), section.into_bytes()));
         }
         Ok(results)

@@ -117,15 +117,15 @@ fn skeleton(model: &Model, force: &str) -> Result<String, Error> {
 }
 
 /// Number of velocities of a model.
-pub fn freedoms(model: &Model) -> usize {
+pub fn degrees_of_freedom(model: &Model) -> usize {
     model
         .systems
         .iter()
-        .map(|system| system_freedoms(model, system))
+        .map(|system| system_degrees_of_freedom(model, system))
         .sum()
 }
 
-fn system_freedoms(model: &Model, system: &System) -> usize {
+fn system_degrees_of_freedom(model: &Model, system: &System) -> usize {
     let reference = match (&system.reference, model.dimension) {
         (Reference::Free, Dimension::Plane) => 2,
         (Reference::Free, Dimension::Space) => 3,
@@ -211,7 +211,7 @@ fn as_text(model: &Model, costs: &Costs) -> String {
             "  system      {}: {}, {}, reference joint {}",
             system.name,
             counted(system.elements.len(), "element"),
-            counted(system_freedoms(model, system), "freedom"),
+            counted(system_degrees_of_freedom(model, system), "freedom"),
             reference(&system.reference)
         );
         for (index, element) in system.elements.iter().enumerate() {
@@ -269,10 +269,10 @@ fn defaults(model: &Model) -> Vec<f64> {
     model.parameters.iter().map(|p| p.default).collect()
 }
 
-/// The joints that the freedoms of an element follow.
+/// The joints that the degrees of freedom of an element follow.
 fn following(system: &System, element: usize) -> String {
-    let freedoms = system.elements[element].joint.freedoms().iter();
-    let leaders = freedoms.filter_map(|freedom| freedom.follows.as_ref());
+    let degrees_of_freedom = system.elements[element].joint.freedoms().iter();
+    let leaders = degrees_of_freedom.filter_map(|freedom| freedom.follows.as_ref());
     let named =
         leaders.map(|follows| format!(", follows {}", system.elements[follows.element].name));
     named.collect()
@@ -345,7 +345,7 @@ fn as_json(model: &Model, costs: &Costs) -> Value {
             json!({
                 "name": system.name,
                 "reference": reference(&system.reference),
-                "freedoms": system_freedoms(model, system),
+                "freedoms": system_degrees_of_freedom(model, system),
                 "elements": elements,
             })
         })
@@ -380,7 +380,7 @@ fn as_json(model: &Model, costs: &Costs) -> Value {
         "title": model.title,
         "digest": model.digest,
         "dimension": if model.dimension == Dimension::Plane { 2 } else { 3 },
-        "freedoms": freedoms(model),
+        "freedoms": degrees_of_freedom(model),
         "systems": systems,
         "forces": forces,
         "switches": switches,

@@ -32,10 +32,10 @@ pub struct Arguments {
     /// The run
     run: PathBuf,
 
-    /// The measurement that it is rated by
+    /// The measurement that the run is rated by
     measured: PathBuf,
 
-    /// A channel of the run and the channel of the measurement that it is rated by; may be repeated
+    /// A channel of the run, and the channel of the measurement for it; may be repeated
     #[arg(long = "channel", value_name = "RUN=MEASURED", value_parser = pair)]
     channels: Vec<(String, String)>,
 

@@ -66,13 +66,13 @@ pub struct Arguments {
     #[arg(long)]
     all: bool,
 
-    /// Print JSON: every effect, mentioned or not
+    /// Print JSON, with every effect, also those that the text does not mention
     #[arg(long)]
     json: bool,
 }
 
 /// A variant of the scene that is generated.
-struct Task {
+struct Derivation {
     variant: Variant,
     method: Method,
 }
@@ -89,15 +89,16 @@ impl Arguments {
         };
         let entries = effect::of_scene(&found.scene);
         let entries: Vec<Entry> = entries.into_iter().filter(|e| self.wants(e)).collect();
-        let (tasks, task_of) = tasks(model, &found.scene.written, &entries);
+        let (derivations, derivation_of) = derivations(model, &found.scene.written, &entries);
 
         interrupt::watch();
-        let whole = Whole::Count(tasks.len() as u64, "variants");
+        let whole = Whole::Count(derivations.len() as u64, "variants");
         let progress = Progress::new(terminal, "deriving".into(), whole);
         if !self.no_time {
-            progress.later(tasks.len() as f64 * time_of_one(&tasks[SCENE], users.clone())?);
+            progress
+                .later(derivations.len() as f64 * time_of_one(&derivations[SCENE], users.clone())?);
         }
-        let generated = generate(&tasks, &mut |done| progress.set(done as f64));
+        let generated = generate(&derivations, &mut |done| progress.set(done as f64));
         let (costs, mut lists): (Vec<Option<Cost>>, Vec<Option<Lists>>) =
             generated.into_iter().map(Option::unzip).unzip();
         let of = |index: usize| costs[index].as_ref();
@@ -106,8 +107,8 @@ impl Arguments {
         };
         let mut rows: Vec<(Row<'_>, Option<usize>)> = entries
             .iter()
-            .zip(&task_of)
-            .map(|(entry, task)| (row(entry, *task, &costs), *task))
+            .zip(&derivation_of)
+            .map(|(entry, derivation)| (row(entry, *derivation, &costs), *derivation))
             .collect();
         // the costliest first; effects that are out cost nothing and follow in the order of the scene
         rows.sort_by_key(|(row, _)| std::cmp::Reverse(cost(row)));
@@ -115,7 +116,7 @@ impl Arguments {
             scene: (scene.accelerations.clone(), None),
             again: None,
             general: (general.accelerations.clone(), None),
-            parameters: tasks[GENERAL].variant.model.parameters.len(),
+            parameters: derivations[GENERAL].variant.model.parameters.len(),
         };
 
         let table = Table::new(rows.iter().map(|(row, _)| row), &total, !self.no_time);
@@ -134,7 +135,7 @@ impl Arguments {
                 if interrupt::asked() {
                     break;
                 }
-                bench.time(group, &tasks, &mut total)?;
+                bench.time(group, &derivations, &mut total)?;
                 shown += group.len();
                 for (row, _) in group {
                     show(&table.row(row))?;
@@ -168,41 +169,45 @@ impl Arguments {
     }
 }
 
-/// Indices among the tasks: the scene itself, its outputs, and the scene with nothing left out.
+/// Indices among the derivations: the scene itself, its outputs, and the scene with nothing left out.
 const SCENE: usize = 0;
 const OUTPUTS: usize = 1;
 const GENERAL: usize = 2;
 
 /// The variants that are generated, and for each effect the index of its variant; `None` for an effect that is out or cannot be left out.
-fn tasks(model: &Model, written: &Model, entries: &[Entry]) -> (Vec<Task>, Vec<Option<usize>>) {
+fn derivations(
+    model: &Model,
+    written: &Model,
+    entries: &[Entry],
+) -> (Vec<Derivation>, Vec<Option<usize>>) {
     let all = Variant::of(model);
-    let of_accelerations = |variant: &Variant| Task {
+    let of_accelerations = |variant: &Variant| Derivation {
         variant: variant.clone().without_outputs(),
         method: Method::Accelerations,
     };
-    let mut tasks = vec![
+    let mut derivations = vec![
         of_accelerations(&all),
-        Task {
+        Derivation {
             variant: all.clone(),
             method: Method::Outputs,
         },
         of_accelerations(&Variant::of(&effect::general(written))),
     ];
-    let mut task_of = Vec::new();
+    let mut derivation_of = Vec::new();
     for entry in entries {
-        task_of.push(task(model, entry).map(|task| {
-            tasks.push(task);
-            tasks.len() - 1
+        derivation_of.push(derivation(model, entry).map(|derivation| {
+            derivations.push(derivation);
+            derivations.len() - 1
         }));
     }
-    (tasks, task_of)
+    (derivations, derivation_of)
 }
 
 /// The row of an effect, with its operations if they are known.
-fn row<'a>(entry: &'a Entry, task: Option<usize>, costs: &[Option<Cost>]) -> Row<'a> {
+fn row<'a>(entry: &'a Entry, derivation: Option<usize>, costs: &[Option<Cost>]) -> Row<'a> {
     let method = method(entry.effect);
     let base = costs[base(method)].as_ref();
-    let without = task.and_then(|index| costs[index].as_ref());
+    let without = derivation.and_then(|index| costs[index].as_ref());
     let difference = |(with, without): (&Cost, &Cost)| {
         Difference::between(count(with, method), count(without, method))
     };
@@ -261,17 +266,19 @@ impl<'a> Bench<'a> {
     fn time(
         &mut self,
         group: &mut [(Row<'_>, Option<usize>)],
-        tasks: &[Task],
+        derivations: &[Derivation],
         total: &mut Total,
     ) -> Result<(), Error> {
         let first = total.scene.1.is_none();
         let mut places = Vec::new();
         let mut engines = Vec::new();
-        for (place, (_, task)) in group.iter().enumerate() {
-            let Some(task) = *task else { continue };
-            if let Some(engine) = engine(self.lists, task, self.users.clone())? {
+        for (place, (_, derivation)) in group.iter().enumerate() {
+            let Some(derivation) = *derivation else {
+                continue;
+            };
+            if let Some(engine) = engine(self.lists, derivation, self.users.clone())? {
                 places.push(place);
-                engines.push((engine, tasks[task].method));
+                engines.push((engine, derivations[derivation].method));
             }
         }
         let general = match first {
@@ -304,7 +311,7 @@ impl<'a> Bench<'a> {
 }
 
 /// Time needed to time one effect \[s\], from the time of the scene, including its share of the scene that is timed with it.
-fn time_of_one(scene: &Task, users: Option<Arc<UserForces>>) -> Result<f64, Error> {
+fn time_of_one(scene: &Derivation, users: Option<Arc<UserForces>>) -> Result<f64, Error> {
     let (_, lists) = effect::counted(&scene.variant);
     let begin = Instant::now();
     let engine = equations::of_lists(lists, users).map_err(Error::system)?;
@@ -313,7 +320,7 @@ fn time_of_one(scene: &Task, users: Option<Arc<UserForces>>) -> Result<f64, Erro
     Ok(begin.elapsed().as_secs_f64() * (1.0 + bases / GROUP as f64))
 }
 
-/// The engine of a task, which may be taken once; `None` if its equations were not derived.
+/// The engine of a derivation, which may be taken once; `None` if its equations were not derived.
 fn engine(
     lists: &mut [Option<Lists>],
     index: usize,
@@ -327,10 +334,14 @@ fn engine(
 
 /// The sentence that says what an interruption left out.
 fn missing(rows: &[(Row<'_>, Option<usize>)], timed: bool) -> Option<String> {
-    let tasks = || rows.iter().filter(|(_, task)| task.is_some());
-    let all = tasks().count();
-    let derived = tasks().filter(|(row, _)| row.operations.is_none()).count();
-    let times = tasks().filter(|(row, _)| row.measured.is_none()).count();
+    let derivations = || rows.iter().filter(|(_, derivation)| derivation.is_some());
+    let all = derivations().count();
+    let derived = derivations()
+        .filter(|(row, _)| row.operations.is_none())
+        .count();
+    let times = derivations()
+        .filter(|(row, _)| row.measured.is_none())
+        .count();
     match (derived, times) {
         (0, 0) => None,
         (0, _) if !timed => None,
@@ -354,15 +365,15 @@ fn method(effect: Option<Effect>) -> Method {
 }
 
 /// The variant without an effect; `None` for an effect that is out or cannot be left out.
-fn task(model: &Model, entry: &Entry) -> Option<Task> {
+fn derivation(model: &Model, entry: &Entry) -> Option<Derivation> {
     let effect = entry.effect.filter(|_| entry.is_in)?;
     let variant = effect::without(model, effect)?;
     Some(match method(entry.effect) {
-        Method::Accelerations => Task {
+        Method::Accelerations => Derivation {
             variant: variant.without_outputs(),
             method: Method::Accelerations,
         },
-        Method::Outputs => Task {
+        Method::Outputs => Derivation {
             variant,
             method: Method::Outputs,
         },
@@ -370,8 +381,15 @@ fn task(model: &Model, entry: &Entry) -> Option<Task> {
 }
 
 /// The costs and lists of the variants that were derived before an interruption.
-fn generate(tasks: &[Task], progress: &mut dyn FnMut(usize)) -> Vec<Option<(Cost, Lists)>> {
-    parallel::map(tasks, |task| effect::counted(&task.variant), progress)
+fn generate(
+    derivations: &[Derivation],
+    progress: &mut dyn FnMut(usize),
+) -> Vec<Option<(Cost, Lists)>> {
+    parallel::map(
+        derivations,
+        |derivation| effect::counted(&derivation.variant),
+        progress,
+    )
 }
 
 fn count(cost: &Cost, method: Method) -> &Count {

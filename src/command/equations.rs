@@ -15,8 +15,7 @@ use bryant_generator::Config;
 use bryant_generator::description::load::read_file;
 use bryant_generator::description::tree::MAX_BYTES;
 use bryant_generator::dynamics::{derive, derive_in_first_chart};
-use bryant_generator::equations::{Equations, LawState, Variable};
-use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::equations::{Equations, Variable};
 use bryant_generator::expression::print::{Names, latex, text};
 use bryant_generator::expression::{NodeId, Symbol};
 use bryant_generator::model::{Coordinates, Curve, Dimension, Extrapolate, Interpolate, Model};
@@ -123,7 +122,7 @@ impl Arguments {
         let equations = derive(&model);
         drop(progress);
         let parameters = values_of(&model, &set);
-        let state = state.unwrap_or_else(|| start(&model, &equations, &parameters));
+        let state = state.unwrap_or_else(|| evaluation::start(&model, &equations, &parameters));
         let users = users_of(&found, &model, terminal)?;
         let functions = users.as_deref().map(|users| users as &dyn UserFunctions);
         let values = evaluation::at(&model, &equations, &parameters, &state, functions);
@@ -345,31 +344,6 @@ fn describe(curve: &Curve) -> String {
 
 /// At most this many points of a curve are listed.
 const POINTS_SHOWN: usize = 12;
-
-/// The state in which a run begins.
-fn start(model: &Model, equations: &Equations, parameters: &[f64]) -> State {
-    let functions = evaluation::functions(model);
-    let inputs = Inputs {
-        time: 0.0,
-        coordinates: &[],
-        velocities: &[],
-        parameters,
-        auxiliaries: &[],
-        memory: &[],
-    };
-    let at = |roots: &[NodeId]| evaluate(&equations.graph, roots, &inputs, &functions);
-    let initial_states = |states: &[LawState]| {
-        let roots: Vec<NodeId> = states.iter().map(|state| state.initial).collect();
-        at(&roots)
-    };
-    State {
-        t: 0.0,
-        q: at(&equations.initial_coordinates),
-        v: at(&equations.initial_velocities),
-        z: initial_states(&equations.auxiliaries),
-        m: initial_states(&equations.memory),
-    }
-}
 
 /// S as a grid; the vectors as columns beside their velocities.
 fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {

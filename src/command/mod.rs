@@ -7,6 +7,7 @@ mod compare;
 mod criteria;
 mod effects;
 mod equations;
+mod error_report;
 mod gradient;
 mod human;
 mod import;
@@ -23,7 +24,6 @@ mod settle;
 mod stability;
 mod sweep;
 mod terminal;
-mod trust;
 
 use crate::{interrupt, process};
 use bryant_generator::diagnostic::Diagnostics;

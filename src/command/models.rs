@@ -86,7 +86,7 @@ struct Row<'a> {
     dimension: u8,
     systems: usize,
     elements: usize,
-    freedoms: usize,
+    degrees_of_freedom: usize,
     title: &'a str,
 }
 
@@ -100,7 +100,7 @@ impl<'a> Row<'a> {
             },
             systems: model.systems.len(),
             elements: model.systems.iter().map(|s| s.elements.len()).sum(),
-            freedoms: super::check::freedoms(model),
+            degrees_of_freedom: super::check::degrees_of_freedom(model),
             title: &model.title,
         }
     }
@@ -111,7 +111,7 @@ impl<'a> Row<'a> {
             "dimension": self.dimension,
             "systems": self.systems,
             "elements": self.elements,
-            "freedoms": self.freedoms,
+            "freedoms": self.degrees_of_freedom,
             "title": self.title,
         })
     }
@@ -129,12 +129,12 @@ fn table(rows: &[Row<'_>]) -> String {
         dimension,
         systems,
         elements,
-        freedoms,
+        degrees_of_freedom,
         title,
     } in rows
     {
         let line = format!(
-            "{name:width$}  {dimension:>9}  {systems:>7}  {elements:>8}  {freedoms:>8}  {title}"
+            "{name:width$}  {dimension:>9}  {systems:>7}  {elements:>8}  {degrees_of_freedom:>8}  {title}"
         );
         text.push_str(line.trim_end());
         text.push('\n');

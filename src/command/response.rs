@@ -13,7 +13,7 @@ use bryant_study::facts::ModelFacts;
 use bryant_study::response::{self, NAMES, What, channel_of};
 
 /// A requested response.
-pub struct Response {
+pub struct Requested {
     /// Its name, the same as in a study.
     pub name: String,
     /// SI unit, "" for a pure number.
@@ -34,7 +34,7 @@ const MOST_SAMPLES: f64 = 1e6;
 pub fn intervals(
     every: f64,
     duration: f64,
-    responses: &[Response],
+    responses: &[Requested],
     bytes: usize,
 ) -> Result<usize, Error> {
     let fault = |what: &str, length: f64| {
@@ -84,23 +84,23 @@ pub fn too_coarse(class: Class, every: f64) -> Error {
 }
 
 /// The time between samples if the user gives none \[s\]: `usual`, or less if filters need it.
-pub fn sampling(usual: f64, responses: &[Response]) -> f64 {
-    let filters = responses.iter().filter_map(Response::filter);
+pub fn sampling(usual: f64, responses: &[Requested]) -> f64 {
+    let filters = responses.iter().filter_map(Requested::filter);
     filters.map(Class::longest_interval).fold(usual, f64::min)
 }
 
 /// Kinds of responses that need a time.
 const TIMED: [&str; 3] = ["value", "clip", "contiguous clip"];
 
-impl Response {
+impl Requested {
     /// Its filter, if it has one.
     pub fn filter(&self) -> Option<Class> {
         self.asked.channel.filter.map(|filter| filter.class)
     }
 
     /// The response of a study.
-    pub fn of_study(response: &response::Response) -> Response {
-        Response {
+    pub fn of_study(response: &response::Response) -> Requested {
+        Requested {
             name: response.name.clone(),
             unit: response.unit.clone(),
             window: response.what.window(),
@@ -122,105 +122,44 @@ impl Response {
         text: &str,
         facts: &ModelFacts,
         [start, end]: [f64; 2],
-    ) -> Result<Response, Error> {
+    ) -> Result<Requested, Error> {
         let words = text.replace('_', " ");
         let words = words.trim();
         if let Some(criterion) = Criterion::named(words) {
             return criteria::named(facts, criterion.name)
-                .map(|response| Response::of_study(&response))
+                .map(|response| Requested::of_study(&response))
                 .map_err(|message| Error::Input(format!("{option} '{words}': {message}")));
         }
+        let fault = |Fault { message, help }| {
+            Error::Input(format!(
+                "{option} '{}': {message}\n  help: {help}",
+                text.escape_debug()
+            ))
+        };
         let behind = words.rsplit_once(',');
         let behind = behind.and_then(|(before, last)| Some((before, Filter::named(last.trim())?)));
         let (words, filter) = match behind {
             Some((before, filter)) => (before.trim(), Some(filter.to_string())),
             None => (words, None),
         };
-        let known = || NAMES.map(|(name, _)| name).join(", ");
-        let fault = |message: String, help: String| {
-            Error::Input(format!(
-                "{option} '{}': {message}\n  help: {help}",
-                text.escape_debug()
-            ))
-        };
-        let (time_before, rest) = time_before(words).unwrap_or(("", words));
-        let Some((name, what, rest)) = kind(rest) else {
-            let said = words.split(" of ").next().unwrap_or(words);
-            let names = NAMES.map(|(name, _)| name);
-            let near = nearest(said, &names).map(|near| format!("did you mean \"{near}\"? "));
-            let near = near.unwrap_or_default();
-            return Err(fault(
-                "it does not begin with a response".into(),
-                format!("{near}write WHAT of OUTPUT with one of {}", known()),
-            ));
-        };
-        let (title, what, rest) = if TIMED.contains(&name) {
-            let (written, rest) = match (time_before, rest.split_once(" of ")) {
-                ("", Some((written, rest))) => {
-                    (written.trim().trim_start_matches("at ").trim(), rest)
-                }
-                ("", None) => ("", rest),
-                (time, _) => (time, rest.strip_prefix("of ").unwrap_or(rest)),
-            };
-            if written.is_empty() {
-                return Err(fault(
-                    format!("\"{name}\" needs a time"),
-                    match name {
-                        "value" => "write `value at 80 ms of OUTPUT`".into(),
-                        name => format!("write `3 ms {name} of OUTPUT`"),
-                    },
-                ));
-            }
-            let time = quantity::time(written)
-                .map_err(|error| fault(error.to_string(), "write a time".into()))?;
-            let what = match what {
-                What::Value { .. } => What::Value { at: time },
-                What::Clip { .. } => What::Clip { duration: time },
-                _ => What::ContiguousClip { duration: time },
-            };
-            let outside = match what {
-                What::Value { .. } => !(start..=end).contains(&time),
-                _ => time > end - start,
-            };
-            if outside && start > 0.0 {
-                return Err(fault(
-                    format!("{time} s is outside of the run from {start} s to {end} s"),
-                    "take a time within it".into(),
-                ));
-            }
-            if outside {
-                return Err(fault(
-                    format!("{time} s is beyond the run of {end} s"),
-                    "take an earlier time, or a longer run by --duration".into(),
-                ));
-            }
-            // the same title as in a study
-            let title = match what {
-                What::Value { .. } => format!("value at {written}"),
-                _ => format!("{written} {name}"),
-            };
-            (title, what, rest)
-        } else {
-            let rest = rest.strip_prefix("of ").unwrap_or(rest);
-            (name.to_owned(), what, rest)
-        };
-        let output = output(rest.trim(), facts).map_err(|help| {
-            fault(
-                format!("no output is \"{}\"", rest.trim().escape_debug()),
+        let (title, what, rest) = titled(words, [start, end]).map_err(fault)?;
+        let output = output(rest, facts).map_err(|help| {
+            fault(Fault {
+                message: format!("no output is \"{}\"", rest.escape_debug()),
                 help,
-            )
+            })
         })?;
         let of = &facts.outputs[output];
         if what.is_injury_criterion() && of.unit != "m/s^2" {
-            return Err(fault(
-                format!(
-                    "{name} needs an acceleration, and \"{}\" is in {}",
+            return Err(fault(Fault {
+                message: format!(
+                    "{title} needs an acceleration, and \"{}\" is in {}",
                     of.name, of.unit
                 ),
-                "name an output in m/s^2".into(),
-            ));
+                help: "name an output in m/s^2".into(),
+            }));
         }
-        Ok(Response {
+        Ok(Requested {
             name: match &filter {
                 Some(filter) => format!("{title} of {}, {filter}", of.name),
                 None => format!("{title} of {}", of.name),
@@ -232,6 +171,80 @@ impl Response {
                 response: response_of(what),
             },
         })
+    }
+}
+
+/// Why a response cannot be read, and what to write instead.
+struct Fault {
+    message: String,
+    help: String,
+}
+
+/// The response that a text begins with: its title, as in a study, its kind, and the name of the output that follows.
+fn titled(words: &str, [start, end]: [f64; 2]) -> Result<(String, What, &str), Fault> {
+    let (time_before, rest) = time_before(words).unwrap_or(("", words));
+    let Some((name, what, rest)) = kind(rest) else {
+        let said = words.split(" of ").next().unwrap_or(words);
+        let names = NAMES.map(|(name, _)| name);
+        let near = nearest(said, &names).map(|near| format!("did you mean \"{near}\"? "));
+        let near = near.unwrap_or_default();
+        return Err(Fault {
+            message: "it does not begin with a response".into(),
+            help: format!(
+                "{near}write WHAT of OUTPUT with one of {}",
+                names.join(", ")
+            ),
+        });
+    };
+    if !TIMED.contains(&name) {
+        let output = rest.strip_prefix("of ").unwrap_or(rest);
+        return Ok((name.to_owned(), what, output.trim()));
+    }
+    let (written, output) = match (time_before, rest.split_once(" of ")) {
+        ("", Some((written, rest))) => (written.trim().trim_start_matches("at ").trim(), rest),
+        ("", None) => ("", rest),
+        (time, _) => (time, rest.strip_prefix("of ").unwrap_or(rest)),
+    };
+    if written.is_empty() {
+        return Err(Fault {
+            message: format!("\"{name}\" needs a time"),
+            help: match name {
+                "value" => "write `value at 80 ms of OUTPUT`".into(),
+                name => format!("write `3 ms {name} of OUTPUT`"),
+            },
+        });
+    }
+    let time = quantity::time(written).map_err(|error| Fault {
+        message: error.to_string(),
+        help: "write a time".into(),
+    })?;
+    let (what, title, outside) = match what {
+        What::Value { .. } => (
+            What::Value { at: time },
+            format!("value at {written}"),
+            !(start..=end).contains(&time),
+        ),
+        What::Clip { .. } => (
+            What::Clip { duration: time },
+            format!("{written} {name}"),
+            time > end - start,
+        ),
+        _ => (
+            What::ContiguousClip { duration: time },
+            format!("{written} {name}"),
+            time > end - start,
+        ),
+    };
+    match (outside, start > 0.0) {
+        (false, _) => Ok((title, what, output.trim())),
+        (true, true) => Err(Fault {
+            message: format!("{time} s is outside of the run from {start} s to {end} s"),
+            help: "take a time within it".into(),
+        }),
+        (true, false) => Err(Fault {
+            message: format!("{time} s is beyond the run of {end} s"),
+            help: "take an earlier time, or a longer run by --duration".into(),
+        }),
     }
 }
 
@@ -295,8 +308,8 @@ mod tests {
         ModelFacts::of(&bundled::scene(bundled::find("child-seat").unwrap()).unwrap())
     }
 
-    fn read(text: &str, model: &ModelFacts) -> Result<Response, Error> {
-        Response::read("--of", text, model, [0.0, 0.12])
+    fn read(text: &str, model: &ModelFacts) -> Result<Requested, Error> {
+        Requested::read("--of", text, model, [0.0, 0.12])
     }
 
     #[test]
@@ -421,7 +434,7 @@ mod tests {
 
     #[test]
     fn times_are_within_a_run_that_begins_later() {
-        let read = |text| Response::read("--response", text, &seat(), [0.06, 0.12]);
+        let read = |text| Requested::read("--response", text, &seat(), [0.06, 0.12]);
         assert!(read("value at 80 ms of head excursion").is_ok());
         for text in [
             "value at 50 ms of head excursion",

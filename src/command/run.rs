@@ -3,6 +3,7 @@
 mod beside;
 mod criteria;
 mod files;
+mod outcome;
 mod report;
 mod responses;
 
@@ -10,33 +11,32 @@ use super::Error;
 use super::accuracy::accuracy;
 use super::caution::{self, singular::Near};
 use super::compare::{filter_standard, pair};
-use super::model_argument::find;
+use super::error_report::ErrorReport;
+use super::model_argument::{Found, find};
 use super::outputs;
 use super::parameters::parse_parameters;
 use super::prepare::{by_rustc, prepare};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
-use super::trust::Trust;
 use crate::accuracy::check::{self, Verdict};
 use crate::accuracy::conditioning;
 use crate::accuracy::fastest::fastest;
 use crate::accuracy::setting::Setting;
 use crate::accuracy::target;
 use crate::build_on_demand::RustcModel;
+use crate::equations::Engine;
 use crate::interrupt;
 use crate::picture::{Format, View};
 use crate::simulation::{self, Recording, Runs};
 use crate::{balance, quantity, state_file};
 use bryant_generator::model::{Model, Scene};
-use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
+use bryant_runtime::program::{ErrorKind, Finding, Job, RunError};
 use bryant_runtime::response::filter::Standard;
-use bryant_runtime::{Cause, Formula, Method, Tolerances};
-use bryant_study::table::parquet::{Numbers, write_numbers};
+use bryant_runtime::{Formula, Method, Tolerances};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use files::Files;
 use responses::Responses;
-use serde_json::json;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -86,7 +86,8 @@ pub struct Arguments {
     #[arg(long)]
     verify: bool,
 
-    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance. Where outputs or responses differ by more than 0.1 %, the run is repeated sharper
+    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance. If outputs or responses differ
+    /// by more than 0.1 %, the run is repeated at a smaller tolerance
     #[arg(long, conflicts_with = "verify")]
     no_verify: bool,
 
@@ -129,7 +130,7 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     max_steps: Option<u64>,
 
-    /// Share of energy and momentum that may be missing in their balances; where more is missing, the run cannot be trusted; or off
+    /// Share of energy and momentum that may be missing in their balances, or off. If more is missing, the run cannot be trusted
     /// [default: 2%]
     #[arg(long, value_name = "SHARE", value_parser = energy_limit, allow_hyphen_values = true)]
     energy_limit: Option<f64>,
@@ -151,7 +152,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 
-    /// Write a report: one page of HTML with the motion, the curves and what the run says of itself; any browser shows it, without a network
+    /// Write a report: one page of HTML with the motion, the curves and the messages of the run; any browser shows it, without a network
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
 
@@ -186,7 +187,7 @@ pub struct Arguments {
     #[arg(long)]
     no_files: bool,
 
-    /// Plot columns of the table over one of them, NAMES over NAME, or over time; may be repeated
+    /// Plot columns of the table over time, or over another column as NAMES over NAME; may be repeated
     #[arg(long, value_name = "'NAMES over NAME'", allow_hyphen_values = true)]
     plot: Vec<String>,
 
@@ -199,7 +200,7 @@ pub struct Arguments {
     )]
     corridor: Vec<String>,
 
-    /// Response that is read off the run, WHAT of OUTPUT, as a study heads its columns: 'HIC15 of head acceleration', '3 ms clip of chest
+    /// Response that is read off the run, as WHAT of OUTPUT: 'HIC15 of head acceleration', '3 ms clip of chest
     /// acceleration', 'time of peak of belt force', 'value at 80 ms of head excursion'. Some words of an output's name suffice. May be
     /// repeated
     #[arg(
@@ -306,22 +307,9 @@ impl Arguments {
             Some(compiled) => compiled,
             None => &*engine,
         };
-        let (mut recording, trust) = self.record(evaluated, &job, &found.model, terminal);
+        let (mut recording, errors) = self.record(evaluated, &job, &found.model, terminal);
         engine.check()?;
-        if matches!(&recording.result, Err(error) if error.kind == ErrorKind::Time) {
-            let looking = LOOKING.min(self.time_limit.unwrap_or(TIME_LIMIT));
-            let fastest = fastest(&engine, &job, &recording.parameters(&job), looking);
-            if let (Some(fastest), Err(error)) = (fastest, &mut recording.result) {
-                error.cause = fastest.text();
-            }
-        }
-        match &recording.result {
-            Ok(_) => doubt_singular_start(&found.model, &job, &mut recording),
-            Err(error) if error.kind == ErrorKind::Run => {
-                look_for_singular_joint(&found.model, &job, &mut recording);
-            }
-            Err(_) => {}
-        }
+        self.look_for_cause(&engine, &found.model, &job, &mut recording);
         if let Some(failure) = compiled.as_ref().and_then(RustcModel::failure) {
             return Err(Error::failed(failure.to_owned()));
         }
@@ -331,65 +319,50 @@ impl Arguments {
             return Err(Error::Run(error.clone()));
         }
 
-        let verdict = responses.verdict(&recording);
-        // Files come first: a user who closes the pipe after ten lines still has them.
-        let mut written = files.write(&self, &found.model, &job, &recording)?;
-        if let Some(path) = &self.report {
-            let of_run = (&recording, &trust);
-            let judged = verdict.as_ref().map(judged_json);
-            let page = report::html(&self, &found, &job, of_run, (&responses, judged), terminal)?;
-            crate::files::replace(path, |out| out.write_all(page.as_bytes()))
-                .map_err(Error::system)?;
-            written.push(path.clone());
-        }
-        if let Some(path) = &self.parquet {
-            crate::files::replace(path, |out| parquet(out, &found.model.name, &recording))
-                .map_err(Error::system)?;
-            written.push(path.clone());
-        }
-        if let Some(path) = &self.animation {
-            let file = report::animation(&found, &job, &recording)?;
-            crate::files::replace(path, |out| out.write_all(&file)).map_err(Error::system)?;
-            written.push(path.clone());
-        }
-        let written = written;
-        let printed = match self.json {
-            true => {
-                let mut value = self.json(&job, &recording, &trust, &written);
-                value["responses"] = responses.json(&recording, &trust);
-                if let Some(verdict) = &verdict {
-                    value["criteria"] = judged_json(verdict);
-                }
-                terminal.print_json(&value)
-            }
-            false => {
-                let mut told = responses.text(&recording, &trust);
-                if let Some(verdict) = &verdict {
-                    let text = verdict.as_ref().map(crate::criteria::Verdict::text);
-                    told.push_str(&format!(
-                        "\n{}",
-                        text.as_deref().unwrap_or(
-                            "The criteria are not judged: the run did not come to its end, or cannot be trusted.\n"
-                        )
-                    ));
-                }
-                files.print(&self, &found.model, &job, &recording, &told, terminal)
-            }
+        let done = Done {
+            arguments: &self,
+            found: &found,
+            job: &job,
+            recording: &recording,
+            errors: &errors,
+            responses: &responses,
+            verdict: responses.verdict(&recording),
         };
+        // Files come first: a user who closes the pipe after ten lines still has them.
+        let written = done.write(&files, terminal)?;
+        let printed = done.print(&files, &written, terminal);
         let printed = printed.and_then(|()| terminal.flush());
         for file in &written {
             terminal.note(&format!("wrote {}", file.display()));
         }
         let duration = job.duration.unwrap_or(found.model.run.duration);
-        let outcome = self.conclude(&recording, &trust, duration, terminal);
+        let outcome = self.conclude(&recording, &errors, duration, terminal);
         terminal.end(printed, outcome)
+    }
+
+    /// Looks for what made a run slow, or for a joint in a singular position.
+    fn look_for_cause(&self, engine: &Engine, model: &Model, job: &Job, recording: &mut Recording) {
+        match &recording.result {
+            Ok(_) => doubt_singular_start(model, job, recording),
+            Err(error) if error.kind == ErrorKind::Time => {
+                let looking = LOOKING.min(self.time_limit.unwrap_or(TIME_LIMIT));
+                let fastest = fastest(engine, job, &recording.parameters(job), looking);
+                if let (Some(fastest), Err(error)) = (fastest, &mut recording.result) {
+                    error.cause = fastest.text();
+                }
+            }
+            Err(error) if error.kind == ErrorKind::Run => {
+                look_for_singular_joint(model, job, recording);
+            }
+            Err(_) => {}
+        }
     }
 
     /// Prints the cost of the run and how far it can be trusted; an error if it cannot be trusted or did not reach its end.
     fn conclude(
         &self,
         recording: &Recording,
-        trust: &Trust,
+        errors: &ErrorReport,
         duration: f64,
         terminal: &mut Terminal,
     ) -> Result<(), Error> {
@@ -398,17 +371,17 @@ impl Arguments {
                 if let Some(energy) = &recording.energy {
                     terminal.note(&balance::text(&recording.header, energy, self.energy));
                 }
-                terminal.note(&report(recording));
-                for line in trust.lines().iter().chain(&recording.notes) {
+                terminal.note(&outcome::report(recording));
+                for line in errors.lines().iter().chain(&recording.notes) {
                     terminal.note(line);
                 }
-                doubtful(recording)?;
+                outcome::doubtful(recording)?;
                 if interrupt::asked() && (self.accuracy.is_some() || !self.no_verify) {
                     return Err(Error::Interrupted(
                         "the table is complete, but not all of the runs that its error is estimated from were done".into(),
                     ));
                 }
-                trust.check()
+                errors.check()
             }
             Err(error) if error.kind == ErrorKind::Stopped => Err(Error::Interrupted(format!(
                 "{}; the samples after t = {} s up to {duration} s are missing",
@@ -416,7 +389,7 @@ impl Arguments {
                 recording.last_time(),
             ))),
             Err(error) => Err(Error::Run(RunError {
-                message: failure(error, recording),
+                message: outcome::failure(error, recording),
                 ..error.clone()
             })),
         }
@@ -488,7 +461,7 @@ impl Arguments {
         job: &Job,
         model: &Model,
         terminal: &Terminal,
-    ) -> (Recording, Trust) {
+    ) -> (Recording, ErrorReport) {
         let duration = job.duration.unwrap_or(model.run.duration);
         let what = format!("running {}", model.name);
         let begin = job.start.as_ref().map_or(0.0, |start| start.t);
@@ -496,26 +469,26 @@ impl Arguments {
         let mut hear = |t: f64| progress.set(t - begin);
         interrupt::watch();
         let chosen = job.method.is_some();
-        let (recording, trust) = match self.accuracy {
+        let (recording, errors) = match self.accuracy {
             Some(wanted) => {
                 let accurate = target::run(engine, job, wanted, &mut hear);
-                let trust = Trust::of_accurate(&accurate, wanted);
-                (accurate.recording, trust)
+                let errors = ErrorReport::of_accurate(&accurate, wanted);
+                (accurate.recording, errors)
             }
             None if self.verify || self.no_verify => {
                 let recording = simulation::run(engine, job, &mut hear);
-                let trust = Trust::new(&recording.header, chosen);
-                (recording, trust)
+                let errors = ErrorReport::new(&recording.header, chosen);
+                (recording, errors)
             }
             None => {
                 let checked = check::run(engine, job, chosen, &mut hear);
-                let trust = Trust::of_checked(&checked);
-                (checked.recording, trust)
+                let errors = ErrorReport::of_checked(&checked);
+                (checked.recording, errors)
             }
         };
-        let trust = match self.verify && recording.result.is_ok() {
+        let errors = match self.verify && recording.result.is_ok() {
             true => {
-                let opinion = target::second_opinion(&trust.setting().unwrap_or(Setting::of(job)));
+                let opinion = target::second_opinion(&errors.setting().unwrap_or(Setting::of(job)));
                 let patience = f64::INFINITY;
                 let second = check::second(engine, job, &opinion, patience, &mut hear);
                 let floors = conditioning::reach(engine, job, &recording);
@@ -526,72 +499,103 @@ impl Arguments {
                     (&job.reading.asked, &[]),
                     patience,
                 );
-                trust.verified(opinion, verdict)
+                errors.verified(opinion, verdict)
             }
-            false => trust,
+            false => errors,
         };
         drop(progress);
-        (recording, trust)
+        (recording, errors)
+    }
+}
+
+/// A run that is over, with all that its results are made of.
+struct Done<'a> {
+    arguments: &'a Arguments,
+    found: &'a Found,
+    job: &'a Job,
+    recording: &'a Recording,
+    errors: &'a ErrorReport,
+    responses: &'a Responses,
+    /// `None` if no criteria are requested, `Some(None)` if they are not judged.
+    verdict: Option<Option<crate::criteria::Verdict>>,
+}
+
+impl Done<'_> {
+    /// Writes all files; returns their paths.
+    fn write(&self, files: &Files, terminal: &Terminal) -> Result<Vec<PathBuf>, Error> {
+        let Done {
+            arguments,
+            found,
+            job,
+            recording,
+            ..
+        } = *self;
+        let mut written = files.write(arguments, &found.model, job, recording)?;
+        if let Some(path) = &arguments.report {
+            let of_run = (recording, self.errors);
+            let judged = self.verdict.as_ref().map(judged_json);
+            let judged = (self.responses, judged);
+            let page = report::html(arguments, found, job, of_run, judged, terminal)?;
+            crate::files::replace(path, |out| out.write_all(page.as_bytes()))
+                .map_err(Error::system)?;
+            written.push(path.clone());
+        }
+        if let Some(path) = &arguments.parquet {
+            crate::files::replace(path, |out| {
+                files::parquet(out, &found.model.name, recording)
+            })
+            .map_err(Error::system)?;
+            written.push(path.clone());
+        }
+        if let Some(path) = &arguments.animation {
+            let file = report::animation(found, job, recording)?;
+            crate::files::replace(path, |out| out.write_all(&file)).map_err(Error::system)?;
+            written.push(path.clone());
+        }
+        Ok(written)
     }
 
-    fn json(
+    /// Prints the table, the responses and the verdict, or all of it as JSON.
+    fn print(
         &self,
-        job: &Job,
-        recording: &Recording,
-        trust: &Trust,
+        files: &Files,
         written: &[PathBuf],
-    ) -> serde_json::Value {
-        let mut value = recording.table.json();
-        value["model"] = json!(recording.header.name);
-        value["digest"] = json!(recording.header.digest);
-        let parameters = recording
-            .header
-            .parameters
-            .iter()
-            .zip(recording.parameters(job));
-        let parameters = parameters
-            .map(|(p, value)| (p.name.clone(), json!({ "value": value, "unit": p.unit })))
-            .collect::<serde_json::Map<_, _>>();
-        value["parameters"] = json!(parameters);
-        value["files"] = json!(written);
-        value["engine"] = json!(self.engine);
-        if let Some(energy) = &recording.energy {
-            value["energy"] = balance::json(&recording.header, energy);
-        }
-        value["doubts"] = doubts(&recording.doubts);
-        value["notes"] = json!(recording.notes);
-        value["accuracy"] = trust.json();
-        match &recording.result {
-            Ok(report) => {
-                let wall = recording.wall.as_secs_f64();
-                value["report"] = json!({
-                    "start_s": recording.first_time(),
-                    "simulated_s": report.t - recording.first_time(),
-                    "wall_s": wall,
-                    "simulated_per_wall": (report.t - recording.first_time()) / wall,
-                    "steps": report.steps,
-                    "rejected": report.rejected,
-                    "evaluations": report.evaluations,
-                    "jacobians": report.jacobians,
-                    "events": report.events,
-                    "samples": report.samples,
-                    "smallest_step_s": report.smallest_step,
-                    "smallest_step_at_s": report.smallest_step_at,
-                    "smallest_step_for": cause(report.smallest_step_for, &recording.header),
-                    "largest_step_s": report.largest_step,
-                });
+        terminal: &mut Terminal,
+    ) -> Result<(), Error> {
+        let Done {
+            arguments,
+            job,
+            recording,
+            errors,
+            responses,
+            ..
+        } = *self;
+        if arguments.json {
+            let mut value = outcome::json(&arguments.engine, job, recording, errors, written);
+            value["responses"] = responses.json(recording, errors);
+            if let Some(verdict) = &self.verdict {
+                value["criteria"] = judged_json(verdict);
             }
-            Err(error) => {
-                value["failure"] = json!({
-                    "time_s": error.t,
-                    "element": element(error),
-                    "coordinate": error.coordinate,
-                    "cause": error.cause,
-                    "message": error.message,
-                });
+            return terminal.print_json(&value);
+        }
+        let mut text = responses.text(recording, errors);
+        if let Some(verdict) = &self.verdict {
+            text.push('\n');
+            match verdict {
+                Some(verdict) => text.push_str(&verdict.text()),
+                None => text.push_str(
+                    "The criteria are not judged: the run did not come to its end, or cannot be trusted.\n",
+                ),
             }
         }
-        value
+        files.print(
+            arguments,
+            &self.found.model,
+            job,
+            recording,
+            &text,
+            terminal,
+        )
     }
 }
 
@@ -624,103 +628,10 @@ pub(super) fn time_limit(text: &str) -> Result<f64, String> {
     }
 }
 
-/// An error if the run reached its end but cannot be trusted: since when, why, and what to do.
-fn doubtful(recording: &Recording) -> Result<(), Error> {
-    let Some(first) = recording.doubts.first() else {
-        return Ok(());
-    };
-    let mut lines = vec!["the simulation cannot be trusted:".to_owned()];
-    lines.extend(
-        recording
-            .doubts
-            .iter()
-            .map(|doubt| format!("  {}", doubt.message)),
-    );
-    // only the first cause needs a remedy: the others follow from it
-    lines.push(format!("  help: {}", first.remedy));
-    Err(Error::Run(RunError {
-        kind: ErrorKind::Run,
-        t: Some(first.since),
-        coordinate: Some(first.coordinate.clone()).filter(|name| !name.is_empty()),
-        cause: first.message.clone(),
-        message: lines.join("\n"),
-    }))
-}
-
-/// Why a run cannot be trusted, as JSON.
-fn doubts(doubts: &[Finding]) -> serde_json::Value {
-    let doubt = |doubt: &Finding| {
-        json!({
-            "since_s": doubt.since,
-            "kind": doubt.kind,
-            "amount": doubt.amount,
-            "coordinate": Some(&doubt.coordinate).filter(|name| !name.is_empty()),
-            "message": doubt.message,
-            "remedy": doubt.remedy,
-        })
-    };
-    doubts.iter().map(doubt).collect()
-}
-
 /// The integrators that estimate their error, by name.
 fn with_tolerances() -> String {
     let estimating = Formula::ALL.into_iter().filter(|f| f.estimates_error());
     estimating.map(Formula::name).collect::<Vec<_>>().join(", ")
-}
-
-/// The cause of the length of a step, with the names of the model.
-fn cause(cause: Cause, header: &Header) -> String {
-    let named = |names: &[String], index: usize| names.get(index).cloned().unwrap_or_default();
-    match cause {
-        Cause::First => "the first".into(),
-        Cause::Tolerance(index) => {
-            let states = [
-                &header.coordinates,
-                &header.velocities,
-                &header.auxiliaries,
-                &header.memory,
-            ];
-            let names: Vec<String> = states.into_iter().flatten().cloned().collect();
-            let coordinates = header.coordinates.len();
-            let kind = match index {
-                index if index < coordinates => "coordinate",
-                index if index < coordinates + header.velocities.len() => "velocity",
-                _ => "state of a force law",
-            };
-            format!("tolerance of the {kind} {}", named(&names, index))
-        }
-        Cause::Largest => "largest step allowed".into(),
-        Cause::Fixed => "fixed steps".into(),
-        Cause::Breakpoint => "kink of a curve of time".into(),
-        Cause::Sample => "row of the table".into(),
-        Cause::Kink(index) => format!("kink: {}", named(&header.kinks, index)),
-        Cause::Guard(index) => format!("event: {}", named(&header.guards, index)),
-        Cause::End => "end of the run".into(),
-    }
-}
-
-/// The table of a run as Apache Parquet; its metadata have units, model, digest and version.
-fn parquet(
-    out: &mut dyn std::io::Write,
-    model: &str,
-    recording: &Recording,
-) -> std::io::Result<()> {
-    let columns = &recording.table.columns;
-    let units = columns
-        .iter()
-        .map(|c| (c.name.clone(), c.unit.clone().into()));
-    let units: serde_json::Map<String, serde_json::Value> = units.collect();
-    let metadata = [
-        ("units", serde_json::Value::Object(units).to_string()),
-        ("model", model.to_owned()),
-        ("digest", recording.header.digest.clone()),
-        ("version", env!("CARGO_PKG_VERSION").to_owned()),
-    ];
-    let numbers = columns.iter().map(|column| Numbers {
-        name: &column.name,
-        values: &column.values,
-    });
-    write_numbers(out, model, &numbers.collect::<Vec<_>>(), &metadata)
 }
 
 /// Names a joint in a singular position as the cause of a failure, if there is one.
@@ -740,7 +651,7 @@ fn look_for_singular_joint(model: &Model, job: &Job, recording: &mut Recording) 
     }
 }
 
-/// Doubts a run that starts in a singular position of a joint: rounding alone says how it leaves that.
+/// Adds a finding for a run that starts in a singular position of a joint: rounding errors alone decide how it leaves this position.
 fn doubt_singular_start(model: &Model, job: &Job, recording: &mut Recording) {
     let coordinates = &recording.header.coordinates;
     let value = |name: &str| {
@@ -761,127 +672,4 @@ fn doubt_singular_start(model: &Model, job: &Job, recording: &mut Recording) {
         remedy,
     };
     recording.doubts.insert(0, start);
-}
-
-/// What the run took, in one line.
-fn report(recording: &Recording) -> String {
-    let Ok(report) = &recording.result else {
-        return String::new();
-    };
-    let wall = recording.wall.as_secs_f64();
-    let simulated = report.t - recording.first_time();
-    let rejected = match report.rejected {
-        0 => String::new(),
-        count => format!(" ({count} more rejected)"),
-    };
-    format!(
-        "{} steps{rejected}, the smallest {} at {} ({}), {} evaluations; {} simulated in {}, {} × real time",
-        report.steps,
-        duration(report.smallest_step),
-        duration(report.smallest_step_at),
-        cause(report.smallest_step_for, &recording.header),
-        report.evaluations,
-        duration(simulated),
-        duration(wall),
-        ratio(simulated / wall)
-    )
-}
-
-/// The failure of the run: time, element, cause, and how far the samples go.
-fn failure(error: &RunError, recording: &Recording) -> String {
-    let what = error
-        .message
-        .split("; likely cause: ")
-        .next()
-        .unwrap_or(&error.message);
-    let mut lines = vec![format!("the simulation failed: {what}")];
-    if let Some(element) = element(error) {
-        lines.push(format!("  element: {element}"));
-    }
-    if !error.cause.is_empty() {
-        lines.push(format!("  likely cause: {}", error.cause));
-    }
-    if error.kind == ErrorKind::Time {
-        lines.push(
-            "  help: make that force softer or smoother, or move the start away from where it is stiff; --time-limit gives the run more time"
-                .to_owned(),
-        );
-    }
-    lines.push(match recording.table.rows() {
-        0 => "  there are no samples: the start itself cannot be evaluated".to_owned(),
-        rows => {
-            let since = recording.doubts.iter().map(|doubt| doubt.since);
-            let since = since.fold(f64::INFINITY, f64::min);
-            let good = match since.is_finite() {
-                true => format!("there, but not to be trusted from t = {since} s on"),
-                false => "good".to_owned(),
-            };
-            let last = recording.last_time();
-            format!("  the {rows} samples up to t = {last} s are {good}")
-        }
-    });
-    lines.join("\n")
-}
-
-/// The element or reference joint that has the failing coordinate or velocity.
-fn element(error: &RunError) -> Option<&str> {
-    let (owner, _) = error.coordinate.as_deref()?.rsplit_once('.')?;
-    Some(owner)
-}
-
-/// A length of time in the unit that is easiest to read.
-fn duration(seconds: f64) -> String {
-    let (value, unit) = match seconds {
-        s if s >= 1.0 => (s, "s"),
-        s if s >= 1e-3 => (s * 1e3, "ms"),
-        s if s >= 1e-6 => (s * 1e6, "µs"),
-        0.0 => return "0 s".into(),
-        s => (s * 1e9, "ns"),
-    };
-    // Times on a busy machine are not more precise than three digits.
-    let decimals = (2 - value.log10().floor() as i32).clamp(0, 3) as usize;
-    let text = format!("{value:.decimals$}");
-    match text.contains('.') {
-        true => format!(
-            "{} {unit}",
-            text.trim_end_matches('0').trim_end_matches('.')
-        ),
-        false => format!("{text} {unit}"),
-    }
-}
-
-fn ratio(ratio: f64) -> String {
-    match ratio {
-        r if !r.is_finite() => "∞".into(),
-        r if r >= 10.0 => format!("{r:.0}"),
-        r => format!("{r:.2}"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn durations_have_their_unit() {
-        assert_eq!(duration(0.12), "120 ms");
-        assert_eq!(duration(1.5e-4), "150 µs");
-        assert_eq!(duration(2.0), "2 s");
-        assert_eq!(duration(45.6957e-6), "45.7 µs");
-        assert_eq!(duration(1234.0), "1234 s");
-    }
-
-    #[test]
-    fn the_element_at_fault_is_named() {
-        let mut error = RunError {
-            kind: ErrorKind::Run,
-            t: Some(0.1),
-            coordinate: Some("man/head.phi".into()),
-            cause: "a curve".into(),
-            message: "at t = 0.1 s it breaks; likely cause: a curve".into(),
-        };
-        assert_eq!(element(&error), Some("man/head"));
-        error.coordinate = None;
-        assert_eq!(element(&error), None);
-    }
 }

@@ -69,8 +69,8 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 
-    /// Runs side by side in a register: 8 (AVX-512), 4 (AVX2), 1, or plain, without fused multiply-adds; in single precision twice as many
-    /// in the first two. All but plain give the same results [default: as many as the processor has]
+    /// Number of runs side by side in a register: 8 (AVX-512), 4 (AVX2), 1, or plain, which is 1 without fused multiply-adds. In single
+    /// precision 8 and 4 stand for twice as many. All but plain give the same results [default: the most that the processor has]
     #[arg(long, value_name = "LANES", value_parser = lanes)]
     lanes: Option<Width>,
 
@@ -82,8 +82,8 @@ pub struct Arguments {
     #[arg(long)]
     no_estimate: bool,
 
-    /// Give a run up when its computation takes longer than this, or would take ten times as long at its present rate: it ends as `slow`,
-    /// and the study goes on; a time, or off [default: 5 min]
+    /// Give up a run when its computation takes longer than this, or would take ten times as long at its present rate. The run then ends as
+    /// `slow`, and the study goes on; a time, or off [default: 5 min]
     #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
     time_limit: Option<f64>,
 
@@ -91,7 +91,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 
-    /// Write a report: one page of HTML with distributions, what they depend on, and the runs, to be chosen and sorted; any browser shows it, without a network
+    /// Write a report: one page of HTML with the distributions, the parameters that they depend on, and a table of runs to select and sort;
+    /// any browser shows it, without a network
     #[arg(long, value_name = "FILE.html", conflicts_with_all = ["shard", "plan"])]
     report: Option<PathBuf>,
 

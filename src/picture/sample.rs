@@ -192,22 +192,19 @@ fn written(name: &str, svg: &str) {
     }
 }
 
+/// The stick figures of a motion side by side, from the side.
+fn in_a_row(model: &Model, instants: &[Instant]) -> String {
+    let drawing = draw(model, &names(), &[], instants, Arrangement::Row, View::Side);
+    drawing.unwrap().svg()
+}
+
 fn count(svg: &str, what: &str) -> usize {
     svg.matches(what).count()
 }
 
 #[test]
 fn every_time_has_a_panel_with_everything_in_it() {
-    let svg = draw(
-        &child(),
-        &names(),
-        &[],
-        &lurch(7),
-        Arrangement::Row,
-        View::Side,
-    )
-    .unwrap()
-    .svg();
+    let svg = in_a_row(&child(), &lurch(7));
     written("row.svg", &svg);
     assert_eq!(count(&svg, "class=\"panel\""), 7);
     assert!(svg.contains(">0 ms<") && svg.contains(">20 ms<") && svg.contains(">120 ms<"));
@@ -240,16 +237,7 @@ fn overlay_has_one_panel() {
 
 #[test]
 fn a_slack_belt_is_dashed_and_a_taut_one_is_not() {
-    let svg = draw(
-        &child(),
-        &names(),
-        &[],
-        &lurch(2),
-        Arrangement::Row,
-        View::Side,
-    )
-    .unwrap()
-    .svg();
+    let svg = in_a_row(&child(), &lurch(2));
     // Both begin with 10 mm of slack; the lurch of 0.12 m stretches both.
     assert_eq!(count(&svg, "<line class=\"slack\""), 2 + 1);
     assert_eq!(count(&svg, "<line class=\"taut\""), 2 + 1);
@@ -259,16 +247,7 @@ fn a_slack_belt_is_dashed_and_a_taut_one_is_not() {
 fn a_motion_that_went_wrong_is_drawn_up_to_there() {
     let mut instants = lurch(4);
     instants[3].coordinates[1] = f64::NAN;
-    let svg = draw(
-        &child(),
-        &names(),
-        &[],
-        &instants,
-        Arrangement::Row,
-        View::Side,
-    )
-    .unwrap()
-    .svg();
+    let svg = in_a_row(&child(), &instants);
     assert_eq!(count(&svg, "class=\"panel\""), 3);
     assert!(!svg.contains("NaN") && !svg.contains("inf"));
 }
@@ -291,16 +270,7 @@ fn names_that_do_not_fit_are_an_error() {
 fn titles_are_escaped() {
     let mut model = child();
     model.title = "a < b & \"c\"".into();
-    let svg = draw(
-        &model,
-        &names(),
-        &[],
-        &lurch(2),
-        Arrangement::Row,
-        View::Side,
-    )
-    .unwrap()
-    .svg();
+    let svg = in_a_row(&model, &lurch(2));
     assert!(svg.contains("a &lt; b &amp; &quot;c&quot;"));
 }
 

@@ -1,7 +1,7 @@
 //! Runs the rows of a study: a model in lanes, in this process, on any number of threads.
 
+use crate::accuracy::conclusion::percent;
 use crate::accuracy::fastest::fastest;
-use crate::accuracy::finding::percent;
 use crate::accuracy::setting::time;
 use crate::equations::Engine as Equations;
 use crate::interrupt;

@@ -5,7 +5,7 @@ use super::chain::{Call, Chain, chains};
 use super::order::in_runs;
 use super::run::{SINES, is_call, shape_of};
 use bryant_generator::expression::Function;
-use bryant_generator::program::{Input, List};
+use bryant_generator::program::List;
 use std::collections::HashMap;
 
 /// A list in the form that the interpreter runs.
@@ -177,13 +177,7 @@ impl Places {
     fn new(list: &List, layout: &Layout, constants: &HashMap<u64, u32>) -> Self {
         let mut of: Vec<u32> = Vec::with_capacity(list.values());
         of.extend(list.constants.iter().map(|c| constants[&c.to_bits()]));
-        of.extend(list.inputs.iter().map(|input| match *input {
-            Input::Time => layout.time,
-            Input::State(i) => layout.state + i,
-            Input::Acceleration(i) | Input::Guard(i) => layout.before + i,
-            Input::Parameter(i) => layout.parameters + i,
-            Input::Derived(i) => layout.derived + i,
-        }));
+        of.extend(list.inputs.iter().map(|input| layout.place(*input)));
         let leaves = of.len() as u32;
         of.resize(list.values(), u32::MAX);
         Places {

@@ -24,7 +24,7 @@ mod run;
 
 use crate::execute::{Execute, Given};
 use crate::model::Shared;
-use bryant_generator::program::{List, Lists, Method};
+use bryant_generator::program::{Input, List, Lists, Method};
 use bryant_runtime::Real;
 use encode::Code;
 use frame::Frame;
@@ -54,6 +54,19 @@ struct Layout {
     before: u32,
     /// The results of operations.
     rest: u32,
+}
+
+impl Layout {
+    /// The place of an input in the frame.
+    fn place(&self, input: Input) -> u32 {
+        match input {
+            Input::Time => self.time,
+            Input::State(i) => self.state + i,
+            Input::Acceleration(i) | Input::Guard(i) => self.before + i,
+            Input::Parameter(i) => self.parameters + i,
+            Input::Derived(i) => self.derived + i,
+        }
+    }
 }
 
 /// A method in the form that the interpreter runs.

@@ -3,7 +3,7 @@
 use super::Layout;
 use crate::call::Library;
 use bryant_generator::expression::Function;
-use bryant_generator::program::{Input, List, Operation, Value};
+use bryant_generator::program::{List, Operation, Value};
 use bryant_runtime::{Real, Task};
 use std::collections::HashMap;
 
@@ -73,13 +73,7 @@ impl Code {
 pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> Code {
     let mut place: Vec<Place> = Vec::with_capacity(list.values());
     place.extend(list.constants.iter().map(|c| constants[&c.to_bits()]));
-    place.extend(list.inputs.iter().map(|input| match *input {
-        Input::Time => layout.time,
-        Input::State(i) => layout.state + i,
-        Input::Acceleration(i) | Input::Guard(i) => layout.before + i,
-        Input::Parameter(i) => layout.parameters + i,
-        Input::Derived(i) => layout.derived + i,
-    }));
+    place.extend(list.inputs.iter().map(|input| layout.place(*input)));
     let leaves = place.len();
     let last_use = last_uses(list);
     let mut frame = Places {
@@ -95,31 +89,18 @@ pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> 
     };
     for (number, &operation) in list.operations.iter().enumerate() {
         let at = |value: Value| place[value.0 as usize];
-        let step = |kind, [a, b, c]: [Place; 3]| Step {
-            kind,
-            to: 0,
-            a,
-            b,
-            c,
-        };
-        let mut step = match operation {
-            Operation::Neg(a) => step(Kind::Neg, [at(a); 3]),
-            Operation::Add(a, b) => step(Kind::Add, [at(a), at(b), 0]),
-            Operation::Sub(a, b) => step(Kind::Sub, [at(a), at(b), 0]),
-            Operation::Mul(a, b) => step(Kind::Mul, [at(a), at(b), 0]),
-            Operation::Div(a, b) => step(Kind::Div, [at(a), at(b), 0]),
-            Operation::MulAdd(a, b, c) => step(Kind::MulAdd, [at(a), at(b), at(c)]),
-            Operation::Sqrt(a) => step(Kind::Sqrt, [at(a); 3]),
-            Operation::SinCos(a) => step(Kind::SinCos, [at(a); 3]),
-            Operation::Atan2(a, b) => step(Kind::Atan2, [at(a), at(b), 0]),
-            Operation::Max(a, b) => step(Kind::Max, [at(a), at(b), 0]),
-            Operation::Min(a, b) => step(Kind::Min, [at(a), at(b), 0]),
-            Operation::Call { .. } => step(Kind::Call, [found.calls.len() as Place, 0, 0]),
-        };
+        let kind = kind_of(operation);
         let first = found.arguments.len() as u32;
-        if let Operation::Call { .. } = operation {
-            found.arguments.extend(list.operands(operation).map(at));
-        }
+        let [a, b, c] = match kind {
+            Kind::Call => {
+                found.arguments.extend(list.operands(operation).map(at));
+                [found.calls.len() as Place, 0, 0]
+            }
+            _ => {
+                let mut operands = list.operands(operation).map(at);
+                std::array::from_fn(|_| operands.next().unwrap_or(0))
+            }
+        };
         let mut freed: Vec<Value> = list.operands(operation).collect();
         freed.sort_unstable();
         freed.dedup();
@@ -131,11 +112,11 @@ pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> 
         let count = operation.defines() as u32;
         let start = place.len();
         // The results of a call stand side by side. They are written there after all arguments are read.
-        step.to = match count {
+        let to = match count {
             1 => frame.one(),
             _ => frame.several(count),
         };
-        place.extend((0..count).map(|part| step.to + part));
+        place.extend((0..count).map(|part| to + part));
         for value in start..place.len() {
             if last_use[value] == number {
                 frame.free.push(place[value]);
@@ -145,16 +126,33 @@ pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> 
             found.calls.push(Call {
                 function,
                 arguments: (first, found.arguments.len() as u32),
-                results: (step.to, count),
+                results: (to, count),
             });
         }
-        found.steps.push(step);
+        found.steps.push(Step { kind, to, a, b, c });
     }
     found.results = (list.results.iter())
         .map(|value| place[value.0 as usize])
         .collect();
     found.end = frame.next as usize;
     found
+}
+
+fn kind_of(operation: Operation) -> Kind {
+    match operation {
+        Operation::Neg(_) => Kind::Neg,
+        Operation::Add(..) => Kind::Add,
+        Operation::Sub(..) => Kind::Sub,
+        Operation::Mul(..) => Kind::Mul,
+        Operation::Div(..) => Kind::Div,
+        Operation::MulAdd(..) => Kind::MulAdd,
+        Operation::Sqrt(_) => Kind::Sqrt,
+        Operation::SinCos(_) => Kind::SinCos,
+        Operation::Atan2(..) => Kind::Atan2,
+        Operation::Max(..) => Kind::Max,
+        Operation::Min(..) => Kind::Min,
+        Operation::Call { .. } => Kind::Call,
+    }
 }
 
 /// The free places.

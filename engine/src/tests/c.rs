@@ -4,10 +4,11 @@ use super::evaluate::{called, curves};
 use super::random::Random;
 use crate::call::Library;
 use bryant_generator::expression::{ApproachCall, Function};
-use bryant_generator::program::{Input, List, Operation, Value};
+use bryant_generator::program::{Curve, Input, List, Operation, Value};
 use bryant_generator::target::c;
 use bryant_generator::target::x86_64::Callee;
 use std::io::Write as _;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 const CASES: usize = 4000;
@@ -113,19 +114,15 @@ fn functions() -> Vec<Callee> {
     functions.chain([Callee::SinCos]).collect()
 }
 
-#[test]
-fn laws_and_curves_in_c_have_the_bits_of_the_runtime() {
-    let curves = curves();
-    let library = Library::new(&curves, None);
-    let directory = tempfile::tempdir().unwrap();
-    let write = |name: &str, text: &str| std::fs::write(directory.path().join(name), text).unwrap();
-    let functions = functions();
+/// Compiles a program that reads [`CASES`] times the arguments of each function and writes its results.
+fn compile(functions: &[Callee], curves: &[Curve], directory: &Path) -> PathBuf {
+    let write = |name: &str, text: &str| std::fs::write(directory.join(name), text).unwrap();
     let mut names = vec!["program.c".to_owned()];
     let mut program = String::from("#include <stdio.h>\n");
     let mut calls = String::new();
     for (k, function) in functions.iter().enumerate() {
         let (name, list) = (format!("function_{k}"), list(*function));
-        let text = c::function(&list, &curves, &name).unwrap();
+        let text = c::function(&list, curves, &name).unwrap();
         write(
             &format!("{name}.c"),
             &format!("void {name}(double t, const double y[], double results[]);\n{text}"),
@@ -155,12 +152,21 @@ fn laws_and_curves_in_c_have_the_bits_of_the_runtime() {
         ])
         .args(&names)
         .args(["-lm", "-o", "program"])
-        .current_dir(directory.path())
+        .current_dir(directory)
         .output()
         .expect("a C compiler, which Rust needs, too");
     let messages = String::from_utf8_lossy(&compiled.stderr);
     assert!(compiled.status.success(), "{messages}");
+    directory.join("program")
+}
 
+#[test]
+fn laws_and_curves_in_c_have_the_bits_of_the_runtime() {
+    let curves = curves();
+    let library = Library::new(&curves, None);
+    let directory = tempfile::tempdir().unwrap();
+    let functions = functions();
+    let program = compile(&functions, &curves, directory.path());
     let mut random = Random::new(7);
     let (mut given, mut expected) = (Vec::new(), Vec::new());
     for function in &functions {
@@ -179,7 +185,7 @@ fn laws_and_curves_in_c_have_the_bits_of_the_runtime() {
             given.extend(arguments.iter().flat_map(|number| number.to_ne_bytes()));
         }
     }
-    let mut child = Command::new(directory.path().join("program"))
+    let mut child = Command::new(program)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()

@@ -97,18 +97,9 @@ pub fn curves() -> Vec<Curve> {
     ]
 }
 
-/// A curve as the runtime evaluates it.
+/// A curve of [`curves`] as the runtime evaluates it.
 fn table(index: u32) -> Table {
-    let curve = &curves()[index as usize];
-    let beyond = crate::info::extrapolate(curve.extrapolate);
-    match &curve.tangents {
-        None => Table::of_lines(&curve.points, beyond),
-        Some(tangents) => {
-            let points = curve.points.iter().zip(tangents);
-            let given: Vec<[f64; 3]> = points.map(|(&[x, y], &m)| [x, y, m]).collect();
-            Table::of_cubics(&given, beyond)
-        }
-    }
+    crate::call::table(&curves()[index as usize])
 }
 
 /// The results of a function. Searches and functions of the user are replaced by weighted sums, with other weights

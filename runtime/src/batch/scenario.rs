@@ -1,31 +1,31 @@
-//! What runs, and what became of it.
+//! The scenarios of a batch, and how each run ended.
 
 use crate::Real;
 use crate::response::Jump;
 
-/// Scenarios to run, and who hears of them.
+/// The scenarios of a batch, and the receiver of their results.
 pub trait Scenarios<S> {
-    /// How many there are.
+    /// The number of scenarios.
     fn count(&self) -> usize;
     /// A parameter of a scenario, by its index in [`Info::parameters`](crate::Info::parameters).
     fn parameter(&self, scenario: usize, index: usize) -> S;
-    /// What the tolerances, or the length of fixed steps, are multiplied by in a scenario.
+    /// The factor of a scenario on the tolerances, or on the length of fixed steps.
     fn level(&self, scenario: usize) -> f64;
     /// Which outputs are sampled, by their index in [`Info::outputs`](crate::Info::outputs).
     fn outputs(&self) -> &[usize];
-    /// Whether outputs are wanted on both sides of each event, where they may jump: what [`Series::jumps_of`] has. It takes two
-    /// evaluations of the outputs for each.
+    /// Whether the outputs are requested on both sides of each event, where they may jump, for [`Series::jumps_of`]. This takes two
+    /// evaluations of the outputs for each event.
     fn wants_jumps(&self) -> bool {
         false
     }
-    /// Whether a scenario that has taken so many steps, rejected ones too, is given up. It is asked once every
-    /// [`STEPS_BETWEEN`](super::STEPS_BETWEEN) steps, and ends as [`Status::TooManySteps`].
+    /// Whether to give up a scenario after this number of steps, with rejected ones. This is called once every
+    /// [`STEPS_BETWEEN`](super::STEPS_BETWEEN) steps. A scenario that is given up ends as [`Status::TooManySteps`].
     fn gives_up(&self, _scenario: usize, _steps: u64) -> bool {
         false
     }
-    /// The computation of a scenario has taken some seconds, and its run has come to the time `t` \[s\]: it is told every ten seconds.
+    /// Is called every ten seconds while a scenario is computed, with the seconds that this has taken and the time `t` of its run \[s\].
     fn lingers(&mut self, _scenario: usize, _seconds: f64, _t: f64) {}
-    /// A scenario came to its end.
+    /// Is called when a scenario has ended.
     fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<S>);
 }
 
@@ -40,9 +40,9 @@ pub struct Ended {
     pub steps: u32,
     /// Steps rejected.
     pub rejected: u32,
-    /// The step that would have come next \[s\].
+    /// The length of the next step, had the run gone on \[s\].
     pub step: f64,
-    /// Why a run that reached its end cannot be trusted; or of one that did not, that its steps were unstable.
+    /// Why a run that reached its end cannot be trusted. In a run that did not, [`Doubt::Unstable`] if its steps were unstable.
     pub doubt: Option<Doubt>,
 }
 
@@ -51,56 +51,57 @@ pub struct Ended {
 pub enum Doubt {
     /// A joint was bent through 180°, where flexion has no direction: its bearing, an index in [`Info::curves`](crate::Info::curves).
     Bent(usize),
-    /// Two ellipsoids sank into each other until the direction of their force leapt: that direction, an index in
+    /// Two ellipsoids sank into each other until the direction of their force jumped: this direction, an index in
     /// [`Info::curves`](crate::Info::curves).
     Sunk(usize),
-    /// A fixed step went over what begins and ends within it: a law, by its index in [`Info::onsets`](crate::Info::onsets).
+    /// A fixed step passed over an event that begins and ends within the step: an index in [`Info::onsets`](crate::Info::onsets).
     Missed(usize),
-    /// A curve was left so far, while its force acted, that what it gives is made up: an index in [`Info::curves`](crate::Info::curves).
+    /// The argument of a curve was so far outside of its points, while its force acted, that the value of the curve is made up: an index in
+    /// [`Info::curves`](crate::Info::curves).
     Left(usize),
-    /// Fixed steps are above the limit of stability: the entry of the state that moves most.
+    /// Fixed steps are above the limit of stability: the entry of the state that the fastest motion moves most.
     Unstable(usize),
-    /// More energy is missing in its balance than [may](super::Settings::energy_limit), where steps are fixed: the effect whose power was largest
-    /// when that began, an index in [`Info::powers`](crate::Info::powers).
+    /// The gap in the balance of energy is above the [limit](super::Settings::energy_limit), with fixed steps: the effect whose power was largest
+    /// when the gap began, an index in [`Info::powers`](crate::Info::powers).
     Energy(Option<usize>),
-    /// The same of the momentum of what moves freely.
+    /// The same for the momentum of freely moving bodies.
     Momentum,
-    /// Fixed steps err by too much, as estimated along with them: the entry of the state that was farthest off when this began.
+    /// The estimated error of fixed steps is too large: the entry of the state whose error was largest when this began.
     Error(usize),
 }
 
 /// Whether a run reached its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// It did.
+    /// It reached its end.
     Done,
     /// The state, its derivative or an output is not finite.
     NonFinite,
-    /// The error asks for a step below the smallest.
+    /// The tolerance asks for a step below the smallest allowed.
     StepTooSmall,
     /// The limit on steps was reached.
     TooManySteps,
-    /// To its end, but not to be trusted: see [`Ended::doubt`].
+    /// It reached its end, but cannot be trusted: see [`Ended::doubt`].
     Doubtful,
-    /// Its parameters make something of the model that cannot be.
+    /// The model does not allow its parameters.
     Refused,
-    /// Computing it took too long, or would have at its rate: [`Settings::time_limit`](super::Settings::time_limit).
+    /// Its computation took too long, or would have taken too long at its rate: [`Settings::time_limit`](super::Settings::time_limit).
     Slow,
 }
 
-/// What was sampled of a run: the samples of each output, those after a failure NaN, and its events.
+/// The samples of each output of a run, NaN after a failure, and the events of the run.
 #[derive(Clone, Debug)]
 pub struct Series<S> {
     pub(super) samples: usize,
     pub(super) values: Vec<S>,
-    /// When each event was \[s\].
+    /// The time of each event \[s\].
     pub(super) events: Vec<S>,
-    /// Event by event, each output ahead of it and behind.
+    /// Event by event, each output just before and just after it.
     pub(super) sides: Vec<[S; 2]>,
 }
 
 impl<S> Series<S> {
-    /// Those of an output, by its place in [`Scenarios::outputs`].
+    /// The samples of an output, by its place in [`Scenarios::outputs`].
     pub fn of(&self, output: usize) -> &[S] {
         let start = output * self.samples;
         self.values.get(start..start + self.samples).unwrap_or(&[])
@@ -113,9 +114,10 @@ impl<S> Series<S> {
 }
 
 impl<S: Real> Series<S> {
-    /// An output, by its place in [`Scenarios::outputs`], on both sides of each event: where a curve of time has a kink, a guard changed
-    /// its sign, or a kink of a force law where such are [located](super::Settings::locate). None unless the scenarios [want](Scenarios::wants_jumps)
-    /// them, and not where an output or its derivative is not finite just there, as that of a root is where it begins.
+    /// An output, by its place in [`Scenarios::outputs`], on both sides of each event. Events are kinks of curves of time, zeros of event
+    /// functions, and kinks of force laws if these are [located](super::Settings::locate). There are none unless the scenarios
+    /// [request](Scenarios::wants_jumps) them. An event is left out where the output or its derivative is not finite: the derivative of a root is
+    /// infinite where the root begins.
     pub fn jumps_of(&self, output: usize) -> impl Iterator<Item = Jump<S>> {
         let outputs = self.sides.len() / self.events.len().max(1);
         let sides = self.sides.iter().skip(output).step_by(outputs.max(1));

@@ -1,9 +1,9 @@
 //! Reasons not to trust a run that went on, in words.
 
 use crate::Real;
-use crate::simulate::{Beyond, Doubt, Watch};
+use crate::simulate::{Diagnostic, OutOfRange, Watch};
 
-/// A reason not to trust a run that went on: [`Doubt`] in words.
+/// A reason not to trust a run that went on: [`Diagnostic`] in words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// Time since which it holds \[s\].
@@ -20,27 +20,27 @@ pub struct Finding {
     pub remedy: String,
 }
 
-impl From<Doubt> for Finding {
-    fn from(doubt: Doubt) -> Self {
+impl From<Diagnostic> for Finding {
+    fn from(diagnostic: Diagnostic) -> Self {
         Finding {
-            since: doubt.t,
-            kind: doubt.kind().into(),
-            amount: doubt.amount(),
-            coordinate: doubt.coordinate().unwrap_or_default().into(),
-            message: doubt.to_string(),
-            remedy: doubt.remedy().into(),
+            since: diagnostic.t,
+            kind: diagnostic.kind().into(),
+            amount: diagnostic.amount(),
+            coordinate: diagnostic.coordinate().unwrap_or_default().into(),
+            message: diagnostic.to_string(),
+            remedy: diagnostic.remedy().into(),
         }
     }
 }
 
-/// Curves of the state that were left without raising a doubt: a sentence for each.
+/// Curves of the state that were left, but not so far that their values are made up: a sentence for each.
 pub(super) fn notes<T: Real>(watch: &Watch<'_, T>) -> Vec<String> {
     let info = watch.info();
     let harmless = watch.left().filter(|left| !left.made_up(info));
     harmless
         .filter_map(|left| {
             let curve = info.curves.get(left.curve)?;
-            let beyond = Beyond {
+            let beyond = OutOfRange {
                 curve,
                 argument: left.argument,
             };

@@ -18,7 +18,7 @@ pub use reading::{Kept, Reading};
 use crate::dynamics::{made, made_differentiable};
 use crate::patience::Patience;
 use crate::response::Answer;
-use crate::simulate::{self, ENERGY_LIMIT, Sample, SampleKind, Watch};
+use crate::simulate::{self, Balance, ENERGY_LIMIT, Sample, SampleKind, Watch};
 use crate::{Adjustable, DoubleDouble, Family, Fast, Info, Model, Real, Report};
 use reading::Signals;
 use std::ops::ControlFlow;
@@ -348,27 +348,14 @@ fn execute<T: Real>(
         return Outcome::refused(error);
     }
     let info = model.info();
+    let initial = match initial_state(&*model, job) {
+        Ok(initial) => initial,
+        Err(error) => return Outcome::refused(error),
+    };
     let settings = job.settings(info);
-    let limit = job.energy_limit.unwrap_or(ENERGY_LIMIT);
-    let mut watch = balanced.then(|| Watch::new(info, limit));
-    if let (Some(watch), Some(every)) = (&mut watch, job.reading.works_every) {
-        watch.history = Some(History {
-            every,
-            ..History::default()
-        });
-    }
-    let mut numbers = Numbers::new();
+    let mut watch = balanced.then(|| watch_for(info, job));
+    let mut numbers = Numbers::default();
     let mut signals = Signals::of(&job.reading);
-    let mut initial = vec![T::from_f64(0.0); info.state_length()];
-    match &job.start {
-        None => model.initial_state(&mut initial),
-        Some(start) => {
-            if let Err(error) = place(&*model, &start.state, &mut initial) {
-                return Outcome::refused(error);
-            }
-        }
-    }
-
     let mut patience = Patience::new(job.time_limit, [settings.start, settings.duration]);
     let (mut steps, mut late, mut stopped) = (0u32, false, false);
     let mut in_time = |t: f64| {
@@ -397,7 +384,7 @@ fn execute<T: Real>(
         },
         &mut in_time,
     );
-    let doubts = watch.iter().flat_map(Watch::doubts);
+    let doubts = watch.iter().flat_map(Watch::diagnostics);
     let doubts: Vec<Finding> = doubts.map(Finding::from).collect();
     let notes = watch.as_ref().map(finding::notes).unwrap_or_default();
     let result = match result {
@@ -421,14 +408,28 @@ fn execute<T: Real>(
         doubts,
         notes,
         history: watch.as_mut().and_then(|watch| watch.history.take()),
-        energy: watch.map(|watch| watch.balance).map(|balance| Energy {
-            start: balance.start.to_f64(),
-            end: balance.end.to_f64(),
-            works: balance.works.iter().map(|w| w.to_f64()).collect(),
-            exchanged: balance.exchanged.to_f64(),
-            momentum_gap: info.free.then(|| balance.momentum.relative_gap()),
-        }),
+        energy: watch.map(|watch| Energy::of(&watch.balance, info)),
     }
+}
+
+/// The watch that a job asks for.
+fn watch_for<T: Real>(info: &'static Info, job: &Job) -> Watch<'static, T> {
+    let mut watch = Watch::new(info, job.energy_limit.unwrap_or(ENERGY_LIMIT));
+    watch.history = job.reading.works_every.map(|every| History {
+        every,
+        ..History::default()
+    });
+    watch
+}
+
+/// The state at which the job starts: the one that it gives, or that of the model.
+fn initial_state<T: Real>(model: &dyn Adjustable<T>, job: &Job) -> Result<Vec<T>, JobError> {
+    let mut initial = vec![T::from_f64(0.0); model.info().state_length()];
+    match &job.start {
+        None => model.initial_state(&mut initial),
+        Some(start) => place(model, &start.state, &mut initial)?,
+    }
+    Ok(initial)
 }
 
 /// Largest relative difference between a given state and its normalized form. More than that is no rounding but a wrong state.
@@ -466,19 +467,14 @@ fn place<T: Real>(
 }
 
 /// State and outputs of a sample, in double precision.
+#[derive(Default)]
 struct Numbers {
     state: Vec<f64>,
     outputs: Vec<f64>,
 }
 
 impl Numbers {
-    fn new() -> Self {
-        Numbers {
-            state: Vec::new(),
-            outputs: Vec::new(),
-        }
-    }
-
+    /// Passes a sample to `sink`, which may stop the run.
     fn send<T: Real>(&mut self, sample: Sample<'_, T>, sink: &mut Sink<'_>) -> ControlFlow<()> {
         for (numbers, scalars) in [
             (&mut self.state, sample.state),
@@ -500,7 +496,7 @@ pub struct Outcome {
     pub answers: Vec<Answer>,
     /// Samples of [the kept channels](reading::Reading::kept), in their order; empty where the run did not reach its end.
     pub kept: Vec<Vec<f64>>,
-    /// The work of each effect over time, if [asked for](Reading::works_every).
+    /// The work of each effect over time, if the job [requests it](Reading::works_every).
     pub history: Option<History>,
     /// The balance of energy up to the time reached; `None` where nothing ran.
     pub energy: Option<Energy>,
@@ -526,6 +522,16 @@ pub struct Energy {
 }
 
 impl Energy {
+    fn of<T: Real>(balance: &Balance<'_, T>, info: &Info) -> Energy {
+        Energy {
+            start: balance.start.to_f64(),
+            end: balance.end.to_f64(),
+            works: balance.works.iter().map(|work| work.to_f64()).collect(),
+            exchanged: balance.exchanged.to_f64(),
+            momentum_gap: info.free.then(|| balance.momentum.relative_gap()),
+        }
+    }
+
     /// What is missing in the balance: end − start − Σ works.
     pub fn gap(&self) -> f64 {
         self.end - self.start - self.works.iter().sum::<f64>()

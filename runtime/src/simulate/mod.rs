@@ -15,6 +15,7 @@
 //! loop would have to do all of this with masks, over scalars that are no lanes, too.
 
 pub(crate) mod balance;
+mod diagnostic;
 mod event;
 pub(crate) mod excursion;
 pub(crate) mod onset;
@@ -31,13 +32,14 @@ pub(crate) mod watch;
 
 pub use crate::integrate::workspace::Buffer;
 pub use balance::{Balance, Momentum};
+pub(crate) use diagnostic::OutOfRange;
+#[cfg(feature = "std")]
+pub(crate) use diagnostic::Time;
+pub use diagnostic::{Diagnostic, Problem};
 pub use settings::{Adaptive, Method, Pace, Settings};
-pub(crate) use watch::Beyond;
 #[cfg(feature = "std")]
 pub use watch::History;
-#[cfg(feature = "std")]
-pub(crate) use watch::Time;
-pub use watch::{Doubt, ENERGY_LIMIT, Left, Suspicion, Watch};
+pub use watch::{ENERGY_LIMIT, Left, Watch};
 
 use crate::failure::Failure;
 #[cfg(feature = "std")]

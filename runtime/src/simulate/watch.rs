@@ -1,37 +1,38 @@
-//! What a run is watched for, step by step: whether its end can be trusted, and if not, since when and because of what.
+//! The watch of a run: after every step it compares what must agree if the results can be trusted.
 //!
 //! | what | compared | with |
 //! |---|---|---|
-//! | energy | \|T(t) − T(0) − Σ W\| | the limit · the largest energy so far, kinetic or gone through an effect |
-//! | momentum of what is free | \|p(t) − p(0) − ∫ F dt\|, and that about the origin | the limit · what masses of this kinetic energy can have |
-//! | velocities, where steps are fixed | the estimate of their error ([`error`]) | 2.5 times the limit · the largest speed |
-//! | coordinates, likewise | the same | 2.5 times the limit · the largest way from the start |
+//! | energy | \|T(t) − T(0) − Σ W\| | the limit · the largest energy so far, kinetic or exchanged by an effect |
+//! | momentum of freely moving bodies | \|p(t) − p(0) − ∫ F dt\|, and that about the origin | the limit · the largest momentum possible at this kinetic energy |
+//! | velocities, if steps are fixed | the estimate of their error ([`error`]) | 2.5 times the limit · the largest speed |
+//! | coordinates, if steps are fixed | the same | 2.5 times the limit · the largest way from the start |
 //! | fixed step | h \|λ\| of the fastest motion | the method's limit of stability |
-//! | curves of the state, while their force acts | how far beyond their points | what goes on beyond them |
+//! | curves of the state, while their force acts | how far the argument is outside of the points | the interval in which the curve means something |
 //! | flexion beyond 90° | by how much the direction of bending leaps | a quarter turn |
 //! | two ellipsoids that push each other | by how much the direction of the force leaps | a quarter turn |
 //!
-//! **Scales.** The largest energy so far is not the sum of all that was exchanged: a pendulum exchanges its energy four times
-//! a period, and what it loses little by little would never count. By Cauchy and Schwarz masses of the kinetic energy T have
-//! at most the momentum √(2 T m) and, about the origin, √(2 T I). What a tolerance lets pass is no finding: with e the kinetic energy
-//! of velocities as large as their absolute tolerance, a step may change √T by √e, and what forces do at kinetic energies below e is
-//! not computed at all.
+//! What disagrees becomes a [`Diagnostic`], which has the words.
 //!
-//! **A gap that is overtaken** by the energy that comes later is forgotten: at the start there is nothing to compare with.
+//! **Scales.** The largest energy so far is the scale of energy. The sum of all exchanged energies is not: a pendulum exchanges its energy four
+//! times a period, so a small but steady loss would never count. By Cauchy and Schwarz, masses of the kinetic energy T have
+//! at most the momentum √(2 T m) and, about the origin, √(2 T I). A gap that the tolerance explains does not count. With e the kinetic energy
+//! of velocities as large as their absolute tolerance, a step may change √T by √e, and the work at kinetic energies below e is not resolved.
 //!
-//! **A flexion through 180°** makes the direction of bending leap by half a turn within no time, and what pushes in this direction with it. A
-//! motion that passes beside 180° turns it fast, but on the way: a leap is halved on the step's interpolant until there is none, or
-//! what is left of the step is a thousandth.
+//! **A gap is forgotten** when the energy that comes later is so large that the gap is within the limit: at the start there is nothing to
+//! compare with.
 //!
-//! **Two ellipsoids that sink into each other** so far that one goes through the other push in the opposite direction from one moment to the
-//! next: the direction in which they overlap least leaps. Bodies that pass each other, however deep, turn it fast, but on the way. Where the
-//! centres coincide there is no direction at all. Such a step is halved like one with a flexion through 180°, where the direction is another
-//! at its ends, or is there at one of them alone.
+//! **A flexion through 180°** makes the direction of bending leap by half a turn in no time, and the forces in this direction leap with it. A
+//! motion that passes beside 180° turns the direction fast, but continuously. To tell the two apart, the part of the step that has the leap is
+//! halved on the step's interpolant until the leap is gone, or the part is a thousandth of the step.
 //!
-//! **The fastest motion** (Hairer & Wanner, *Solving ODEs II*, IV.2): where a step is unstable, what it errs by is soon its fastest
-//! motion and nothing else, and so is the difference of two states a, b that are computed for the same time. Then
-//! ‖f(a) − f(b)‖/‖a − b‖ is |λ|; taken as the geometric mean over coordinates and over velocities, it is so for an oscillation too,
-//! wherever in its period a − b lies and whatever the units.
+//! **Two ellipsoids that sink through each other** suddenly push in the opposite direction: the direction of least overlap leaps.
+//! Bodies that pass each other turn this direction continuously, however deep they overlap. Where the centres coincide there is no direction
+//! at all. A step is halved, as above, if the direction differs between its ends or exists at one of them only.
+//!
+//! **The fastest motion** (Hairer & Wanner, *Solving ODEs II*, IV.2): where a step is unstable, its error soon consists of the fastest
+//! motion alone, and so does the difference of two states a, b that are computed for the same time. Then
+//! ‖f(a) − f(b)‖/‖a − b‖ is |λ|. As the geometric mean over coordinates and over velocities it is |λ| for an oscillation, too,
+//! whatever its phase and whatever the units.
 
 pub(crate) mod account;
 pub(crate) mod error;
@@ -40,353 +41,34 @@ mod tests;
 
 use super::balance::{NODES, Rule};
 use super::event::inside;
-use super::{Balance, Buffer, Pace, Settings};
-use crate::curve::Extrapolate;
+use super::{Balance, Buffer, Diagnostic, Pace, Problem, Settings};
 use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper};
 use crate::model::{CurveInfo, CurveKind, Turning};
 use crate::{AccountArrival, Dynamics, Formula, Info, Real, StateKind};
 use account::{Account, Energies, Entry, Stability, rate_squared};
-use core::fmt;
 use error::{Errors, Estimated, GAUSS};
 
-/// Share of the energy that may be missing where nothing else is asked for: 2 %.
+/// The default of the share of the energy that may be missing: 2 %.
 ///
-/// A velocity that errs by 1 % is an energy that errs by 2 %. The default tolerance keeps well below a thousandth (docs/accuracy.md);
-/// for crash simulations with finite elements ten percent over a run are customarily accepted (NCHRP Web-Only Document 179, 2010).
+/// An error of 1 % in a velocity is an error of 2 % in the energy. The default tolerance keeps it well below a thousandth (docs/accuracy.md).
+/// Crash simulations with finite elements usually accept 10 % over a run (NCHRP Web-Only Document 179, 2010).
 pub const ENERGY_LIMIT: f64 = 0.02;
 
-/// Why a run that went on cannot be trusted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Doubt {
-    /// Since when \[s\].
-    pub t: f64,
-    /// Because of what.
-    pub suspicion: Suspicion,
-    /// The model, for names.
-    pub info: &'static Info,
-}
-
-/// What is wrong with a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Suspicion {
-    /// Fixed steps are above the limit of stability.
-    Step {
-        /// The step \[s\].
-        step: f64,
-        /// The method.
-        formula: Formula,
-        /// Speed of the fastest motion, |λ| \[1/s\].
-        rate: f64,
-        /// The entry of the state that it moves most.
-        index: usize,
-    },
-    /// A curve is left so far that what it gives is made up.
-    Curve {
-        /// Which, an index in [`Info::curves`].
-        curve: usize,
-        /// The argument farthest away so far.
-        argument: f64,
-    },
-    /// A fixed step went over something that begins and ends within it.
-    Missed {
-        /// Which, an index in [`Info::onsets`].
-        onset: usize,
-        /// How many steps did.
-        steps: u64,
-    },
-    /// A flexion went through 180°.
-    Flexion {
-        /// Whose bearing leapt, an index in [`Info::curves`].
-        bearing: usize,
-    },
-    /// Two ellipsoids sank into each other until the direction of their force leapt.
-    Sunk {
-        /// Whose direction leapt, an index in [`Info::curves`].
-        contact: usize,
-    },
-    /// The balance of energy.
-    Energy {
-        /// The largest gap, as a share of the largest energy.
-        share: f64,
-        /// The effect whose power was largest when this began, an index in [`Info::powers`].
-        effect: Option<usize>,
-        /// The entry of the state whose velocity was largest then.
-        index: Option<usize>,
-    },
-    /// The balance of momentum of what moves freely.
-    Momentum {
-        /// The largest gap, as a share of what there can be.
-        share: f64,
-        /// The entry of the state whose velocity was largest when this began.
-        index: Option<usize>,
-    },
-    /// Fixed steps err by too much, as estimated along with them.
-    Error {
-        /// The entry of the state that was farthest off when this began.
-        index: usize,
-    },
-}
-
-impl Suspicion {
-    /// The largest step that the scene allows \[s\], of a step that is above.
-    pub fn largest_stable_step(&self) -> Option<f64> {
-        match *self {
-            Suspicion::Step { formula, rate, .. } => Some(formula.stability_limit()? / rate),
-            _ => None,
-        }
-    }
-}
-
-impl Doubt {
-    /// The entry of the state that is named.
-    pub fn coordinate(&self) -> Option<&'static str> {
-        let index = match self.suspicion {
-            Suspicion::Step { index, .. } | Suspicion::Error { index } => Some(index),
-            Suspicion::Curve { .. }
-            | Suspicion::Missed { .. }
-            | Suspicion::Flexion { .. }
-            | Suspicion::Sunk { .. } => None,
-            Suspicion::Energy { index, .. } | Suspicion::Momentum { index, .. } => index,
-        };
-        self.info.state_name(index?)
-    }
-
-    /// How much: the step over the largest stable one, the argument, the angle, the share that is missing.
-    pub fn amount(&self) -> f64 {
-        match self.suspicion {
-            Suspicion::Step { step, .. } => {
-                step / self.suspicion.largest_stable_step().unwrap_or(step)
-            }
-            Suspicion::Curve { argument, .. } => argument,
-            Suspicion::Missed { steps, .. } => steps as f64,
-            Suspicion::Flexion { .. } | Suspicion::Sunk { .. } => core::f64::consts::PI,
-            Suspicion::Energy { share, .. } | Suspicion::Momentum { share, .. } => share,
-            Suspicion::Error { .. } => 1.0,
-        }
-    }
-
-    /// A word for programs.
-    pub fn kind(&self) -> &'static str {
-        match self.suspicion {
-            Suspicion::Step { .. } => "step",
-            Suspicion::Curve { curve, .. } if self.is_volume(curve) => "volume",
-            Suspicion::Curve { .. } => "curve",
-            Suspicion::Missed { .. } => "missed",
-            Suspicion::Flexion { .. } => "flexion",
-            Suspicion::Sunk { .. } => "sunk",
-            Suspicion::Energy { .. } => "energy",
-            Suspicion::Momentum { .. } => "momentum",
-            Suspicion::Error { .. } => "error",
-        }
-    }
-
-    /// Whether an entry of [`Info::curves`] is the volume of an airbag.
-    fn is_volume(&self, curve: usize) -> bool {
-        let curve = self.info.curves.get(curve);
-        curve.is_some_and(|curve| curve.kind == CurveKind::Volume)
-    }
-
-    /// What to do.
-    pub fn remedy(&self) -> &'static str {
-        match self.suspicion {
-            Suspicion::Step { .. } => {
-                "give a smaller --step; or --tolerance instead, which finds the steps; or --method rodas5, which has no such limit"
-            }
-            Suspicion::Curve { curve, .. } if self.is_volume(curve) => {
-                "give the bag more gas, a smaller vent or more volume, or let a contact stop the bodies before"
-            }
-            Suspicion::Curve { .. } => {
-                "give the curve points as far as it is used; or write `extrapolate: hold` where its last value is meant to go on"
-            }
-            Suspicion::Missed { .. } | Suspicion::Error { .. } => {
-                "give --tolerance instead of --step, which ends steps where something begins; or a smaller --step"
-            }
-            Suspicion::Flexion { .. } => {
-                "let a stop or a stiffer curve end the bending before 180°, start the joint straighter, or give it laws `about` x, y, z"
-            }
-            Suspicion::Sunk { .. } => {
-                "let the force, or something behind, stop the bodies before their middles meet; or give a smaller --step, or --tolerance instead"
-            }
-            Suspicion::Energy { .. } | Suspicion::Momentum { .. } => {
-                "a smaller --tolerance or --step, or another --method, shows whether the gap goes down; if it does not, a \
-                 force does not belong to its power; --energy-limit says how much may be missing"
-            }
-        }
-    }
-}
-
-/// A number to three digits, without an exponent where it can be read without.
-struct Short(f64);
-
-impl fmt::Display for Short {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let size = self.0.abs();
-        match size {
-            0.0 => f.write_str("0"),
-            s if !(1e-3..1e6).contains(&s) => write!(f, "{:.2e}", self.0),
-            s => {
-                let decimals = [100.0, 10.0, 1.0, 0.1, 0.01].iter().take_while(|x| s < **x);
-                write!(f, "{:.*}", decimals.count(), self.0)
-            }
-        }
-    }
-}
-
-/// A length of time in the unit in which it is read most easily.
-pub(crate) struct Time(pub f64);
-
-impl fmt::Display for Time {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            s if s >= 1.0 || s == 0.0 => write!(f, "{} s", Short(s)),
-            s if s >= 1e-3 => write!(f, "{} ms", Short(s * 1e3)),
-            s if s >= 1e-6 => write!(f, "{} µs", Short(s * 1e6)),
-            s => write!(f, "{} ns", Short(s * 1e9)),
-        }
-    }
-}
-
-impl fmt::Display for Doubt {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let since = Time(self.t);
-        let name = self.coordinate().unwrap_or("?");
-        match self.suspicion {
-            Suspicion::Step {
-                step,
-                formula,
-                rate,
-                ..
-            } => {
-                let largest = self.suspicion.largest_stable_step().unwrap_or(step);
-                write!(
-                    f,
-                    "since t = {since} the step of {} is above the stability limit of {formula} in this scene, about {} (a motion \
-                     of {} 1/s, most in \"{name}\")",
-                    Time(step),
-                    Time(largest),
-                    Short(rate)
-                )
-            }
-            Suspicion::Curve { curve, argument } => match self.info.curves.get(curve) {
-                Some(curve) => write!(f, "since t = {since} {}", Beyond { curve, argument }),
-                None => write!(
-                    f,
-                    "since t = {since} the argument of a curve is outside of its points"
-                ),
-            },
-            Suspicion::Missed { onset, steps } => {
-                let onset = self.info.onsets.get(onset).copied().unwrap_or("?");
-                let which = match steps {
-                    1 => "a step",
-                    _ => "the first of several steps",
-                };
-                write!(
-                    f,
-                    "at t = {since} {which} passed over an event that begins and ends within the step: \"{onset}\""
-                )
-            }
-            Suspicion::Flexion { bearing } => {
-                let name = self
-                    .info
-                    .curves
-                    .get(bearing)
-                    .map_or("?", |curve| curve.name);
-                write!(
-                    f,
-                    "since t = {since} \"{name}\" is bent through 180°, where flexion has no direction and torsion no angle"
-                )
-            }
-            Suspicion::Sunk { contact } => {
-                let name = self
-                    .info
-                    .curves
-                    .get(contact)
-                    .map_or("?", |curve| curve.name);
-                write!(
-                    f,
-                    "since t = {since} the bodies of \"{name}\" have sunk into each other so far that the direction of the force is not \
-                     determined"
-                )
-            }
-            Suspicion::Energy { share, effect, .. } => {
-                write!(
-                    f,
-                    "since t = {since} the balance of energy has a gap of {} % of the largest energy in it",
-                    Short(100.0 * share)
-                )?;
-                match effect.and_then(|effect| self.info.powers.get(effect)) {
-                    Some(effect) => write!(
-                        f,
-                        "; the largest power at that time is that of \"{effect}\""
-                    ),
-                    None => write!(f, "; \"{name}\" moves fastest at that time"),
-                }
-            }
-            Suspicion::Error { .. } => write!(
-                f,
-                "since t = {since} \"{name}\" errs by too much, as estimated from the rates within the steps: they are too long for this motion"
-            ),
-            Suspicion::Momentum { share, .. } => write!(
-                f,
-                "since t = {since} the balance of momentum of freely moving bodies has a gap of {} % of the largest possible momentum; \
-                 \"{name}\" moves fastest at that time",
-                Short(100.0 * share)
-            ),
-        }
-    }
-}
-
-/// By how much the argument of a curve exceeds its points, and how the curve is extended, in words.
-pub(crate) struct Beyond<'a> {
-    pub curve: &'a CurveInfo,
-    pub argument: f64,
-}
-
-impl fmt::Display for Beyond<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Beyond { curve, argument } = self;
-        if curve.kind == CurveKind::Volume {
-            let (name, left) = (curve.name, 100.0 * (1.0 - curve.last));
-            return write!(
-                f,
-                "the {name} is compressed to less than {} % of its volume, where its law is no longer valid",
-                Short(left)
-            );
-        }
-        let how = match curve.extrapolate {
-            Extrapolate::Linear => "the curve is extended as a straight line",
-            Extrapolate::Hold => "the curve keeps its outermost value",
-            Extrapolate::Error => "the curve may not be extended",
-        };
-        let (side, end) = match *argument < curve.first {
-            true => ("is below the first point", curve.first),
-            false => ("exceeds the last point", curve.last),
-        };
-        let (name, beyond) = (curve.name, (argument - end).abs());
-        write!(
-            f,
-            "the argument of the curve \"{name}\" {side} ({}) by {}, and {how}",
-            Short(end),
-            Short(beyond)
-        )
-    }
-}
-
-/// How far a curve was left.
+/// A curve whose argument left its points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Left {
-    /// Which, an index in [`Info::curves`].
+    /// The curve, an index in [`Info::curves`].
     pub curve: usize,
-    /// Since when \[s\].
+    /// The time when the argument left the points first \[s\].
     pub since: f64,
-    /// The argument farthest away.
+    /// The argument that was farthest outside.
     pub argument: f64,
 }
 
 impl Left {
-    /// Whether what the curve gives there is made up: a line that goes on over more than the whole width of the points, a value
-    /// other than 0 that is held though nobody asked for it.
+    /// Whether the value of the curve there is made up: a straight line extends over more than the whole width of the points, or a value
+    /// other than 0 is held though the model does not ask for it.
     pub fn made_up(&self, info: &Info) -> bool {
         let curve = info.curves.get(self.curve);
         curve.is_some_and(|curve| {
@@ -396,51 +78,54 @@ impl Left {
     }
 }
 
-/// What a run is watched for, and what was found.
+/// The watch of a run: what it compares step by step, and what it found.
 #[derive(Debug)]
 pub struct Watch<'a, T: Real> {
     info: &'static Info,
     /// Where energy and momentum went.
     pub balance: Balance<'a, T>,
     account: Account,
-    /// The effect whose power was largest when energy began to be missing, and the entries of the state that were fastest when energy and momentum
-    /// did.
+    /// The effect whose power was largest when the gap in the energy began.
     effect: Option<usize>,
+    /// The entries of the state that were fastest when the gaps in energy and in momentum began.
     fastest: [Option<usize>; 2],
     errors: Errors,
     stability: Stability,
-    /// The method, where steps are fixed and so may be above its limit.
+    /// The method, if steps are fixed and so may be above its limit of stability.
     fixed: Option<Formula>,
-    /// When a fixed step went over something first, what, and how many steps did.
+    /// The first event that a fixed step passed over: its time and its index; and how many steps passed over an event.
     missed: Option<(f64, usize, u64)>,
     /// Whether the run ended in numbers that are not finite.
     failed: bool,
-    /// Since when each curve of the state is left, or bearing has leapt, NaN where it is not, and the argument farthest away; the bearing
-    /// where the step begins.
+    /// For each curve of the state, the time when its argument left the points; for each bearing or direction, the time when it leapt. NaN if
+    /// it never did.
     since: Buffer<'a, T>,
+    /// For each curve of the state, the argument that was farthest outside; for each bearing or direction, its entry where the step begins.
     farthest: Buffer<'a, T>,
     /// The arguments of the curves of the state.
     arguments: Buffer<'a, T>,
-    /// The same at three places within a step.
+    /// The arguments at three places within a step.
     within: Buffer<'a, T>,
-    /// Powers of all effects at one node of a step after the other. Those of the first are known when it begins, those of the last when it
-    /// ends.
+    /// The powers of all effects, node by node of a step. The first node is the beginning of the step, the last is its end.
     powers: Buffer<'a, T>,
-    /// The start, how far each entry is off by the estimate, what the step leaves unexplained of it, and a derivative.
+    /// The state at the start.
     start: Buffer<'a, T>,
+    /// The estimated error of each entry of the state.
     error: Buffer<'a, T>,
+    /// The defect of a step: its change of the state less the integral of the derivative.
     defect: Buffer<'a, T>,
+    /// Room for a derivative.
     rates: Buffer<'a, T>,
-    /// Whether coordinates may change their charts, and whether they just may have.
+    /// Whether the model has coordinates that change their charts, and whether they may have changed them just now.
     charts: [bool; 2],
-    /// The forces on what moves freely there.
+    /// The external wrench on the freely moving bodies, at each node of a step.
     external_wrenches: [[T; 6]; NODES],
     /// Kinetic energy and momentum where a step leads.
     kinetic_ahead: T,
     momentum_ahead: [T; 6],
-    /// How they are summed up.
+    /// The quadrature rule over the nodes.
     rule: Rule,
-    /// The works of effects over time, where they are wanted.
+    /// The works of effects over time, if they are requested.
     #[cfg(feature = "std")]
     pub history: Option<History>,
 }
@@ -449,9 +134,9 @@ pub struct Watch<'a, T: Real> {
 #[cfg(feature = "std")]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
-    /// Least time between two of them \[s\].
+    /// Least time between two entries \[s\].
     pub every: f64,
-    /// \[s\]
+    /// The times of the entries \[s\].
     pub times: std::vec::Vec<f64>,
     /// Work of each effect up to each of the times \[J\].
     pub works: std::vec::Vec<std::vec::Vec<f64>>,
@@ -459,7 +144,7 @@ pub struct History {
 
 #[cfg(feature = "std")]
 impl History {
-    /// Notes works at a time, where that is late enough.
+    /// Adds an entry, if the last one is long enough ago.
     fn note<T: Real>(&mut self, t: f64, works: &[T]) {
         if self.times.last().is_none_or(|last| t >= last + self.every) {
             self.times.push(t);
@@ -471,8 +156,8 @@ impl History {
 
 #[cfg(feature = "std")]
 impl<T: Real> Watch<'static, T> {
-    /// Before a run of this model ([`Model::INFO`](crate::Model::INFO)), with this limit on the share of energy and momentum that may be
-    /// missing. It allocates its memory here.
+    /// A watch for one run of this model ([`Model::INFO`](crate::Model::INFO)). `limit` is the share of energy and momentum that may be
+    /// missing. The watch allocates its memory here.
     pub fn new(info: &'static Info, limit: f64) -> Self {
         let buffer = |length| Buffer::Owned(std::vec![T::from_f64(0.0); length]);
         Watch::with(info, limit, buffer)
@@ -480,22 +165,21 @@ impl<T: Real> Watch<'static, T> {
 }
 
 impl<'a, T: Real> Watch<'a, T> {
-    /// [`Watch::new`] in memory that is given, of which [`Watch::length`] says how much there has to be. What it holds before does not
-    /// matter.
+    /// [`Watch::new`] in the given memory, of at least [`Watch::length`] scalars with any values.
     ///
     /// # Panics
-    /// Where the memory is too short.
+    /// If the memory is too short.
     pub fn within(info: &'static Info, limit: f64, memory: &'a mut [T]) -> Self {
         let mut workspace = Workspace::new(memory);
         Watch::with(info, limit, |length| Buffer::Lent(workspace.part(length)))
     }
 
-    /// How many scalars the watch of a model keeps.
+    /// The number of scalars that the watch of a model keeps.
     pub const fn length(info: &Info) -> usize {
         (1 + NODES) * info.powers.len() + 6 * info.curves.len() + 4 * info.state_length()
     }
 
-    /// Before a run, with memory of the lengths asked for.
+    /// A watch for one run. `memory` gives a buffer of the length that it is called with.
     fn with(
         info: &'static Info,
         limit: f64,
@@ -538,34 +222,34 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// The model that it is for.
+    /// The watched model.
     pub fn info(&self) -> &'static Info {
         self.info
     }
 
-    /// Whether it is for a model with as many effects, curves and entries of the state.
+    /// Whether the watched model has as many effects, curves and entries of the state as this one.
     pub(super) fn fits(&self, info: &Info) -> bool {
         let lengths = |info: &Info| (info.powers.len(), info.curves.len(), info.state_length());
         lengths(self.info) == lengths(info)
     }
 
-    /// Why the run cannot be trusted, what causes the rest first.
-    pub fn doubts(&self) -> impl Iterator<Item = Doubt> + '_ {
+    /// Why the run cannot be trusted. Causes come before their consequences.
+    pub fn diagnostics(&self) -> impl Iterator<Item = Diagnostic> + '_ {
         let curve = self.left().filter(|left| left.made_up(self.info));
         let curve = curve.map(|left| {
             let Left {
                 curve, argument, ..
             } = left;
-            (left.since, Suspicion::Curve { curve, argument })
+            (left.since, Problem::Curve { curve, argument })
         });
-        let missed = (self.missed).map(|(t, onset, steps)| (t, Suspicion::Missed { onset, steps }));
+        let missed = (self.missed).map(|(t, onset, steps)| (t, Problem::Missed { onset, steps }));
         let energy = self.account.energy().map(|(since, share)| {
-            let suspicion = Suspicion::Energy {
+            let problem = Problem::Energy {
                 share,
                 effect: self.effect,
                 index: self.fastest[0],
             };
-            (since, suspicion)
+            (since, problem)
         });
         let bearings = self.info.curves.iter().enumerate();
         let flexions = bearings.filter_map(|(bearing, curve)| {
@@ -573,38 +257,38 @@ impl<'a, T: Real> Watch<'a, T> {
             if since.is_nan() {
                 return None;
             }
-            let suspicion = match curve.kind {
+            let problem = match curve.kind {
                 CurveKind::Curve | CurveKind::Volume => return None,
-                CurveKind::Bearing => Suspicion::Flexion { bearing },
-                CurveKind::Direction(_) => Suspicion::Sunk { contact: bearing },
+                CurveKind::Bearing => Problem::Flexion { bearing },
+                CurveKind::Direction(_) => Problem::Sunk { contact: bearing },
             };
-            Some((since, suspicion))
+            Some((since, problem))
         });
         let momentum = self.account.momentum().map(|(since, share)| {
             let index = self.fastest[1];
-            (since, Suspicion::Momentum { share, index })
+            (since, Problem::Momentum { share, index })
         });
         let found = self.step().into_iter().chain(missed).chain(curve);
         let found = found.chain(flexions).chain(energy);
-        let errs = self.errors.found();
-        let errs = errs.map(|(since, index)| (since, Suspicion::Error { index }));
+        let errors = self.errors.found();
+        let errors = errors.map(|(since, index)| (since, Problem::Error { index }));
         found
             .chain(momentum)
-            .chain(errs)
-            .map(|(t, suspicion)| Doubt {
+            .chain(errors)
+            .map(|(t, problem)| Diagnostic {
                 t,
-                suspicion,
+                problem,
                 info: self.info,
             })
     }
 
-    /// A fixed step from `t` went over something.
+    /// Notes that a fixed step from `t` passed over an event.
     pub(super) fn step_over(&mut self, t: f64, onset: usize) {
         let (.., steps) = self.missed.get_or_insert((t, onset, 0));
         *steps += 1;
     }
 
-    /// The curves of the state that were left, and how far.
+    /// The curves of the state whose arguments left their points.
     pub fn left(&self) -> impl Iterator<Item = Left> + '_ {
         (0..self.info.curves.len()).filter_map(|curve| {
             let (since, argument) = (self.since[curve].to_f64(), self.farthest[curve].to_f64());
@@ -617,7 +301,7 @@ impl<'a, T: Real> Watch<'a, T> {
         })
     }
 
-    /// The start of a run, with place for two states.
+    /// Begins to watch a run at its start. The last argument is room for two states.
     pub(super) fn open(
         &mut self,
         model: &dyn Dynamics<T>,
@@ -627,7 +311,7 @@ impl<'a, T: Real> Watch<'a, T> {
     ) {
         let (info, start) = (self.info, T::from_f64(settings.start));
         let energy = |y: &[T]| model.kinetic_energy(start, y).to_f64();
-        // that of velocities of a certain size, beyond what moves by itself
+        // the kinetic energy of velocities of a certain size, less that of prescribed motions
         let mut moving = |size: &dyn Fn(StateKind) -> f64| {
             slow.copy_from_slice(y);
             fast.copy_from_slice(y);
@@ -673,13 +357,13 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// A step begins at `t` and `y` otherwise than the one before ended.
+    /// Takes the powers where a step begins, at `t` and `y`, if they are not those of the end of the step before.
     pub(super) fn begin(&mut self, model: &dyn Dynamics<T>, t: f64, y: &[T]) {
         let powers = &mut self.powers[..self.info.powers.len()];
         model.exchange(T::from_f64(t), y, powers, &mut self.external_wrenches[0]);
     }
 
-    /// Memory was renewed at the end of a step that began at `before`. The next step begins with what [`Watch::arrival`] received last.
+    /// Takes up a discrete update at the end of a step that began at `before`. The next step begins with what [`Watch::arrival`] received last.
     pub(super) fn renew(&mut self, before: f64) {
         self.charts[1] = self.charts[0];
         self.advance();
@@ -693,8 +377,7 @@ impl<'a, T: Real> Watch<'a, T> {
         self.external_wrenches[0] = self.external_wrenches[last];
     }
 
-    /// Places for what is wanted where a step ends, or may end, on this side of a kink there and before memory is renewed: the arguments of
-    /// curves, and what balances are made of.
+    /// Places for the arguments of curves, energies and powers where a step ends: before a kink there, and before the discrete update.
     pub(super) fn arrival(&mut self) -> (&mut [T], AccountArrival<'_, T>) {
         let last = NODES - 1;
         let account = AccountArrival {
@@ -706,8 +389,8 @@ impl<'a, T: Real> Watch<'a, T> {
         (&mut self.arguments, account)
     }
 
-    /// Adds the work of a step that is complete, or of its first part of this length, whose end is known ([`Watch::arrival`]); the kinetic
-    /// energy before it, and what was exchanged in it \[J\]. `state` is place for a state.
+    /// Adds the work of a step, or of its first part of this length, whose end is known ([`Watch::arrival`]), and returns the kinetic energy before
+    /// it and the exchanged energy \[J\]. `state` is room for a state.
     pub(super) fn add_work(
         &mut self,
         model: &dyn Dynamics<T>,
@@ -744,7 +427,7 @@ impl<'a, T: Real> Watch<'a, T> {
         [kinetic, self.balance.exchanged - before].map(T::to_f64)
     }
 
-    /// What a step of this length, which ends at `y`, leaves unexplained. `state` is place for a state.
+    /// Computes the defect of a step of this length that ends at `y`. `state` is room for a state.
     fn look_at_defect(
         &mut self,
         model: &dyn Dynamics<T>,
@@ -768,7 +451,7 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// Carries the estimate of the error over a step of this length, which ended at `y`. The step is done with. `state` is place for a state.
+    /// Carries the estimated error over a step of this length that ended at `y`. It overwrites the step. `state` is room for a state.
     pub(super) fn estimate_error(
         &mut self,
         step: &mut dyn Stepper<T>,
@@ -780,7 +463,7 @@ impl<'a, T: Real> Watch<'a, T> {
         let integrated = self.info.varying_length();
         let t = step.span().t;
         if core::mem::take(&mut self.charts[1]) {
-            // the coordinates are others
+            // the coordinates may be those of another chart
             self.error.fill(T::from_f64(0.0));
             return;
         }
@@ -811,14 +494,14 @@ impl<'a, T: Real> Watch<'a, T> {
         self.errors.observe(t, self.info, entry);
     }
 
-    /// The state at the end of a step that began at `t`, with the kinetic energy that it began with and what was exchanged in it \[J\]. The next
-    /// begins as this one ended.
+    /// Closes a step that began at `t` and ended at `y`, after [`Watch::add_work`]. The last argument has the kinetic energy at its beginning and
+    /// the energy that was exchanged in it \[J\]. The next step begins with the powers that this one ended with.
     pub(super) fn close(&mut self, t: f64, y: &[T], [before, exchanged]: [f64; 2]) {
         let effects = self.info.powers.len();
         let energies = Energies {
             kinetic: [before, self.balance.end.to_f64()],
             exchanged,
-            // without an effect nothing is said of energy
+            // a model without effects has no balance of energy
             gap: match effects {
                 0 => 0.0,
                 _ => self.balance.gap().abs().to_f64(),
@@ -848,7 +531,7 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// Whether curves are left at their arguments, which are known, at the end of a step that began at `t`.
+    /// Looks which of the arguments at the end of a step, which began at `t`, are outside of the points of their curves.
     fn look_at_curves(&mut self, t: f64) {
         for (i, curve) in self.info.curves.iter().enumerate() {
             if !curve.kind.may_be_left() {
@@ -868,7 +551,7 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// Looks for leaps of bearings and directions in the first `part` of a step; `state` is place for a state.
+    /// Looks for leaps of bearings and directions in the first `part` of a step. `state` is room for a state.
     fn look_at_bearings(
         &mut self,
         model: &dyn Dynamics<T>,
@@ -882,7 +565,7 @@ impl<'a, T: Real> Watch<'a, T> {
         let mut suspected = false;
         for (i, curve) in info.curves.iter().enumerate() {
             if let Some(count) = curve.turning(info.dimension) {
-                // of a joint all steps are looked into, which bends through 180° and back
+                // every step of a joint is looked into: it may bend through 180° and back within one
                 suspected |= curve.kind == CurveKind::Bearing || {
                     let ends = [&self.farthest, &self.arguments];
                     curve.may_leap(ends.map(|of| entries(of, i, count)))
@@ -933,7 +616,7 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// A step just taken, whose end is `y` with the derivative `rate`; `near` is place for a state.
+    /// Estimates |λ| of the fastest motion from a step that ends at `y` with the derivative `rate`. `near` is room for a state.
     pub(super) fn compare(&mut self, step: &dyn Stepper<T>, y: &[T], rate: &[T], near: &mut [T]) {
         let Some(limit) = self.fixed.and_then(Formula::stability_limit) else {
             return;
@@ -956,25 +639,25 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// The run has ended in numbers that are not finite.
+    /// Notes that the run ended in numbers that are not finite.
     pub(super) fn fail(&mut self) {
         self.failed = true;
     }
 
-    /// The step that is above the limit of stability, and since when.
-    fn step(&self) -> Option<(f64, Suspicion)> {
+    /// The step above the limit of stability, and the time when it began.
+    fn step(&self) -> Option<(f64, Problem)> {
         let unstable = self.stability.unstable(self.failed)?;
-        let suspicion = Suspicion::Step {
+        let problem = Problem::Step {
             step: unstable.step,
             formula: self.fixed?,
             rate: unstable.rate,
             index: unstable.index,
         };
-        Some((unstable.since, suspicion))
+        Some((unstable.since, problem))
     }
 }
 
-/// The entries of a bearing or a direction.
+/// The components of a bearing or a direction.
 fn turning<T: Real>(entries: &[T]) -> Turning {
     let mut turning = [0.0; 3];
     for (of, entry) in turning.iter_mut().zip(entries) {
@@ -983,7 +666,7 @@ fn turning<T: Real>(entries: &[T]) -> Turning {
     turning
 }
 
-/// Index of the largest magnitude, where one is not 0.
+/// Index of the largest magnitude; `None` if all are 0.
 fn largest<T: Real>(values: impl Iterator<Item = T>) -> Option<usize> {
     let (mut found, mut most) = (None, 0.0);
     for (i, value) in values.enumerate() {

@@ -1,6 +1,6 @@
 //! A study as comma-separated values: one row for each point, with every setting that is needed to repeat it, and all digits.
 
-use crate::accuracy::finding::Finding;
+use crate::accuracy::conclusion::Conclusion;
 use crate::accuracy::point::{Done, Point, Status};
 use crate::accuracy::reading::Kind;
 use crate::accuracy::setting::Pace;
@@ -11,11 +11,11 @@ use std::io;
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write(study: &Study, finding: &Finding, out: impl io::Write) -> io::Result<()> {
+pub fn write(study: &Study, conclusion: &Conclusion, out: impl io::Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(headings(study))?;
     for (index, point) in study.points.iter().enumerate() {
-        let front = finding.front.contains(&index);
+        let front = conclusion.front.contains(&index);
         writer.write_record(record(study, point, front))?;
     }
     writer.flush()

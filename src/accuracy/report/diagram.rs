@@ -1,7 +1,7 @@
 //! The work–precision diagram of a study.
 
 use super::text::formulas;
-use crate::accuracy::finding::{Finding, cost};
+use crate::accuracy::conclusion::{Conclusion, cost};
 use crate::accuracy::point::Point;
 use crate::accuracy::setting::{Curves, Pace, Setting};
 use crate::accuracy::study::Study;
@@ -9,7 +9,7 @@ use crate::picture::work_precision::{Diagram, Line};
 use bryant_runtime::program::Scalar;
 
 /// The diagram of a study: runs of this scene, without those with exchanged curves.
-pub fn diagram(study: &Study, finding: &Finding) -> Diagram {
+pub fn diagram(study: &Study, conclusion: &Conclusion) -> Diagram {
     let formulas = formulas(study);
     let drawn = |point: &&Point| point.setting.curves == Curves::Written;
     let points: Vec<&Point> = study.points.iter().filter(drawn).collect();
@@ -43,7 +43,7 @@ pub fn diagram(study: &Study, finding: &Finding) -> Diagram {
             line.points.push([cost.error, cost.time]);
         }
     }
-    let front = finding.front.iter().map(|&index| {
+    let front = conclusion.front.iter().map(|&index| {
         let cost = cost(study, &study.points[index]);
         [cost.error, cost.time]
     });
@@ -60,7 +60,7 @@ pub fn diagram(study: &Study, finding: &Finding) -> Diagram {
         lines: lines.into_iter().map(|(_, line)| line).collect(),
         front: front.collect(),
         own: own.of(study.of),
-        sentence: finding.sentence(study),
+        sentence: conclusion.sentence(study),
     }
 }
 

@@ -1,13 +1,13 @@
 //! A study as JSON.
 
-use crate::accuracy::finding::{Finding, bounded_by_stability};
+use crate::accuracy::conclusion::{Conclusion, bounded_by_stability};
 use crate::accuracy::point::{Point, Status};
 use crate::accuracy::setting::Pace;
 use crate::accuracy::study::Study;
 use serde_json::{Map, Value, json};
 
 /// The whole study; a number that is not finite is `null`.
-pub fn json(study: &Study, finding: &Finding) -> Value {
+pub fn json(study: &Study, conclusion: &Conclusion) -> Value {
     let environment = &study.environment;
     let parameters: Map<String, Value> = study
         .parameters
@@ -18,7 +18,7 @@ pub fn json(study: &Study, finding: &Finding) -> Value {
         .points
         .iter()
         .enumerate()
-        .map(|(index, p)| point(study, p, finding.front.contains(&index)))
+        .map(|(index, p)| point(study, p, conclusion.front.contains(&index)))
         .collect();
     let readings: Vec<Value> = study
         .reference
@@ -67,8 +67,8 @@ pub fn json(study: &Study, finding: &Finding) -> Value {
         }),
         "curves_not_exchanged": study.not_exchanged,
         "of": study.of.name(&study.reference.readings),
-        "sentence": finding.sentence(study),
-        "factor_per_digit": finding.digits.map(|d| d.factor),
+        "sentence": conclusion.sentence(study),
+        "factor_per_digit": conclusion.digits.map(|d| d.factor),
         "points": points,
         "bounded_by_stability": bounded,
         "fastest_motion": study.fastest.as_ref().map(|fastest| json!({

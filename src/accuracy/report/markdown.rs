@@ -1,17 +1,22 @@
-//! A study as a section of a page: its finding, the picture, the front.
+//! A study as a section of a page: its conclusion, the picture, the front.
 
 use super::text::{digits, error, known};
-use crate::accuracy::finding::Finding;
+use crate::accuracy::conclusion::Conclusion;
 use crate::accuracy::point::{Measure, Status};
 use crate::accuracy::study::Study;
 use std::fmt::Write as _;
 
 /// The section; `picture` is the link to the diagram, `command` the command that made it.
-pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command: &str) -> String {
+pub fn section(
+    study: &Study,
+    conclusion: &Conclusion,
+    picture: Option<&str>,
+    command: &str,
+) -> String {
     let readings = &study.reference.readings;
     let of = study.of.name(readings);
     let mut text = format!("## {}\n\n", study.model);
-    let mut sentence = finding.sentence(study);
+    let mut sentence = conclusion.sentence(study);
     if let Some(first) = sentence.get_mut(..1) {
         first.make_ascii_uppercase();
     }
@@ -54,7 +59,7 @@ pub fn section(study: &Study, finding: &Finding, picture: Option<&str>, command:
          |---|---:|{rule}---:|---:|---:|"
     );
     let own = &study.reference.own;
-    for &index in &finding.front {
+    for &index in &conclusion.front {
         let point = &study.points[index];
         let Some(done) = point.done() else { continue };
         let beside = match state {

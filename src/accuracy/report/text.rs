@@ -1,6 +1,6 @@
 //! The table of a study: a group for each formula, a row for each point; points on the Pareto front are marked.
 
-use crate::accuracy::finding::{Finding, bounded_by_stability};
+use crate::accuracy::conclusion::{Conclusion, bounded_by_stability};
 use crate::accuracy::point::{Done, Known, Measure, Point, Status};
 use crate::accuracy::setting::{Curves, Pace, time, two_digits};
 use crate::accuracy::study::Study;
@@ -17,13 +17,13 @@ type Row = Vec<String>;
 const WORDS: usize = 5;
 
 /// Head, groups and the meaning of the marks; the last line has no line end.
-pub fn text(study: &Study, finding: &Finding) -> String {
+pub fn text(study: &Study, conclusion: &Conclusion) -> String {
     let mut text = head(study);
     let rows: Vec<(usize, Row)> = study
         .points
         .iter()
         .enumerate()
-        .map(|(index, point)| (index, row(study, point, finding.front.contains(&index))))
+        .map(|(index, point)| (index, row(study, point, conclusion.front.contains(&index))))
         .collect();
     let [heading, units] = heading(study);
     let columns = heading.len();

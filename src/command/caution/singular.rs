@@ -1,8 +1,8 @@
-//! Positions in which two freedoms of a joint move its element in the same way.
+//! Positions in which two degrees of freedom of a joint move its element in the same way.
 //!
-//! A joint with several freedoms and no mass between them is singular where its columns H (see `bryant_generator::joint`) are linearly
+//! A joint with several degrees of freedom and no mass between them is singular where its columns H (see `bryant_generator::joint`) are linearly
 //! dependent: where the Gram determinant det Ĥᵀ Ĥ is 0, with Ĥ the columns scaled to length 1. Near such a position rates become extreme
-//! and steps become short. The columns depend only on the coordinates between the first freedom and the last. The smallest determinant
+//! and steps become short. The columns depend only on the coordinates between the first degree of freedom and the last. The smallest determinant
 //! within the stops is searched from many start values. This is not a proof, but joints of two or three hinges and sliders, which users
 //! write, have few minima.
 
@@ -25,20 +25,20 @@ const CLOSE: f64 = 1e-3;
 /// Number of start values of the search, for each coordinate.
 const PLACES: usize = 200;
 
-/// A joint of several freedoms.
+/// A joint of several degrees of freedom.
 struct Several {
     /// The element that it carries.
     name: String,
-    freedoms: Vec<One>,
+    degrees_of_freedom: Vec<One>,
 }
 
-/// A freedom with the default parameters.
+/// A degree of freedom with the default parameters.
 struct One {
     name: String,
     axis: Vector,
     zero: f64,
     turns: bool,
-    /// Displacement for a unit of the coordinate \[m\], if the freedom slides.
+    /// Displacement for a unit of the coordinate \[m\], if the degree of freedom slides.
     advance: Option<f64>,
     /// The range that stops leave.
     stops: [f64; 2],
@@ -79,7 +79,7 @@ pub fn at(
     };
     let joints = joints(model, parameters);
     let found = joints.iter().find_map(|(joint, start)| {
-        let names = joint.freedoms.iter().zip(start);
+        let names = joint.degrees_of_freedom.iter().zip(start);
         let q = names.map(|(one, start)| {
             let name = format!("{}.{}", joint.name, one.name);
             state(&name).unwrap_or(*start)
@@ -88,7 +88,7 @@ pub fn at(
         (joint.determinant(&q) < least).then_some((joint, q))
     });
     found.map(|(joint, q)| {
-        let named = joint.freedoms.iter().zip(&q);
+        let named = joint.degrees_of_freedom.iter().zip(&q);
         let shown: Vec<String> = named
             .map(|(one, q)| format!("{} = {}", one.name, one.shown(*q)))
             .collect();
@@ -103,15 +103,17 @@ pub fn at(
     })
 }
 
-/// The joints of several freedoms with these values of the parameters, and the coordinates of each at the start.
+/// The joints of several degrees of freedom with these values of the parameters, and the coordinates of each at the start.
 fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
     let mut all = Vec::new();
     for (s, system) in model.systems.iter().enumerate() {
         for (e, element) in system.elements.iter().enumerate() {
-            let Joint::Freedoms(freedoms) = &element.joint else {
+            let Joint::Freedoms(degrees_of_freedom) = &element.joint else {
                 continue;
             };
-            if freedoms.len() < 2 || freedoms.iter().any(|freedom| !freedom.is_own()) {
+            if degrees_of_freedom.len() < 2
+                || degrees_of_freedom.iter().any(|freedom| !freedom.is_own())
+            {
                 continue;
             }
             let id = ElementId {
@@ -133,9 +135,9 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
             };
             let joint = Several {
                 name: format!("{}/{}", system.name, element.name),
-                freedoms: freedoms.iter().enumerate().map(of).collect(),
+                degrees_of_freedom: degrees_of_freedom.iter().enumerate().map(of).collect(),
             };
-            let start = freedoms
+            let start = degrees_of_freedom
                 .iter()
                 .map(|freedom| freedom.position.value(parameters));
             all.push((joint, start.collect()));
@@ -144,7 +146,7 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
     all
 }
 
-/// The range of a freedom between the stops that always act.
+/// The range of a degree of freedom between the stops that always act.
 fn stops(model: &Model, joint: ElementId, index: usize, defaults: &[f64]) -> [f64; 2] {
     let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
     for force in &model.forces {
@@ -168,8 +170,11 @@ fn stops(model: &Model, joint: ElementId, index: usize, defaults: &[f64]) -> [f6
 
 impl Several {
     fn caution(&self) -> Option<String> {
-        let inner = self.freedoms.len() - 1;
-        let ranges: Vec<[f64; 2]> = self.freedoms[..inner].iter().map(One::range).collect();
+        let inner = self.degrees_of_freedom.len() - 1;
+        let ranges: Vec<[f64; 2]> = self.degrees_of_freedom[..inner]
+            .iter()
+            .map(One::range)
+            .collect();
         let found = self.smallest(&ranges)?;
         let relevant: Vec<usize> = (1..inner)
             .filter(|&index| self.depends_on(&found, index))
@@ -180,18 +185,18 @@ impl Several {
         if others.is_empty() {
             places = self.all_places(&found, *first, ranges[*first]);
         }
-        let one = &self.freedoms[*first];
+        let one = &self.degrees_of_freedom[*first];
         let listed: Vec<String> = places.iter().map(|place| one.shown(*place)).collect();
         let mut place = format!("{} = {}", one.name, listed.join(" or "));
         for index in others {
-            let one = &self.freedoms[*index];
+            let one = &self.degrees_of_freedom[*index];
             place.push_str(&format!(" and {} = {}", one.name, one.shown(found[*index])));
         }
         let reaches = |place: f64, one: &One| (one.stops[0]..=one.stops[1]).contains(&place);
         let reached = places.iter().any(|place| reaches(*place, one))
             && others
                 .iter()
-                .all(|index| reaches(found[*index], &self.freedoms[*index]));
+                .all(|index| reaches(found[*index], &self.degrees_of_freedom[*index]));
         let alike = self.alike(&found).join(" and ");
         let how = match reached {
             true => "is singular at",
@@ -209,12 +214,12 @@ impl Several {
         ))
     }
 
-    /// H, one column for each freedom: the velocity of the element's origin divided by `LENGTH`, and its angular velocity.
+    /// H, one column for each degree of freedom: the velocity of the element's origin divided by `LENGTH`, and its angular velocity.
     fn columns(&self, q: &[f64]) -> Vec<[f64; 6]> {
         let mut rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let mut slid = [0.0; 3];
         let mut found: Vec<(Vector, Vector, Option<Vector>)> = Vec::new();
-        for (index, one) in self.freedoms.iter().enumerate() {
+        for (index, one) in self.degrees_of_freedom.iter().enumerate() {
             let position = q.get(index).copied().unwrap_or(0.0) + one.zero;
             let axis = times(&rotation, one.axis);
             let slide = axis.map(|a| a * one.advance.unwrap_or(0.0));
@@ -246,7 +251,7 @@ impl Several {
         let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let row = |(i, a): (usize, &[f64; 6])| -> Vec<f64> {
             let entry = |(j, b): (usize, &[f64; 6])| match i == j {
-                true => dot(a, b) + self.freedoms[j].rotor,
+                true => dot(a, b) + self.degrees_of_freedom[j].rotor,
                 false => dot(a, b),
             };
             columns.iter().enumerate().map(entry).collect()
@@ -343,7 +348,7 @@ impl Several {
             let there = there[index];
             let is_new = |place: &f64| {
                 let apart = (there - place).abs();
-                let round = match self.freedoms[index].turns {
+                let round = match self.degrees_of_freedom[index].turns {
                     true => (TAU - apart).abs().min(apart),
                     false => apart,
                 };
@@ -356,10 +361,10 @@ impl Several {
         places
     }
 
-    /// The freedoms that are linearly dependent in a singular position.
+    /// The degrees of freedom that are linearly dependent in a singular position.
     fn alike(&self, q: &[f64]) -> Vec<String> {
         let gram = self.gram(q);
-        let all = 0..self.freedoms.len();
+        let all = 0..self.degrees_of_freedom.len();
         // if one of the dependent columns is left out, the rest are independent
         let needed = |without: &usize| {
             let keep: Vec<usize> = all.clone().filter(|i| i != without).collect();
@@ -368,7 +373,9 @@ impl Several {
             rest > SOUND
         };
         let named = all.clone().filter(needed);
-        named.map(|i| self.freedoms[i].name.clone()).collect()
+        named
+            .map(|i| self.degrees_of_freedom[i].name.clone())
+            .collect()
     }
 }
 

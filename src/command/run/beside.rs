@@ -2,9 +2,9 @@
 
 use super::super::Error;
 use super::super::compare::{channel, recording};
+use super::super::error_report::ErrorReport;
 use super::super::model_argument::Found;
 use super::super::terminal::Terminal;
-use super::super::trust::Trust;
 use super::Arguments;
 use super::report::kept;
 use crate::accuracy::setting::Setting;
@@ -91,7 +91,7 @@ pub fn run(
     arguments: &Arguments,
     found: &Found,
     job: &Job,
-    (recording, trust): (&Recording, &Trust),
+    (recording, errors): (&Recording, &ErrorReport),
     terminal: &Terminal,
 ) -> Result<Value, Error> {
     if arguments.beside.is_empty() {
@@ -99,7 +99,7 @@ pub fn run(
     }
     let others = parse_parameters(&arguments.beside, &found.scene)?;
     let engine = prepare(found, terminal)?;
-    let mut job = trust.setting().unwrap_or(Setting::of(job)).job(job);
+    let mut job = errors.setting().unwrap_or(Setting::of(job)).job(job);
     job.reading.asked.clear();
     job.parameters
         .retain(|(name, _)| others.iter().all(|(other, _)| other != name));

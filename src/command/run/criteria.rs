@@ -2,7 +2,7 @@
 
 use super::{Arguments, Error};
 use crate::command::criteria::places;
-use crate::command::response::Response;
+use crate::command::response::Requested;
 use crate::criteria::{Row, Verdict, mode};
 use crate::simulation::Recording;
 use bryant_runtime::program::Kept;
@@ -68,12 +68,12 @@ impl Criteria {
     }
 
     /// The responses of the criteria, in their order.
-    pub fn responses(&self) -> impl Iterator<Item = Response> {
+    pub fn responses(&self) -> impl Iterator<Item = Requested> {
         let there = self
             .judged
             .iter()
             .filter_map(|one| one.response.as_ref().ok());
-        there.map(Response::of_study)
+        there.map(Requested::of_study)
     }
 
     /// The channels whose samples are kept, because they say more than the number: the filtered signals of the neck.

@@ -15,7 +15,11 @@ use bryant_runtime::program::Job;
 use bryant_signal::filter::{Standard, class_of_code, filtered};
 use bryant_signal::mme::{self, About};
 use bryant_signal::{Channel, Signal};
+use bryant_study::table::parquet::{Numbers, write_numbers};
 use std::path::{Path, PathBuf};
+
+/// A requested plot, and its file.
+type Plot = (Request, PathBuf);
 
 /// The files of a run, and the output that is printed.
 pub struct Files {
@@ -23,7 +27,7 @@ pub struct Files {
     final_state: Option<PathBuf>,
     mme: Option<PathBuf>,
     picture: Option<PathBuf>,
-    plots: Vec<(Request, PathBuf)>,
+    plots: Vec<Plot>,
     corridors: Vec<Corridor>,
 }
 
@@ -71,15 +75,7 @@ impl Files {
         }
         if let Some(folder) = &arguments.mme {
             outputs.take("--mme", &folder.join(format!("{}.mme", model.name)))?;
-            let duration = arguments.duration.unwrap_or(model.run.duration);
-            let every = arguments.every.unwrap_or(model.run.every);
-            let rows = duration / every;
-            if (rows - rows.round()).abs() > 1e-6 * rows.max(1.0) {
-                return Err(Error::Input(format!(
-                    "--mme: channels have samples at equal intervals, and {duration} s is no whole number of {every} s\n  \
-                     help: give another --every or --duration"
-                )));
-            }
+            has_equal_intervals(arguments, model)?;
         }
         let binary = [
             ("--parquet", &arguments.parquet),
@@ -102,32 +98,7 @@ impl Files {
             }
             outputs.take("--report", path)?;
         }
-        let columns = model.outputs.iter();
-        let columns = columns.map(|output| (output.name.as_str(), output.unit.as_str()));
-        let columns: Vec<_> = std::iter::once(("time", "s")).chain(columns).collect();
-        let mut plots = Vec::new();
-        for text in &arguments.plot {
-            let plot = Request::read(text, &columns).map_err(Error::input)?;
-            let path = directory.join(format!(
-                "{}-{}.{}",
-                model.name,
-                plot.slug(),
-                arguments.pictures.ending()
-            ));
-            outputs.take(&format!("--plot '{}'", plot.text()), &path)?;
-            plots.push((plot, path));
-        }
-        let corridors = arguments.corridor.iter();
-        let corridors = corridors.map(|text| Corridor::read(text, &columns).map_err(Error::Input));
-        let corridors: Vec<Corridor> = corridors.collect::<Result<_, _>>()?;
-        for corridor in &corridors {
-            if !plots.iter().any(|(plot, _)| plot.shows(corridor)) {
-                let of = &corridor.of;
-                return Err(Error::Input(format!(
-                    "--corridor: no plot shows \"{of}\" over time\n  help: add --plot '{of}'"
-                )));
-            }
-        }
+        let (plots, corridors) = plots(arguments, model, &directory, &mut outputs)?;
         Ok(Files {
             csv,
             final_state,
@@ -222,6 +193,56 @@ impl Files {
     }
 }
 
+/// Refuses rows for ISO-MME whose last interval is shorter than the others.
+fn has_equal_intervals(arguments: &Arguments, model: &Model) -> Result<(), Error> {
+    let duration = arguments.duration.unwrap_or(model.run.duration);
+    let every = arguments.every.unwrap_or(model.run.every);
+    let rows = duration / every;
+    match (rows - rows.round()).abs() > 1e-6 * rows.max(1.0) {
+        true => Err(Error::Input(format!(
+            "--mme: channels have samples at equal intervals, and {duration} s is no whole number of {every} s\n  \
+             help: give another --every or --duration"
+        ))),
+        false => Ok(()),
+    }
+}
+
+/// The requested plots with their files in `directory`, and the corridors in them.
+fn plots(
+    arguments: &Arguments,
+    model: &Model,
+    directory: &Path,
+    outputs: &mut Outputs,
+) -> Result<(Vec<Plot>, Vec<Corridor>), Error> {
+    let columns = model.outputs.iter();
+    let columns = columns.map(|output| (output.name.as_str(), output.unit.as_str()));
+    let columns: Vec<_> = std::iter::once(("time", "s")).chain(columns).collect();
+    let mut plots = Vec::new();
+    for text in &arguments.plot {
+        let plot = Request::read(text, &columns).map_err(Error::input)?;
+        let path = directory.join(format!(
+            "{}-{}.{}",
+            model.name,
+            plot.slug(),
+            arguments.pictures.ending()
+        ));
+        outputs.take(&format!("--plot '{}'", plot.text()), &path)?;
+        plots.push((plot, path));
+    }
+    let corridors = arguments.corridor.iter();
+    let corridors = corridors.map(|text| Corridor::read(text, &columns).map_err(Error::Input));
+    let corridors: Vec<Corridor> = corridors.collect::<Result<_, _>>()?;
+    for corridor in &corridors {
+        if !plots.iter().any(|(plot, _)| plot.shows(corridor)) {
+            let of = &corridor.of;
+            return Err(Error::Input(format!(
+                "--corridor: no plot shows \"{of}\" over time\n  help: add --plot '{of}'"
+            )));
+        }
+    }
+    Ok((plots, corridors))
+}
+
 /// Writes the outputs as channels of ISO-MME; returns the path of the file about the test.
 fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<PathBuf, Error> {
     let [times, columns @ ..] = recording.table.columns.as_slice() else {
@@ -272,6 +293,30 @@ fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<Path
     mme::write(folder, &model.name, &recording, &about)
         .map_err(|error| Error::system(format!("{}: {error}", path.display())))?;
     Ok(path)
+}
+
+/// The table of a run as Apache Parquet; its metadata have units, model, digest and version.
+pub fn parquet(
+    out: &mut dyn std::io::Write,
+    model: &str,
+    recording: &Recording,
+) -> std::io::Result<()> {
+    let columns = &recording.table.columns;
+    let units = columns
+        .iter()
+        .map(|c| (c.name.clone(), c.unit.clone().into()));
+    let units: serde_json::Map<String, serde_json::Value> = units.collect();
+    let metadata = [
+        ("units", serde_json::Value::Object(units).to_string()),
+        ("model", model.to_owned()),
+        ("digest", recording.header.digest.clone()),
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+    ];
+    let numbers = columns.iter().map(|column| Numbers {
+        name: &column.name,
+        values: &column.values,
+    });
+    write_numbers(out, model, &numbers.collect::<Vec<_>>(), &metadata)
 }
 
 /// The picture in the format that the ending of its file says.

@@ -1,12 +1,13 @@
 //! The report of a run: one page of HTML.
 
 use super::super::Error;
+use super::super::error_report::ErrorReport;
 use super::super::model_argument::Found;
 use super::super::prepare::prepare_model;
 use super::super::terminal::Terminal;
-use super::super::trust::Trust;
+use super::outcome;
 use super::responses::Responses;
-use super::{Arguments, beside, report};
+use super::{Arguments, beside};
 use crate::accuracy::setting::Setting;
 use crate::balance;
 use crate::picture::Instant;
@@ -31,14 +32,14 @@ pub fn html(
     arguments: &Arguments,
     found: &Found,
     job: &Job,
-    (recording, trust): (&Recording, &Trust),
+    (recording, errors): (&Recording, &ErrorReport),
     (responses, criteria): (&Responses, Option<Value>),
     terminal: &Terminal,
 ) -> Result<String, Error> {
     let model = &found.model;
     let instants = kept(recording);
     let parameters = recording.parameters(job);
-    let forces = forces(found, job, recording, trust, &instants, terminal)?;
+    let forces = forces(found, job, recording, errors, &instants, terminal)?;
     let mut notes = recording.notes.clone();
     if forces.is_empty() && recording.result.is_err() {
         notes.push(
@@ -55,7 +56,7 @@ pub fn html(
         "" => model.name.clone(),
         title => title.to_owned(),
     };
-    let mut accuracy = trust.lines();
+    let mut accuracy = errors.lines();
     if accuracy.is_empty() {
         accuracy.push("The run was not compared with another one.".to_owned());
     }
@@ -65,7 +66,7 @@ pub fn html(
         (parameter.name.clone(), number)
     });
     let overlays = beside::measured(arguments, model, &recording.table)?;
-    let beside = beside::run(arguments, found, job, (recording, trust), terminal)?;
+    let beside = beside::run(arguments, found, job, (recording, errors), terminal)?;
     let data = json!({
         "overlays": overlays,
         "beside": beside,
@@ -77,15 +78,15 @@ pub fn html(
         "command": command(arguments),
         "columns": columns.collect::<Vec<_>>(),
         "scene": scene,
-        "responses": told(&responses.json(recording, trust)),
+        "responses": told(&responses.json(recording, errors)),
         "criteria": criteria,
         "energy": recording.energy.as_ref().map(|energy| balance::json(&recording.header, energy)),
         "accuracy": accuracy,
-        "beyond": trust.check().is_err(),
+        "beyond": errors.check().is_err(),
         "notes": notes,
         "doubts": recording.doubts.iter().map(|doubt| &doubt.message).collect::<Vec<_>>(),
         "failure": recording.result.as_ref().err().map(|error| error.message.clone()),
-        "report": report(recording),
+        "report": outcome::report(recording),
         "effects": effect::summary(model),
         "parameters": values.collect::<serde_json::Map<_, _>>(),
     });
@@ -129,7 +130,7 @@ fn forces(
     found: &Found,
     job: &Job,
     recording: &Recording,
-    trust: &Trust,
+    errors: &ErrorReport,
     instants: &[Instant],
     terminal: &Terminal,
 ) -> Result<Vec<Vec<f64>>, Error> {
@@ -139,7 +140,7 @@ fn forces(
         return Ok(Vec::new());
     }
     let engine = prepare_model(found, &model, terminal)?;
-    let setting = trust.setting().unwrap_or(Setting::of(job));
+    let setting = errors.setting().unwrap_or(Setting::of(job));
     let mut job = setting.job(job);
     job.reading = Default::default();
     let again = simulation::run(&*engine, &job, &mut |_| {});

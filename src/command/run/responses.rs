@@ -3,10 +3,10 @@
 //! They are read off samples of their own, so that they do not depend on the rows of the table.
 
 use super::criteria::Criteria;
-use super::{Arguments, Error, Trust};
-use crate::accuracy::finding::percent;
+use super::{Arguments, Error, ErrorReport};
+use crate::accuracy::conclusion::percent;
 use crate::command::model_argument::Found;
-use crate::command::response::{self, Response, intervals};
+use crate::command::response::{self, Requested, intervals};
 use crate::command::sweep;
 use crate::criteria::Verdict;
 use crate::simulation::Recording;
@@ -21,7 +21,7 @@ use serde_json::{Value, json};
 /// The responses of a run.
 pub struct Responses {
     /// The requested responses, followed by those of the criteria.
-    asked: Vec<Response>,
+    asked: Vec<Requested>,
     /// The number of requested responses.
     own: usize,
     /// The criteria that the run is judged by.
@@ -53,67 +53,32 @@ impl Responses {
         let model = &found.model;
         let facts = ModelFacts::of(&found.scene);
         let end = arguments.duration.unwrap_or(model.run.duration);
-        let mut sampling = arguments.sampling;
-        let mut otherwise = None;
-        let mut asked = Vec::new();
-        if let Some(path) = &arguments.responses {
-            let (study, _) = sweep::read(path)?;
-            let (responses, every) = study
-                .responses(&facts, end, arguments.sampling)
-                .map_err(Error::Model)?;
-            asked.extend(responses.iter().map(Response::of_study));
-            sampling = Some(every);
-            let other = study.duration(&facts).filter(|other| *other != end);
-            otherwise = other.map(|other| {
-                format!(
-                    "the runs of {} end at {other} s, this one at {end} s: --duration '{other} s' makes it like them",
-                    path.display()
-                )
-            });
-        }
-        for text in &arguments.response {
-            asked.push(Response::read("--response", text, &facts, [start, end])?);
-        }
-        for (index, response) in asked.iter().enumerate() {
-            let name = &response.name;
-            if asked[..index].iter().any(|earlier| earlier.name == *name) {
-                return Err(Error::Input(format!(
-                    "the response \"{name}\" is asked for twice\n  help: leave one of them out"
-                )));
-            }
-        }
-        if asked.is_empty() && arguments.sampling.is_some() {
-            return Err(Error::Input(
-                "--sampling says when responses are sampled, and there are none\n  \
-                 help: ask for one with --response 'WHAT of OUTPUT', or leave out --sampling; --every gives the rows of the table"
-                    .into(),
-            ));
-        }
+        let Requests {
+            responses: mut asked,
+            sampling,
+            otherwise,
+        } = Requests::of(arguments, &facts, [start, end])?;
         let own = asked.len();
         let criteria = Criteria::of(arguments, &facts)?;
         asked.extend(criteria.iter().flat_map(Criteria::responses));
         let mut kept = filtered(model);
         let columns = kept.len();
         kept.extend(criteria.iter().flat_map(Criteria::kept));
-        let classes = kept
-            .iter()
-            .filter_map(|kept| kept.channel.filter.map(|filter| filter.class));
-        let needed = classes.map(Class::longest_interval);
-        let needed = needed.fold(response::sampling(facts.run.sampling, &asked), f64::min);
-        let sampling = sampling.unwrap_or(needed);
-        let mut classes = kept
-            .iter()
-            .filter_map(|kept| kept.channel.filter.map(|filter| filter.class));
-        if let Some(class) = classes.find(|class| !class.allows(sampling)) {
-            return Err(response::too_coarse(class, sampling));
+        let filters = kept.iter().filter_map(|kept| kept.channel.filter);
+        let classes: Vec<Class> = filters.map(|filter| filter.class).collect();
+        let sampling = sampling.unwrap_or_else(|| {
+            let needed = classes.iter().copied().map(Class::longest_interval);
+            needed.fold(response::sampling(facts.run.sampling, &asked), f64::min)
+        });
+        if let Some(class) = classes.iter().find(|class| !class.allows(sampling)) {
+            return Err(response::too_coarse(*class, sampling));
         }
         let intervals = match end > start && !(asked.is_empty() && kept.is_empty()) {
             true => intervals(sampling, end - start, &asked, size_of::<f64>())?,
             // the run itself will report this
             false => 1,
         };
-        if kept.iter().any(|kept| kept.channel.filter.is_some()) && end > start && intervals < MEAN
-        {
+        if !classes.is_empty() && end > start && intervals < MEAN {
             return Err(response::too_short(end - start));
         }
         Ok(Responses {
@@ -142,14 +107,14 @@ impl Responses {
     fn values<'a>(
         &'a self,
         recording: &'a Recording,
-        trust: &'a Trust,
-    ) -> impl Iterator<Item = (&'a Response, Option<f64>, Option<f64>)> {
+        errors: &'a ErrorReport,
+    ) -> impl Iterator<Item = (&'a Requested, Option<f64>, Option<f64>)> {
         self.asked[..self.own]
             .iter()
             .enumerate()
             .map(|(index, response)| {
                 let answer = recording.answers.get(index).map(|answer| answer.value);
-                let apart = trust.responses().and_then(|all| all.get(index).copied());
+                let apart = errors.responses().and_then(|all| all.get(index).copied());
                 (
                     response,
                     answer.filter(|value| value.is_finite()),
@@ -159,12 +124,12 @@ impl Responses {
     }
 
     /// The responses for people, a line each, after an empty line; empty if none are requested.
-    pub fn text(&self, recording: &Recording, trust: &Trust) -> String {
+    pub fn text(&self, recording: &Recording, errors: &ErrorReport) -> String {
         if self.own == 0 {
             return String::new();
         }
         let lines: Vec<[String; 3]> = self
-            .values(recording, trust)
+            .values(recording, errors)
             .map(|(response, value, apart)| {
                 let value = match (value, response.unit.as_str()) {
                     (None, _) => "not known".to_owned(),
@@ -201,9 +166,9 @@ impl Responses {
     }
 
     /// `[{"response", "value", "unit", "difference"}, …]`; an unknown value is `null`.
-    pub fn json(&self, recording: &Recording, trust: &Trust) -> Value {
+    pub fn json(&self, recording: &Recording, errors: &ErrorReport) -> Value {
         let each = self
-            .values(recording, trust)
+            .values(recording, errors)
             .map(|(response, value, apart)| {
                 json!({
                     "response": response.name,
@@ -213,6 +178,63 @@ impl Responses {
                 })
             });
         each.collect()
+    }
+}
+
+/// The responses that the user requests, by a study and one by one.
+struct Requests {
+    responses: Vec<Requested>,
+    /// Time between the samples, if it is given \[s\].
+    sampling: Option<f64>,
+    /// How the run differs from those of the study, in words.
+    otherwise: Option<String>,
+}
+
+impl Requests {
+    /// For a run from one time to another \[s\].
+    fn of(arguments: &Arguments, facts: &ModelFacts, span: [f64; 2]) -> Result<Self, Error> {
+        let [_, end] = span;
+        let mut requests = Requests {
+            responses: Vec::new(),
+            sampling: arguments.sampling,
+            otherwise: None,
+        };
+        if let Some(path) = &arguments.responses {
+            let (study, _) = sweep::read(path)?;
+            let (responses, every) = study
+                .responses(facts, end, arguments.sampling)
+                .map_err(Error::Model)?;
+            let responses = responses.iter().map(Requested::of_study);
+            requests.responses.extend(responses);
+            requests.sampling = Some(every);
+            let other = study.duration(facts).filter(|other| *other != end);
+            requests.otherwise = other.map(|other| {
+                format!(
+                    "the runs of {} end at {other} s, this one at {end} s: --duration '{other} s' makes it like them",
+                    path.display()
+                )
+            });
+        }
+        for text in &arguments.response {
+            let response = Requested::read("--response", text, facts, span)?;
+            requests.responses.push(response);
+        }
+        for (index, Requested { name, .. }) in requests.responses.iter().enumerate() {
+            let mut earlier = requests.responses[..index].iter();
+            if earlier.any(|earlier| earlier.name == *name) {
+                return Err(Error::Input(format!(
+                    "the response \"{name}\" is asked for twice\n  help: leave one of them out"
+                )));
+            }
+        }
+        if requests.responses.is_empty() && arguments.sampling.is_some() {
+            return Err(Error::Input(
+                "--sampling says when responses are sampled, and there are none\n  \
+                 help: ask for one with --response 'WHAT of OUTPUT', or leave out --sampling; --every gives the rows of the table"
+                    .into(),
+            ));
+        }
+        Ok(requests)
     }
 }
 

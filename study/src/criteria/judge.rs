@@ -94,8 +94,8 @@ fn response(
 
 /// The response of a criterion for a model that names its regulation.
 ///
+/// # Errors
 /// The model names no regulation, it lacks the outputs, or the regulation does not have this criterion.
-/// The model does not say so, it has not the outputs, or the regulation is not one of that criterion.
 pub fn named(facts: &ModelFacts, name: &str) -> Result<Response, String> {
     let Some(criterion) = Criterion::named(name) else {
         let all: Vec<&str> = CRITERIA.iter().map(|one| one.name).collect();

@@ -10,6 +10,7 @@ use bryant_generator::description::load::open_file;
 use bryant_generator::description::place::At;
 use bryant_generator::description::tree::Kind;
 use bryant_generator::diagnostic::quoted;
+use std::fmt::Display;
 use std::io::Read as _;
 use std::path::Path;
 
@@ -34,7 +35,12 @@ pub fn read(
             reader.record(at, "`rows`", &["csv"]);
             let at = reader.required(at, "csv", help)?;
             let path = reader.text(at)?;
-            table(reader, at, &directory.join(&path), &path, facts)?
+            let table = Table {
+                reader,
+                at,
+                name: &path,
+            };
+            table.read(&directory.join(&path), facts)?
         }
         _ => written(reader, at, facts)?,
     };
@@ -56,6 +62,7 @@ pub fn read(
     })
 }
 
+/// The varied parameters, and their values row by row.
 type Read<'f> = (Vec<&'f ParameterFact>, Vec<f64>);
 
 /// Rows in the study itself. A parameter that a row leaves out has its default value there.
@@ -111,105 +118,123 @@ fn written<'f>(reader: &Reader, at: At<'_>, facts: &'f ModelFacts) -> Option<Rea
     sound.then_some((varied, values))
 }
 
-/// Rows in a CSV file; messages call the file `name`.
-fn table<'f>(
-    reader: &Reader,
-    at: At<'_>,
-    path: &Path,
-    name: &str,
-    facts: &'f ModelFacts,
-) -> Option<Read<'f>> {
-    let unreadable = |error: &dyn std::fmt::Display| {
-        let message = format!("cannot read {}: {error}", quoted(name));
-        reader.add(at.problem(
+/// A CSV file with rows. Messages call it `name` and point to `at` in the study.
+struct Table<'r> {
+    reader: &'r Reader,
+    at: At<'r>,
+    name: &'r str,
+}
+
+/// A column of a table: its parameter, and the unit in its heading, "" if it has none.
+type Column<'f> = (&'f ParameterFact, String);
+
+impl Table<'_> {
+    /// Reads the rows of the file at `path`.
+    fn read<'f>(&self, path: &Path, facts: &'f ModelFacts) -> Option<Read<'f>> {
+        let file = open_file(path);
+        let file = file.inspect_err(|error| self.unreadable(error)).ok()?;
+        if file.metadata().is_ok_and(|about| about.len() > MOST_BYTES) {
+            self.unreadable(&format!("it is longer than {MOST_BYTES} bytes"));
+            return None;
+        }
+        let mut csv = csv::ReaderBuilder::new()
+            .trim(csv::Trim::All)
+            .from_reader(file.take(MOST_BYTES));
+        let headings = csv.headers().inspect_err(|error| self.unreadable(error));
+        let columns = self.columns(headings.ok()?, facts)?;
+        let values = self.values(&mut csv, &columns)?;
+        Some((columns.into_iter().map(|(fact, _)| fact).collect(), values))
+    }
+
+    /// The columns, by the names and units in the heading.
+    fn columns<'f>(
+        &self,
+        headings: &csv::StringRecord,
+        facts: &'f ModelFacts,
+    ) -> Option<Vec<Column<'f>>> {
+        if headings.is_empty() {
+            self.unreadable(&"it is empty");
+            return None;
+        }
+        let mut columns: Vec<Column<'f>> = Vec::new();
+        let mut sound = true;
+        for heading in headings {
+            let (parameter, unit) = match heading.strip_suffix(']').and_then(|h| h.split_once('['))
+            {
+                Some((parameter, unit)) => (parameter.trim(), unit.trim()),
+                None => (heading, ""),
+            };
+            let (message, help) = match facts.parameter(parameter) {
+                Some(fact) if columns.iter().any(|(c, _)| c.name == fact.name) => (
+                    format!("two columns are named {}", quoted(parameter)),
+                    "remove one".into(),
+                ),
+                Some(fact) => {
+                    columns.push((fact, unit.to_owned()));
+                    continue;
+                }
+                None if heading.contains([';', '\t']) => (
+                    format!("the heading has a column {}", quoted(heading)),
+                    "separate columns by commas".into(),
+                ),
+                None => facts.no_parameter(parameter),
+            };
+            self.problem(1, message, help);
+            sound = false;
+        }
+        sound.then_some(columns)
+    }
+
+    /// The numbers of all rows, row by row.
+    fn values(
+        &self,
+        csv: &mut csv::Reader<impl std::io::Read>,
+        columns: &[Column<'_>],
+    ) -> Option<Vec<f64>> {
+        let mut values = Vec::new();
+        let mut problems = 0;
+        for record in csv.records() {
+            let record = record.inspect_err(|error| self.unreadable(error)).ok()?;
+            let line = record.position().map_or(0, csv::Position::line);
+            for (text, (fact, unit)) in record.iter().zip(columns) {
+                match cell(text, fact, unit) {
+                    Ok(value) => values.push(value),
+                    Err((message, help)) => {
+                        self.problem(line, format!("\"{}\": {message}", fact.name), help);
+                        problems += 1;
+                    }
+                }
+            }
+            if problems >= MOST_PROBLEMS {
+                return None;
+            }
+            if values.len() / columns.len() > MOST_LISTED {
+                self.unreadable(&format!("it has more than {MOST_LISTED} rows"));
+                return None;
+            }
+        }
+        if values.is_empty() && problems == 0 {
+            self.unreadable(&"it has no rows");
+        }
+        (problems == 0 && !values.is_empty()).then_some(values)
+    }
+
+    /// Reports that the file as a whole cannot be read.
+    fn unreadable(&self, error: &dyn Display) {
+        let message = format!("cannot read {}: {error}", quoted(self.name));
+        self.reader.add(self.at.problem(
             message,
             "the path is relative to the study; the file is CSV with a heading of parameters",
         ));
-    };
-    let file = open_file(path);
-    let file = file.inspect_err(|error| unreadable(error)).ok()?;
-    if file.metadata().is_ok_and(|about| about.len() > MOST_BYTES) {
-        unreadable(&format!("it is longer than {MOST_BYTES} bytes"));
-        return None;
     }
-    let mut csv = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .from_reader(file.take(MOST_BYTES));
-    let headings = csv
-        .headers()
-        .inspect_err(|error| unreadable(error))
-        .ok()?
-        .clone();
-    let problem = |line: u64, message: String, help: String| {
-        let mut problem = Diagnostic::of_file(name, message, help);
+
+    /// Reports a problem in a line of the file.
+    fn problem(&self, line: u64, message: String, help: String) {
+        let mut problem = Diagnostic::of_file(self.name, message, help);
         problem.line = line as usize;
         problem.column = 1;
-        reader.add(problem);
-    };
-    let mut columns: Vec<(&ParameterFact, String)> = Vec::new();
-    if headings.is_empty() {
-        unreadable(&"it is empty");
-        return None;
+        self.reader.add(problem);
     }
-    let mut sound = true;
-    for heading in &headings {
-        let (parameter, unit) = match heading.strip_suffix(']').and_then(|h| h.split_once('[')) {
-            Some((parameter, unit)) => (parameter.trim(), unit.trim()),
-            None => (heading, ""),
-        };
-        match facts.parameter(parameter) {
-            Some(fact) if columns.iter().any(|(c, _)| c.name == fact.name) => {
-                problem(
-                    1,
-                    format!("two columns are named {}", quoted(parameter)),
-                    "remove one".into(),
-                );
-                sound = false;
-            }
-            Some(fact) => columns.push((fact, unit.to_owned())),
-            None => {
-                let (message, help) = match heading.contains([';', '\t']) {
-                    true => (
-                        format!("the heading has a column {}", quoted(heading)),
-                        "separate columns by commas".into(),
-                    ),
-                    false => facts.no_parameter(parameter),
-                };
-                problem(1, message, help);
-                sound = false;
-            }
-        }
-    }
-    if !sound {
-        return None;
-    }
-    let mut values = Vec::new();
-    let mut problems = 0;
-    for record in csv.records() {
-        let record = record.inspect_err(|error| unreadable(error)).ok()?;
-        let line = record.position().map_or(0, csv::Position::line);
-        for (text, (fact, unit)) in record.iter().zip(&columns) {
-            match cell(text, fact, unit) {
-                Ok(value) => values.push(value),
-                Err((message, help)) => {
-                    problem(line, format!("\"{}\": {message}", fact.name), help);
-                    problems += 1;
-                }
-            }
-        }
-        if problems >= MOST_PROBLEMS {
-            return None;
-        }
-        if values.len() / columns.len() > MOST_LISTED {
-            unreadable(&format!("it has more than {MOST_LISTED} rows"));
-            return None;
-        }
-    }
-    if values.is_empty() && problems == 0 {
-        unreadable(&"it has no rows");
-    }
-    let complete = problems == 0 && !values.is_empty();
-    complete.then(|| (columns.into_iter().map(|(fact, _)| fact).collect(), values))
 }
 
 /// A number in a table: in the unit of its heading, in SI, or with a unit of its own.

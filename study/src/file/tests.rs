@@ -412,6 +412,7 @@ fn ranges_keep_to_the_bounds_of_the_model() {
     }
 }
 
+// a table of cases
 #[test]
 fn keys_that_have_no_meaning_are_told() {
     for (head, parameter, words) in [

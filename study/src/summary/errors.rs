@@ -34,11 +34,17 @@ pub struct Errors {
 impl Errors {
     /// No rows yet.
     pub fn new(study: &Study) -> Errors {
+        let asked = match study.run.step {
+            None => Some(study.run.accuracy()),
+            Some(_) => None,
+        };
+        Errors::none(asked, study.rows)
+    }
+
+    /// No rows yet, of so many.
+    fn none(asked: Option<f64>, rows: u64) -> Errors {
         Errors {
-            asked: match study.run.step {
-                None => Some(study.run.accuracy()),
-                Some(_) => None,
-            },
+            asked,
             known: 0,
             unknown: 0,
             median: f64::NAN,
@@ -46,7 +52,7 @@ impl Errors {
             largest_run: 0,
             above: 0,
             sample: Vec::new(),
-            rows: study.rows,
+            rows,
         }
     }
 
@@ -128,17 +134,7 @@ mod tests {
     use super::*;
 
     fn errors(asked: Option<f64>, values: &[f64]) -> Errors {
-        let mut errors = Errors {
-            asked,
-            known: 0,
-            unknown: 0,
-            median: f64::NAN,
-            largest: f64::NAN,
-            largest_run: 0,
-            above: 0,
-            sample: Vec::new(),
-            rows: values.len() as u64,
-        };
+        let mut errors = Errors::none(asked, values.len() as u64);
         for (row, value) in values.iter().enumerate() {
             errors.add(row as u64, *value);
         }

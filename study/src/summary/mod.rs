@@ -12,13 +12,14 @@ pub mod saltelli;
 pub mod sample;
 pub mod text;
 
+use crate::engine::{Outcomes, Status};
 use crate::results::{Results, ResultsError};
-use crate::study::{Plan, RandomDesign};
+use crate::study::{Plan, RandomDesign, Study};
 use errors::Errors;
 use index::Sensitivity;
 use moments::{Correlation, Moments};
 use saltelli::Groups;
-use sample::Sample;
+use sample::{Ranks, Sample};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -83,95 +84,136 @@ const NAMED: usize = 5;
 /// # Errors
 /// A block cannot be read.
 pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsError> {
-    let study = results.study;
-    let (d, width) = (study.varied.len(), study.responses.len());
-    let mut ends = [0u64; crate::engine::Status::ALL.len()];
-    let mut slow = Vec::new();
-    let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
-    let mut errors = Errors::new(study);
-    let mut moments = vec![Moments::default(); width];
-    let mut correlations = vec![Correlation::default(); width * d];
-    let mut sample = Sample::new(study);
-    let mut ranks = sample::Ranks::new(study);
-    let mut groups = match &study.plan {
-        Plan::Random {
-            design: RandomDesign::Saltelli,
-            ..
-        } => Some(Groups::new(study)),
-        _ => None,
-    };
+    let d = results.study.varied.len();
+    let mut totals = Totals::new(results.study);
     for batch in results.batches() {
         let batch = batch?;
-        for (k, run) in batch.outcomes.runs.iter().enumerate() {
-            let row = batch.first + k as u64;
-            let (x, y) = (&batch.values[k * d..(k + 1) * d], batch.outcomes.of(k));
-            ends[run.status as usize] += 1;
-            if run.status == crate::engine::Status::Slow && slow.len() < NAMED {
-                slow.push(row);
-            }
-            if run.status == crate::engine::Status::Done {
-                errors.add(row, run.error);
-            }
-            match batch.outcomes.reason(k) {
-                "" => {}
-                reason => match reasons.get_mut(reason) {
-                    Some(count) => *count += 1,
-                    None => drop(reasons.insert(reason.to_owned(), 1)),
-                },
-            }
-            for (response, y) in y.iter().enumerate().filter(|(_, y)| y.is_finite()) {
-                moments[response].add(*y);
-                for (pair, x) in correlations[response * d..].iter_mut().zip(x) {
-                    pair.add(*x, *y);
-                }
-            }
-            sample.add(&results.sampler, row, x, y);
-            ranks.add(row, y);
-            if let Some(groups) = &mut groups {
-                groups.add(y);
-            }
+        for k in 0..batch.outcomes.runs.len() {
+            let x = &batch.values[k * d..(k + 1) * d];
+            totals.add(results, batch.first + k as u64, x, &batch.outcomes, k);
         }
     }
-    let random = matches!(&study.plan, Plan::Random { .. });
-    let about = |response: usize| {
-        let of = &study.responses[response];
-        let moments = &moments[response];
-        let sensitivity = match &groups {
-            Some(groups) => groups.indices(response),
-            None if random => chaos::indices(&sample, response),
-            None => None,
+    Ok(totals.finish(results))
+}
+
+/// What is counted and summed up in one pass over the runs.
+struct Totals<'s> {
+    study: &'s Study,
+    /// Number of runs by [`Status`].
+    ends: [u64; Status::ALL.len()],
+    reasons: BTreeMap<String, u64>,
+    slow: Vec<u64>,
+    errors: Errors,
+    /// For each response.
+    moments: Vec<Moments>,
+    /// For each response and each parameter, response by response.
+    correlations: Vec<Correlation>,
+    sample: Sample,
+    ranks: Ranks,
+    /// For Saltelli's design.
+    groups: Option<Groups>,
+}
+
+impl<'s> Totals<'s> {
+    fn new(study: &'s Study) -> Self {
+        let (d, width) = (study.varied.len(), study.responses.len());
+        let saltelli = matches!(
+            &study.plan,
+            Plan::Random {
+                design: RandomDesign::Saltelli,
+                ..
+            }
+        );
+        Totals {
+            study,
+            ends: [0; Status::ALL.len()],
+            reasons: BTreeMap::new(),
+            slow: Vec::new(),
+            errors: Errors::new(study),
+            moments: vec![Moments::default(); width],
+            correlations: vec![Correlation::default(); width * d],
+            sample: Sample::new(study),
+            ranks: Ranks::new(study),
+            groups: saltelli.then(|| Groups::new(study)),
+        }
+    }
+
+    /// Adds the run of a row: its parameters `x`, and the `k`-th of these outcomes.
+    fn add(&mut self, results: &Results<'_>, row: u64, x: &[f64], outcomes: &Outcomes, k: usize) {
+        let (run, y) = (&outcomes.runs[k], outcomes.of(k));
+        self.ends[run.status as usize] += 1;
+        if run.status == Status::Slow && self.slow.len() < NAMED {
+            self.slow.push(row);
+        }
+        if run.status == Status::Done {
+            self.errors.add(row, run.error);
+        }
+        match outcomes.reason(k) {
+            "" => {}
+            reason => match self.reasons.get_mut(reason) {
+                Some(count) => *count += 1,
+                None => drop(self.reasons.insert(reason.to_owned(), 1)),
+            },
+        }
+        for (response, y) in y.iter().enumerate().filter(|(_, y)| y.is_finite()) {
+            self.moments[response].add(*y);
+            let pairs = self.correlations[response * x.len()..].iter_mut();
+            for (pair, x) in pairs.zip(x) {
+                pair.add(*x, *y);
+            }
+        }
+        self.sample.add(&results.sampler, row, x, y);
+        self.ranks.add(row, y);
+        if let Some(groups) = &mut self.groups {
+            groups.add(y);
+        }
+    }
+
+    /// The numbers about a response.
+    fn about(&self, response: usize) -> About {
+        let d = self.study.varied.len();
+        let of = &self.study.responses[response];
+        let moments = &self.moments[response];
+        let sensitivity = match (&self.groups, &self.study.plan) {
+            (Some(groups), _) => groups.indices(response),
+            (None, Plan::Random { .. }) => chaos::indices(&self.sample, response),
+            (None, _) => None,
         };
-        let (quantiles, quantiles_of) = ranks.quantiles(response, SHARES);
+        let (quantiles, quantiles_of) = self.ranks.quantiles(response, SHARES);
         About {
             name: of.name.clone(),
             unit: of.unit.clone(),
             count: moments.count,
-            missing: study.rows - moments.count,
+            missing: self.study.rows - moments.count,
             mean: moments.mean(),
             deviation: moments.deviation(),
             minimum: moments.minimum,
             maximum: moments.maximum,
             quantiles,
             quantiles_of,
-            correlations: correlations[response * d..][..d]
+            correlations: self.correlations[response * d..][..d]
                 .iter()
                 .map(Correlation::value)
                 .collect(),
             sensitivity,
         }
-    };
-    let summary = Summary {
-        identity: results.folder.identity().identity.clone(),
-        runs: study.rows,
-        ends: crate::engine::Status::ALL
-            .iter()
-            .map(|status| (status.word(), ends[*status as usize]))
-            .filter(|(_, count)| *count > 0)
-            .collect(),
-        reasons: reasons.into_iter().collect(),
-        slow,
-        errors: errors.finish(),
-        responses: (0..width).map(about).collect(),
-    };
-    Ok((summary, sample))
+    }
+
+    fn finish(self, results: &Results<'_>) -> (Summary, Sample) {
+        let responses = (0..self.study.responses.len()).map(|response| self.about(response));
+        let summary = Summary {
+            identity: results.folder.identity().identity.clone(),
+            runs: self.study.rows,
+            responses: responses.collect(),
+            ends: Status::ALL
+                .iter()
+                .map(|status| (status.word(), self.ends[*status as usize]))
+                .filter(|(_, count)| *count > 0)
+                .collect(),
+            reasons: self.reasons.into_iter().collect(),
+            slow: self.slow,
+            errors: self.errors.finish(),
+        };
+        (summary, self.sample)
+    }
 }

@@ -1,7 +1,7 @@
 //! The summary as text for people.
 
-use super::Summary;
 use super::index::{Estimate, Method, Sensitivity};
+use super::{About, Summary};
 use crate::table::csv::heading;
 use std::fmt::Write as _;
 
@@ -22,6 +22,31 @@ pub fn text(summary: &Summary, parameters: &[String]) -> String {
     }
     text.push_str(&summary.errors.text());
     text.push('\n');
+    aligned(&mut text, &numbers(&summary.responses));
+    for about in &summary.responses {
+        let _ = writeln!(text);
+        if about.count > 1 && about.minimum == about.maximum {
+            let _ = writeln!(text, "{}: the same in all {} runs", about.name, about.count);
+            continue;
+        }
+        let (title, rows) = match &about.sensitivity {
+            Some(sensitivity) => (
+                method(sensitivity),
+                indices(sensitivity, &about.correlations, parameters),
+            ),
+            None => (
+                "correlation with the parameters".to_owned(),
+                correlations(&about.correlations, parameters),
+            ),
+        };
+        let _ = writeln!(text, "{}: {title}", about.name);
+        aligned(&mut text, &rows);
+    }
+    text
+}
+
+/// A table with a row for each response: its numbers of runs, its moments and quantiles.
+fn numbers(responses: &[About]) -> Vec<Vec<String>> {
     let headings = [
         "response",
         "runs",
@@ -34,8 +59,7 @@ pub fn text(summary: &Summary, parameters: &[String]) -> String {
         "95 %",
         "maximum",
     ];
-    let mut rows = vec![headings.map(str::to_owned).to_vec()];
-    for about in &summary.responses {
+    let row = |about: &About| {
         let mut row = vec![
             heading(&about.name, &about.unit),
             about.count.to_string(),
@@ -52,52 +76,47 @@ pub fn text(summary: &Summary, parameters: &[String]) -> String {
             about.maximum,
         ];
         row.extend(numbers.map(number));
-        rows.push(row);
+        row
+    };
+    let mut rows = vec![headings.map(str::to_owned).to_vec()];
+    rows.extend(responses.iter().map(row));
+    rows
+}
+
+/// A table with a row for each parameter: its shares of the variance of a response, and its correlation with the response.
+fn indices(
+    sensitivity: &Sensitivity,
+    correlations: &[f64],
+    parameters: &[String],
+) -> Vec<Vec<String>> {
+    let headings = ["parameter", "main", "", "total", "", "correlation"];
+    let mut rows = vec![headings.map(str::to_owned).to_vec()];
+    let all = parameters
+        .iter()
+        .zip(&sensitivity.parameters)
+        .zip(correlations);
+    for ((name, indices), correlation) in all {
+        let [main, total] = [indices.main, indices.total];
+        let row = [
+            name.clone(),
+            share(main.value),
+            interval(main),
+            share(total.value),
+            interval(total),
+            share(*correlation),
+        ];
+        rows.push(row.to_vec());
     }
-    aligned(&mut text, &rows);
-    for about in &summary.responses {
-        let _ = writeln!(text);
-        if about.count > 1 && about.minimum == about.maximum {
-            let _ = writeln!(text, "{}: the same in all {} runs", about.name, about.count);
-            continue;
-        }
-        let mut rows = Vec::new();
-        match &about.sensitivity {
-            Some(sensitivity) => {
-                let _ = writeln!(text, "{}: {}", about.name, method(sensitivity));
-                rows.push(
-                    ["parameter", "main", "", "total", "", "correlation"]
-                        .map(str::to_owned)
-                        .to_vec(),
-                );
-                let all = parameters
-                    .iter()
-                    .zip(&sensitivity.parameters)
-                    .zip(&about.correlations);
-                for ((name, indices), correlation) in all {
-                    let [main, total] = [indices.main, indices.total];
-                    let row = [
-                        name.clone(),
-                        share(main.value),
-                        interval(main),
-                        share(total.value),
-                        interval(total),
-                        share(*correlation),
-                    ];
-                    rows.push(row.to_vec());
-                }
-            }
-            None => {
-                let _ = writeln!(text, "{}: correlation with the parameters", about.name);
-                rows.push(["parameter", "correlation"].map(str::to_owned).to_vec());
-                for (name, correlation) in parameters.iter().zip(&about.correlations) {
-                    rows.push(vec![name.clone(), share(*correlation)]);
-                }
-            }
-        }
-        aligned(&mut text, &rows);
+    rows
+}
+
+/// A table with a row for each parameter: its correlation with a response.
+fn correlations(correlations: &[f64], parameters: &[String]) -> Vec<Vec<String>> {
+    let mut rows = vec![["parameter", "correlation"].map(str::to_owned).to_vec()];
+    for (name, correlation) in parameters.iter().zip(correlations) {
+        rows.push(vec![name.clone(), share(*correlation)]);
     }
-    text
+    rows
 }
 
 /// The method of estimation of the indices, in words.

@@ -13,7 +13,7 @@
 //! | numbers that are not finite; steps below the smallest; an inertia that vanishes | `what_grows_without_end_ends`, `an_inertia_that_vanishes_ends_the_run` |
 //! | fixed steps that err by too much | `what_a_stage_alone_meets_is_told`, `steps_that_err_are_told` |
 //! | a balance, a limit of stability, in lanes | `lanes_of_fixed_steps_are_watched_as_single_runs_are` |
-//! | a check that fails | `src/command/trust.rs` |
+//! | a check that fails | `src/command/error_report.rs` |
 //! | outputs that differ from a check by more than promised or requested | `outputs_are_as_accurate_as_promised_or_said_not_to_be` |
 //! | a user function that ends the program, panics or does not return | `tests/suite/apart.rs` |
 
@@ -760,29 +760,29 @@ fn a_bag_that_is_pressed_flat_says_so() {
 
 /// The tests of each reason: its enumeration, its name, and the tests with and without it.
 const PAIRS: &[(&str, &str, &[&str])] = &[
-    ("Suspicion", "Step", &["steps_that_are_too_long_are_told"]),
+    ("Problem", "Step", &["steps_that_are_too_long_are_told"]),
     (
-        "Suspicion",
+        "Problem",
         "Curve",
         &[
             "a_curve_counts_while_its_force_acts",
             "a_line_through_nothing_goes_on_for_ever",
         ],
     ),
-    ("Suspicion", "Missed", &["what_steps_pass_over_is_told"]),
+    ("Problem", "Missed", &["what_steps_pass_over_is_told"]),
     (
-        "Suspicion",
+        "Problem",
         "Flexion",
         &["a_flexion_through_half_a_turn_says_so"],
     ),
     (
-        "Suspicion",
+        "Problem",
         "Sunk",
         &["ellipsoids_that_sink_through_each_other_say_so"],
     ),
-    ("Suspicion", "Energy", &["steps_that_are_too_long_are_told"]),
-    ("Suspicion", "Momentum", &["momentum_that_is_lost_is_told"]),
-    ("Suspicion", "Error", &["what_a_stage_alone_meets_is_told"]),
+    ("Problem", "Energy", &["steps_that_are_too_long_are_told"]),
+    ("Problem", "Momentum", &["momentum_that_is_lost_is_told"]),
+    ("Problem", "Error", &["what_a_stage_alone_meets_is_told"]),
     ("Reason", "NonFinite", &["what_grows_without_end_ends"]),
     (
         "Reason",
@@ -861,17 +861,17 @@ const PAIRS: &[(&str, &str, &[&str])] = &[
         &["lanes_of_fixed_steps_are_watched_as_single_runs_are"],
     ),
     (
-        "Trust",
+        "ErrorReport",
         "not as accurate",
         &["outputs_are_as_accurate_as_promised_or_said_not_to_be"],
     ),
     (
-        "Trust",
+        "ErrorReport",
         "not reached",
         &["outputs_are_as_accurate_as_promised_or_said_not_to_be"],
     ),
     (
-        "Trust",
+        "ErrorReport",
         "could not be checked",
         &["a_check_that_fails_is_an_error_and_one_without_time_is_not"],
     ),
@@ -898,7 +898,7 @@ fn every_reason_has_a_scene_that_trips_it_and_one_that_does_not() {
         };
     }
     let enumerations = [
-        ("Suspicion", source!("runtime/src/simulate/watch.rs")),
+        ("Problem", source!("runtime/src/simulate/diagnostic.rs")),
         ("Reason", source!("runtime/src/failure.rs")),
         ("ErrorKind", source!("runtime/src/program/error.rs")),
         ("Doubt", source!("runtime/src/batch/scenario.rs")),
@@ -908,10 +908,10 @@ fn every_reason_has_a_scene_that_trips_it_and_one_that_does_not() {
         reasons.extend(variants(source, name).into_iter().map(|v| (name, v)));
     }
     // the reasons of a run's check, by words of their messages
-    let trust = source!("src/command/trust.rs");
-    let said = trust.matches("error(format!(").count();
+    let report = source!("src/command/error_report.rs");
+    let said = report.matches("error(format!(").count();
     let words = ["not as accurate", "not reached", "could not be checked"];
-    reasons.extend(words.map(|words| ("Trust", words)));
+    reasons.extend(words.map(|words| ("ErrorReport", words)));
     assert_eq!(said, 3, "a check ends for a reason that is not listed here");
     let listed: Vec<(&str, &str)> = PAIRS.iter().map(|(name, v, _)| (*name, *v)).collect();
     assert_eq!(reasons, listed);
@@ -921,7 +921,7 @@ fn every_reason_has_a_scene_that_trips_it_and_one_that_does_not() {
         source!("tests/suite/sweep/reasons.rs"),
         source!("runtime/src/simulate/tests.rs"),
         source!("runtime/src/program/mod.rs"),
-        source!("src/command/trust.rs"),
+        source!("src/command/error_report.rs"),
         source!("engine/tests/onset.rs"),
     ];
     for (name, reason, pair) in PAIRS {

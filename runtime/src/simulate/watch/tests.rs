@@ -1,7 +1,7 @@
 //! The watch against motions whose fate theory knows.
 
-use super::{ENERGY_LIMIT, Suspicion, Watch};
-use crate::simulate::{Method, Settings, run};
+use super::{ENERGY_LIMIT, Watch};
+use crate::simulate::{Method, Problem, Settings, run};
 use crate::test_models::{Leaky, Oscillator, Stage, Stiff};
 use crate::{Differentiable, Formula, Model, ParameterSet, Report, Tolerances};
 use core::ops::ControlFlow;
@@ -35,8 +35,8 @@ fn settings(method: Method, duration: f64) -> Settings {
 
 /// Speed and index of the fastest motion, where the step was found to be above the limit.
 fn step_of(watch: &Watch<'_, f64>) -> Option<(f64, usize)> {
-    watch.doubts().find_map(|doubt| match doubt.suspicion {
-        Suspicion::Step { rate, index, .. } => Some((rate, index)),
+    watch.diagnostics().find_map(|found| match found.problem {
+        Problem::Step { rate, index, .. } => Some((rate, index)),
         _ => None,
     })
 }
@@ -55,8 +55,8 @@ fn a_step_above_the_limit_is_found_with_the_speed_of_the_motion() {
         let (rate, _) = step_of(&watch).unwrap_or_else(|| panic!("{formula}: {result:?}"));
         // exact but for rounding: a linear model whose states differ along its only motion
         assert!((rate / omega - 1.0).abs() < 1e-9, "{formula}: {rate}");
-        let doubt = watch.doubts().next().expect("a doubt");
-        let text = doubt.to_string();
+        let found = watch.diagnostics().next().expect("a diagnostic");
+        let text = found.to_string();
         let expected = format!("above the stability limit of {formula} in this scene, about");
         assert!(
             text.contains(&expected) && text.contains("10.0 1/s"),
@@ -103,7 +103,7 @@ fn steps_under_error_control_are_stable_and_not_suspected() {
             let settings = settings(method, 0.01);
             let (watch, result) = watched::<Stiff>(None, &settings, ENERGY_LIMIT);
             assert!(result.is_ok(), "{formula} at {tolerance}: {result:?}");
-            assert_eq!(watch.doubts().count(), 0, "{formula} at {tolerance}");
+            assert_eq!(watch.diagnostics().count(), 0, "{formula} at {tolerance}");
         }
     }
 }
@@ -115,18 +115,18 @@ fn what_is_missing_in_the_balance_is_found_since_when() {
         let settings = settings(Method::default(), 1.0);
         let (watch, result) = watched::<Leaky>(None, &settings, limit);
         assert!(result.is_ok());
-        watch.doubts().next()
+        watch.diagnostics().next()
     };
     // gap(t) = 0.05 (t² − ¼), of ½ t²
-    let doubt = of(0.02).expect("a doubt");
-    let Suspicion::Energy { share, effect, .. } = doubt.suspicion else {
-        panic!("{doubt}");
+    let found = of(0.02).expect("a diagnostic");
+    let Problem::Energy { share, effect, .. } = found.problem else {
+        panic!("{found}");
     };
     assert!((share - 0.075).abs() < 1e-6, "{share}");
     assert_eq!(effect, Some(0));
     // 0.05 (t² − ¼) = 0.02 · ½ t² at t² = 0.3125: no earlier than a step before
-    assert!(doubt.t < 0.3125f64.sqrt() && doubt.t > 0.3, "{}", doubt.t);
-    assert!(doubt.to_string().contains("7.50 %"), "{doubt}");
+    assert!(found.t < 0.3125f64.sqrt() && found.t > 0.3, "{}", found.t);
+    assert!(found.to_string().contains("7.50 %"), "{found}");
     assert_eq!(of(0.08), None);
     assert_eq!(of(f64::INFINITY), None);
 }
@@ -140,8 +140,8 @@ fn a_slow_loss_of_the_energy_of_a_pendulum_is_found() {
     let gap = watch.balance.gap().abs();
     assert!(gap < ENERGY_LIMIT * exchanged, "{gap} {exchanged}");
     assert!(matches!(
-        watch.doubts().next().map(|doubt| doubt.suspicion),
-        Some(Suspicion::Energy { .. })
+        watch.diagnostics().next().map(|found| found.problem),
+        Some(Problem::Energy { .. })
     ));
     let settings = Settings {
         method: Method::default(),
@@ -150,7 +150,7 @@ fn a_slow_loss_of_the_energy_of_a_pendulum_is_found() {
     assert_eq!(
         watched::<Stage>(None, &settings, ENERGY_LIMIT)
             .0
-            .doubts()
+            .diagnostics()
             .count(),
         0
     );

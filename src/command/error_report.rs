@@ -2,7 +2,7 @@
 
 use super::Error;
 use crate::accuracy::check::{Checked, FAR, PROMISED, Verdict};
-use crate::accuracy::finding::percent;
+use crate::accuracy::conclusion::percent;
 use crate::accuracy::setting::{Pace, Setting, time};
 use crate::accuracy::target::{Accurate, Difference};
 use bryant_runtime::program::{ErrorKind, Header, RunError};
@@ -14,7 +14,7 @@ const NAMED: usize = 8;
 const ROUNDING: f64 = 1e-12;
 
 /// What is known about the error of a run.
-pub struct Trust {
+pub struct ErrorReport {
     outputs: Vec<String>,
     /// How the run was computed, if the program chose that.
     setting: Option<Setting>,
@@ -33,10 +33,10 @@ pub struct Trust {
     out_of_time: bool,
 }
 
-impl Trust {
+impl ErrorReport {
     /// For a run about which nothing is known yet; `chosen` says that the user chose its method.
     pub fn new(header: &Header, chosen: bool) -> Self {
-        Trust {
+        ErrorReport {
             outputs: header.outputs.iter().map(|o| o.name.clone()).collect(),
             setting: None,
             wanted: None,
@@ -51,26 +51,26 @@ impl Trust {
 
     /// For a run that should be as accurate as `wanted`.
     pub fn of_accurate(accurate: &Accurate, wanted: f64) -> Self {
-        Trust {
+        ErrorReport {
             setting: Some(accurate.setting),
             wanted: Some(wanted),
             runs: accurate.runs,
             estimate: accurate.estimate.clone(),
             limit: wanted.max(PROMISED),
-            ..Trust::new(&accurate.recording.header, false)
+            ..ErrorReport::new(&accurate.recording.header, false)
         }
     }
 
     /// For a run that was checked by default.
     pub fn of_checked(checked: &Checked) -> Self {
-        Trust {
+        ErrorReport {
             setting: checked.first.is_some().then_some(checked.setting),
             runs: checked.runs,
             first: checked.first.clone(),
             check: checked.check.clone(),
             limit: checked.limit,
             out_of_time: checked.out_of_time,
-            ..Trust::new(&checked.recording.header, false)
+            ..ErrorReport::new(&checked.recording.header, false)
         }
     }
 
@@ -81,7 +81,7 @@ impl Trust {
 
     /// The same with the verdict of a second run.
     pub fn verified(self, opinion: Setting, verdict: Verdict) -> Self {
-        Trust {
+        ErrorReport {
             check: Some((opinion, verdict)),
             ..self
         }
@@ -348,7 +348,7 @@ mod tests {
         }
     }
 
-    fn checked(then: fn(&Job) -> Job) -> Trust {
+    fn checked(then: fn(&Job) -> Job) -> ErrorReport {
         let found = bundled::find("sled-pendulum").expect("it is bundled");
         let model = bundled::model(found).expect("it is right");
         let once = Once {
@@ -356,7 +356,7 @@ mod tests {
             taken: Cell::new(false),
             then,
         };
-        Trust::of_checked(&check::run(&once, &Job::default(), false, &mut |_| {}))
+        ErrorReport::of_checked(&check::run(&once, &Job::default(), false, &mut |_| {}))
     }
 
     /// On a busy machine milliseconds of work may take a hundred times as long.

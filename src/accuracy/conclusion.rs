@@ -1,4 +1,4 @@
-//! The findings of a study: the Pareto front, and one sentence that says what an accuracy costs.
+//! The conclusion of a study: the Pareto front, and one sentence that says what an accuracy costs.
 
 use super::front::{self, Cost, Digits};
 use super::point::{Point, Status};
@@ -6,9 +6,9 @@ use super::report::text::formulas;
 use super::setting::{Curves, Pace, time, two_digits};
 use super::study::Study;
 
-/// The findings of a study for one error.
+/// The conclusion of a study for one error.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
+pub struct Conclusion {
     /// Indices of the points on the front; the error falls.
     pub front: Vec<usize>,
     /// The cheapest point for [`Finding::wanted`] that all finer points of its series confirm.
@@ -19,15 +19,15 @@ pub struct Finding {
     pub digits: Option<Digits>,
 }
 
-impl Finding {
-    /// The finding of a study; `wanted` is the error that the sentence names.
-    pub fn of(study: &Study, wanted: f64) -> Finding {
+impl Conclusion {
+    /// The conclusion of a study; `wanted` is the error that the sentence names.
+    pub fn of(study: &Study, wanted: f64) -> Conclusion {
         let costs: Vec<Cost> = study.points.iter().map(|p| cost(study, p)).collect();
         let front = front::pareto(&costs);
         // Errors below that of the reference are not known.
         let known = |&&i: &&usize| !at_most(study, &study.points[i]);
         let fitted: Vec<Cost> = front.iter().filter(known).map(|&i| costs[i]).collect();
-        Finding {
+        Conclusion {
             cheapest: front::cheapest(&confirmed(study, &costs, wanted), wanted),
             digits: front::digits(&fitted),
             front,
@@ -61,7 +61,7 @@ impl Finding {
     }
 }
 
-/// On how many settings a finding is based, and what became of the others.
+/// The number of settings that a conclusion rests on, and what became of the others.
 fn rests_on(study: &Study) -> String {
     let (mut done, mut failed, mut skipped) = (0, 0, 0);
     for point in &study.points {

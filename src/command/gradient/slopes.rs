@@ -1,0 +1,317 @@
+//! The derivatives of responses: by dual numbers through the run, and by differences of runs for comparison.
+
+use crate::accuracy::check::PROMISED;
+use crate::command::Error;
+use crate::command::progress::Progress;
+use crate::equations::Engine;
+use crate::interrupt;
+use crate::sweep;
+use bryant_generator::model::Parameter;
+use bryant_runtime::Tolerances;
+use bryant_runtime::batch::rows::{Gradients, Job};
+use bryant_runtime::batch::{Pace, Status};
+use bryant_runtime::program::{ErrorKind, RunError};
+use std::time::Instant;
+
+/// Tolerance if the user gives none.
+pub(super) const TOLERANCE: f64 = 1e-8;
+/// Tolerance of the runs for difference quotients, and the share of its size by which a parameter is changed to either side. The error of a
+/// difference quotient has two parts: the square of the second, and the first divided by the second.
+pub(super) const SHARP: f64 = 1e-12;
+pub(super) const MOVED: f64 = 1e-4;
+/// Slopes that are smaller than this share of their response are measured by the response.
+const SMALL: f64 = 1e-2;
+
+/// The size of a parameter's possible change: its value, or a share of the interval between its bounds.
+pub(super) fn size(parameter: &Parameter, value: f64) -> f64 {
+    match (parameter.min, parameter.max) {
+        _ if value != 0.0 => value.abs(),
+        (Some(min), Some(max)) if max > min => 0.1 * (max - min),
+        _ => 1.0,
+    }
+}
+
+/// Slopes along directions of these lengths, converted to derivatives.
+pub(super) fn by_size(slopes: &[f64], sizes: &[f64], responses: usize) -> Vec<f64> {
+    let of = slopes.chunks(responses).zip(sizes);
+    of.flat_map(|(slopes, size)| slopes.iter().map(move |slope| slope / size))
+        .collect()
+}
+
+/// Responses, and slopes along these directions.
+fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<Gradients, Error> {
+    let gradients = engine
+        .gradients(job, given, directions)
+        .map_err(Error::system)?;
+    for row in &gradients.rows {
+        let what = match row.status {
+            Status::Done => continue,
+            Status::NonFinite => "something is not finite",
+            Status::StepTooSmall => "the tolerance asks for steps below the smallest",
+            Status::TooManySteps => "it takes too many steps",
+            Status::Slow => {
+                "the computation takes longer than --time-limit, or would take ten times as long at its present rate"
+            }
+            Status::Doubtful => {
+                let why = sweep::doubt(engine, row.doubt);
+                let why = why.unwrap_or_else(|| "its result is doubtful".to_owned());
+                return Err(Error::failed(format!(
+                    "the simulation cannot be trusted: {why}\n  help: `bryant run` with the same parameters says more"
+                )));
+            }
+            Status::Refused => {
+                let why = sweep::refusal(engine, job, given);
+                let why = why.unwrap_or_else(|| "the parameters are refused".to_owned());
+                return Err(Error::Input(format!(
+                    "{why}, which is not so with these parameters"
+                )));
+            }
+        };
+        return Err(Error::Run(RunError {
+            kind: ErrorKind::Run,
+            t: Some(row.t),
+            coordinate: None,
+            cause: String::new(),
+            message: format!(
+                "the simulation failed at t = {} s: {what}\n  help: `bryant run` with the same parameters says more",
+                row.t
+            ),
+        }));
+    }
+    Ok(gradients)
+}
+
+/// What is differentiated: a model, its run, and the point at which the derivatives are taken.
+pub(super) struct Problem<'a> {
+    pub engine: &'a Engine,
+    pub job: &'a Job,
+    /// The parameters, in the order of the derivatives.
+    pub parameters: &'a [&'a Parameter],
+    /// Their values.
+    pub row: &'a [f64],
+}
+
+/// Responses and their derivatives, with an estimate of their error.
+pub(super) struct Accurate {
+    /// The derivatives, one parameter after the other, each by the [`size`] of its parameter.
+    pub gradients: Gradients,
+    /// Their estimated error, relative to the largest slope of a response, or to 1 % of the response. NaN if the run for comparison failed;
+    /// `None` if an interruption left it out.
+    pub error: Option<f64>,
+    /// The tolerance of the run.
+    pub tolerance: f64,
+}
+
+/// Errors fall like the tolerance, at worst like its root: two runs whose tolerances are as 10 to 1 then differ by this many times the
+/// error of the sharper one.
+const SURELY: f64 = 2.16;
+/// No sharper run begins after this time \[s\], or after this many times the time of the first.
+const PATIENCE: [f64; 2] = [10.0, 5.0];
+
+impl Problem<'_> {
+    /// The size of each parameter.
+    pub fn sizes(&self) -> Vec<f64> {
+        let values = self.parameters.iter().zip(self.row);
+        values.map(|(p, value)| size(p, *value)).collect()
+    }
+
+    fn at(&self, tolerance: f64, progress: &Progress) -> Result<Gradients, Error> {
+        let mut job = self.job.clone();
+        job.settings.pace = Pace::Adaptive(Tolerances::of(tolerance));
+        let sizes = self.sizes();
+        slopes(self.engine, &job, self.row, &each_alone(&sizes), progress)
+    }
+
+    /// Slopes at a tolerance, compared with those at ten times the tolerance. If they are not as accurate as promised and the user gave no
+    /// tolerance, sharper runs follow.
+    pub fn accurately(&self, given: Option<f64>, progress: &Progress) -> Result<Accurate, Error> {
+        let begin = Instant::now();
+        let mut tolerance = given.unwrap_or(TOLERANCE);
+        let mut gradients = self.at(tolerance, progress)?;
+        let longest = PATIENCE[0].max(PATIENCE[1] * begin.elapsed().as_secs_f64());
+        if interrupt::asked() {
+            return Ok(Accurate {
+                gradients,
+                error: None,
+                tolerance,
+            });
+        }
+        // a tolerance must be below 1
+        let other = match tolerance < 0.1 {
+            true => 10.0 * tolerance,
+            false => 0.1 * tolerance,
+        };
+        let coarse = self.at(other, progress);
+        let mut error = coarse.map_or(f64::NAN, |coarse| apart(&gradients, &coarse) / SURELY);
+        while (error.is_nan() || error > PROMISED)
+            && given.is_none()
+            && tolerance > SHARP
+            && begin.elapsed().as_secs_f64() < longest
+            && !interrupt::asked()
+        {
+            let Ok(sharper) = self.at(0.1 * tolerance, progress) else {
+                break;
+            };
+            if sharper.rows.len() < gradients.rows.len() {
+                break;
+            }
+            error = apart(&sharper, &gradients) / SURELY;
+            (gradients, tolerance) = (sharper, 0.1 * tolerance);
+        }
+        Ok(Accurate {
+            gradients,
+            error: Some(error),
+            tolerance,
+        })
+    }
+
+    /// Derivatives by difference quotients of sharper runs, for as many parameters as time allows: central differences, or at a bound
+    /// one-sided differences of the same order.
+    pub fn differences(&self, progress: &Progress) -> Result<Vec<f64>, Error> {
+        let mut job = self.job.clone();
+        job.settings.pace = Pace::Adaptive(Tolerances::of(SHARP));
+        let still = vec![0.0; self.row.len()];
+        let mut slopes = Vec::new();
+        for (i, (parameter, size)) in self.parameters.iter().zip(self.sizes()).enumerate() {
+            let at = |by: f64| {
+                let mut moved = self.row.to_vec();
+                moved[i] += by;
+                ask(self.engine, &job, &moved, &still).map(|gradients| gradients.values)
+            };
+            if interrupt::asked() {
+                break;
+            }
+            let bounds = [parameter.min, parameter.max];
+            slopes.extend(difference(at, self.row[i], MOVED * size, bounds)?);
+            progress.set((i + 1) as f64);
+        }
+        Ok(slopes)
+    }
+}
+
+/// The difference of the slopes and responses of two runs, relative to the largest slope of each response, or to 1 % of the response if
+/// that is larger.
+fn apart(fine: &Gradients, coarse: &Gradients) -> f64 {
+    let responses = fine.values.len();
+    let mut worst = 0.0;
+    for k in 0..responses {
+        let of = |g: &Gradients| -> Vec<f64> {
+            g.slopes
+                .iter()
+                .skip(k)
+                .step_by(responses)
+                .copied()
+                .collect()
+        };
+        let [a, b] = [of(fine), of(coarse)];
+        let largest = a
+            .iter()
+            .chain(&b)
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let value = fine.values[k].abs().max(coarse.values[k].abs());
+        let size = largest.max(SMALL * value).max(f64::MIN_POSITIVE);
+        let differences = a.iter().zip(&b).map(|(a, b)| (a - b).abs() / size);
+        let of_value =
+            (fine.values[k] - coarse.values[k]).abs() / value.max(largest).max(f64::MIN_POSITIVE);
+        for difference in differences.chain([of_value]) {
+            // a NaN stays
+            if difference.is_nan() || difference > worst {
+                worst = difference;
+            }
+        }
+    }
+    worst
+}
+
+/// A direction for each parameter: along this parameter only, with its size as the length.
+fn each_alone(sizes: &[f64]) -> Vec<f64> {
+    let mut directions = vec![0.0; sizes.len() * sizes.len()];
+    for (i, size) in sizes.iter().enumerate() {
+        directions[i * sizes.len() + i] = *size;
+    }
+    directions
+}
+
+/// Responses, and slopes in as many of the directions as time allows; as many run side by side as a register holds.
+fn slopes(
+    engine: &Engine,
+    job: &Job,
+    row: &[f64],
+    directions: &[f64],
+    progress: &Progress,
+) -> Result<Gradients, Error> {
+    let mut all = Gradients {
+        rows: Vec::new(),
+        values: Vec::new(),
+        slopes: Vec::new(),
+    };
+    for some in directions.chunks(job.width.lanes() * row.len()) {
+        if interrupt::asked() {
+            break;
+        }
+        let found = ask(engine, job, row, some)?;
+        all.values = found.values;
+        all.rows.extend(found.rows);
+        all.slopes.extend(found.slopes);
+        progress.set(all.rows.len() as f64);
+    }
+    Ok(all)
+}
+
+/// Difference quotients of the function `at` of a parameter's change, of second order in the step, within the bounds of the parameter.
+fn difference(
+    at: impl Fn(f64) -> Result<Vec<f64>, Error>,
+    value: f64,
+    step: f64,
+    [min, max]: [Option<f64>; 2],
+) -> Result<Vec<f64>, Error> {
+    let allowed = |by: f64| {
+        min.is_none_or(|min| value + by >= min) && max.is_none_or(|max| value + by <= max)
+    };
+    if allowed(step) && allowed(-step) {
+        let (right, left) = (at(step)?, at(-step)?);
+        let pairs = right.iter().zip(&left);
+        return Ok(pairs
+            .map(|(right, left)| (right - left) / (2.0 * step))
+            .collect());
+    }
+    let step = if allowed(step) { step } else { -step };
+    let (here, near, far) = (at(0.0)?, at(step)?, at(2.0 * step)?);
+    let triples = here.iter().zip(&near).zip(&far);
+    Ok(triples
+        .map(|((here, near), far)| (4.0 * near - 3.0 * here - far) / (2.0 * step))
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::difference;
+
+    #[test]
+    fn differences_are_of_second_order_and_keep_to_bounds() {
+        // they are exact for a parabola except for rounding: 4 ε of its size over the step
+        let slope_at = |x: f64, bounds: [Option<f64>; 2]| {
+            let at = |by: f64| {
+                let x = x + by;
+                let inside =
+                    bounds[0].is_none_or(|min| x >= min) && bounds[1].is_none_or(|max| x <= max);
+                assert!(inside, "{x}");
+                Ok(vec![3.0 * x * x - x])
+            };
+            difference(at, x, 1e-3, bounds).unwrap()[0]
+        };
+        for (x, bounds) in [
+            (0.5, [None, None]),
+            (0.5, [Some(0.0), Some(1.0)]),
+            (0.0, [Some(0.0), Some(1.0)]),
+            (1.0, [Some(0.0), Some(1.0)]),
+            (0.9995, [Some(0.0), Some(1.0)]),
+        ] {
+            let found = slope_at(x, bounds);
+            assert!(
+                (found - (6.0 * x - 1.0)).abs() < 16.0 * f64::EPSILON / 1e-3,
+                "{x}: {found}"
+            );
+        }
+    }
+}
