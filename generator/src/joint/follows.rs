@@ -11,6 +11,7 @@ use crate::description::joint::{
 };
 use crate::description::place::At;
 use crate::diagnostic::{quoted, suggestion};
+use crate::law::joint::check::freedom_named;
 use crate::model::resolve::Resolver;
 use crate::model::{Element, Number};
 use std::collections::BTreeMap;
@@ -158,7 +159,7 @@ impl Resolver<'_> {
             return None;
         }
         let freedoms = elements[leader].joint.freedoms();
-        let followed = self.freedom_named(written.freedom.as_deref(), &path, freedoms, at)?;
+        let followed = freedom_named(self, written.freedom.as_deref(), &path, freedoms, at)?;
         let own = elements[element].joint.freedoms()[freedom]
             .kind
             .coordinate();

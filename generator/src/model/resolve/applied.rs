@@ -1,4 +1,4 @@
-//! Forces as written to checked ones, and what several laws have: friction, damping that fades in.
+//! Forces as written to checked ones, and what several laws have: friction and its bristles, damping that fades in.
 //!
 //! A coefficient that is 0 and a curve that is 0 everywhere are as if they had not been written.
 
@@ -9,7 +9,7 @@ use crate::description::place::At;
 use crate::description::quantity::Quantity as WrittenQuantity;
 use crate::diagnostic::quoted;
 use crate::law::{Header, Registered, Written};
-use crate::model::{Force, Friction, Number};
+use crate::model::{Bristle, Force, Friction, Number};
 
 impl Resolver<'_> {
     /// Resolves a force.
@@ -85,6 +85,28 @@ impl Resolver<'_> {
         };
         let limit = self.coefficient(limit, at.key("friction"), of_limit)?;
         Some(Friction { limit, tolerance })
+    }
+
+    /// The bristles by which friction holds; `None` where there is no friction or no displacement.
+    ///
+    /// `limit` as written, and whether there is friction; the displacement, and what it is.
+    pub fn bristle(
+        &self,
+        (limit, rubs): (Option<&WrittenQuantity>, bool),
+        displacement: Option<&WrittenQuantity>,
+        at: At<'_>,
+        expected: Expected,
+    ) -> Option<Bristle> {
+        let place = at.key("friction_displacement");
+        if displacement.is_some() && limit.is_none() {
+            self.problems.add(place.key_problem(
+                "a friction displacement means nothing without friction",
+                "add `friction: …`, or remove `friction_displacement`",
+            ));
+        }
+        self.coefficient(displacement, place, expected)
+            .filter(|_| rubs)
+            .map(|displacement| Bristle { displacement })
     }
 
     /// The abscissa up to which damping fades in; `None` where it is 0 or nothing is damped.

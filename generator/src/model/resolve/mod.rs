@@ -27,9 +27,10 @@ mod translation;
 mod vehicle;
 
 use super::{
-    Body, Coordinates, Criteria, Dimension, ElementId, Force, Model, Number, Output, Parameter,
-    Switch, System, Vehicle,
+    Attachment, Body, Coordinates, Criteria, Dimension, ElementId, Force, Model, Number, Output,
+    Parameter, Switch, System, Vehicle,
 };
+use crate::description::force::Attachment as WrittenEnd;
 use crate::description::load::{Loaded, load_with, read_file, read_model, shown};
 use crate::description::place::At;
 use crate::description::point::Point;
@@ -40,6 +41,8 @@ use crate::description::{
     load::Coordinates as WrittenCoordinates, load::Dimension as WrittenDimension,
 };
 use crate::diagnostic::{Diagnostics, quoted, suggestion};
+use crate::law::belt::check::check_belts;
+use crate::law::contact::check::surface;
 use name::Style;
 use quantity::LENGTH;
 use std::collections::{BTreeMap, HashMap};
@@ -229,7 +232,7 @@ impl<'a> Resolver<'a> {
         for file in &loaded.files {
             let at = file.source.at().key("surfaces");
             for (name, written) in file.contents.surfaces.iter().flat_map(|s| &s.0) {
-                self.surface(name, written, at.key(name));
+                surface(&self, name, written, at.key(name));
             }
         }
         for file in &loaded.files {
@@ -251,7 +254,7 @@ impl<'a> Resolver<'a> {
         let run = self.run(header.run.as_ref(), top.key("run"));
         if sound {
             self.check_regularity(loaded);
-            self.check_belts(loaded);
+            check_belts(&self, loaded);
         }
         let mut model = Model {
             name: header.model.clone(),
@@ -341,6 +344,13 @@ impl<'a> Resolver<'a> {
             return None;
         }
         self.element_id(path, at).map(Body::Element)
+    }
+
+    /// A point on a body.
+    pub(crate) fn end(&self, written: &WrittenEnd, at: At<'_>) -> Option<Attachment> {
+        let position = self.vector(&written.at, at.key("at"), LENGTH);
+        self.body(&written.on, at.key("on"))
+            .map(|on| Attachment { on, at: position })
     }
 
     /// A point of an element in its local frame.

@@ -6,6 +6,7 @@ use crate::description::output::{Axis, Component as WrittenComponent, Output as 
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
+use crate::law::joint::check::freedom_named;
 use crate::law::{Asked, LAWS, Registered};
 use crate::model::{
     Body, Component, ElementId, FreedomQuantity, JointLoadQuantity, Number, Output, PointQuantity,
@@ -512,7 +513,7 @@ impl Resolver<'_> {
         let joint = &self.systems[element.system].elements[element.element].joint;
         let freedoms = joint.freedoms();
         let name = written.freedom.as_deref();
-        let freedom = self.freedom_named(name, &self.path(element), freedoms, at)?;
+        let freedom = freedom_named(self, name, &self.path(element), freedoms, at)?;
         let table = &OF_FREEDOM[usize::from(!freedoms[freedom].kind.turns())];
         let (what, unit) = self.look_up(written, table, "this freedom", at)?;
         let quantity = Quantity::Freedom {
