@@ -6,6 +6,7 @@ use crate::description::element::Element as Written;
 use crate::description::place::At;
 use crate::description::quantity::OneOrThree;
 use crate::diagnostic::{quoted, suggestion};
+use crate::joint::{couple, joint_of};
 use crate::model::{Element, Number};
 use crate::rotation::{bryant_angles, principal};
 use std::cmp::Reverse;
@@ -58,7 +59,7 @@ impl Resolver<'_> {
         let joints: Vec<_> = (order.iter())
             .map(|&i| (written[i].joint.as_ref(), list.item(i).key("joint")))
             .collect();
-        self.couple(system, &joints, &mut elements);
+        couple(self, system, &joints, &mut elements);
         elements
     }
 
@@ -232,7 +233,7 @@ impl Resolver<'_> {
                 (Some(at), Some(_)) => self.vector(at, here.key("at"), LENGTH),
                 _ => NOWHERE,
             },
-            joint: self.joint_of(written.joint.as_ref(), here.key("joint")),
+            joint: joint_of(self, written.joint.as_ref(), here.key("joint")),
             mass,
             cg: self.vector(&written.cg, here.key("cg"), LENGTH),
             inertia,

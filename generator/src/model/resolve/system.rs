@@ -11,6 +11,7 @@ use crate::description::system::{
     Prescribed, Reference as WrittenReference, Riding, Start, System as Written,
 };
 use crate::diagnostic::{quoted, suggestion};
+use crate::joint::{freedoms_at_start, start_followers};
 use crate::model::{Element, ElementId, Joint, Number, Reference, System};
 
 /// A system with all that the files say of it: where it is described, then where that is changed.
@@ -133,7 +134,7 @@ impl Resolver<'_> {
         for (start, at) in &entry.starts {
             self.start(&mut system, start, *at);
         }
-        self.start_followers(&mut system.elements);
+        start_followers(&mut system.elements);
         if let Some((reference, at)) = entry.reference {
             let moves = system.velocity.iter().any(|v| !v.is_zero());
             system.reference = match reference {
@@ -189,7 +190,7 @@ impl Resolver<'_> {
             for (element, value, here) in self.per_element(system, entries.as_ref(), at.key(key)) {
                 let path = format!("{}/{}", system.name, system.elements[element].name);
                 let freedoms = system.elements[element].joint.freedoms_mut();
-                self.freedoms_at_start((&path, freedoms), value, key == "joint_rates", here);
+                freedoms_at_start(self, (&path, freedoms), value, key == "joint_rates", here);
             }
         }
     }
