@@ -140,20 +140,8 @@ pub(crate) fn contact(
         round.key("degree"),
     );
     let (against, other) = against(resolver, written, degree, at);
-    if let (Some(a), Some(b)) = (&ellipsoid, &against)
-        && a.center.on == b.place().on
-    {
-        let both = match b {
-            Against::Plane(_) => "the ellipsoid and the plane",
-            Against::Ellipsoid(_) => "both ellipsoids",
-        };
-        resolver.problems.add(other.key("on").problem(
-            format!(
-                "{both} of contact {} are on the same body",
-                quoted(&written.contact)
-            ),
-            "put them on two bodies; `frame` is the absolute frame",
-        ));
+    if let (Some(first), Some(second)) = (&ellipsoid, &against) {
+        check_bodies(resolver, &written.contact, first, second, other);
     }
     let elastic = resolver.elastic(
         ("elastic", written.elastic.as_ref()),
@@ -262,6 +250,27 @@ fn against<'w>(
             (None, at)
         }
     }
+}
+
+/// Reports a contact of two things on the same body; the second is at `place`.
+fn check_bodies(
+    resolver: &Resolver<'_>,
+    name: &str,
+    first: &Ellipsoid,
+    second: &Against,
+    place: At<'_>,
+) {
+    if first.center.on != second.place().on {
+        return;
+    }
+    let both = match second {
+        Against::Plane(_) => "the ellipsoid and the plane",
+        Against::Ellipsoid(_) => "both ellipsoids",
+    };
+    resolver.problems.add(place.key("on").problem(
+        format!("{both} of contact {} are on the same body", quoted(name)),
+        "put them on two bodies; `frame` is the absolute frame",
+    ));
 }
 
 /// Reports an edge that fades where the force has no energy as a function of the penetration, or leaps.
