@@ -28,7 +28,7 @@ use super::Resolver;
 use super::kinematics::{
     IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
 };
-use super::mobility::{Idle, idle, is_redundant};
+use super::mobility::{Idle, idle, inertia, is_redundant};
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
@@ -119,30 +119,7 @@ impl Resolver<'_> {
                 ),
                 "all its mass and what it carries lies on that axis: give positive moments of inertia".into(),
             ),
-            Motion::Idle(Idle {
-                freedom,
-                left,
-                reference,
-                ..
-            }) => {
-                let which = match (freedom, reference) {
-                    (Some(freedom), _) => format!("the freedom {} of element {element}", quoted(&freedom)),
-                    (None, true) => format!("the reference joint of the system {system}"),
-                    (None, false) => format!("element {element} on its joint"),
-                };
-                let left = match left {
-                    0.0 => "nothing of it is left".to_owned(),
-                    left => format!("a share of {left:.0e} of it is left"),
-                };
-                (
-                    format!("{which} can move without any inertia: {left} when what it carries, and what is before it in the joint, move freely"),
-                    match reference {
-                        false if redundant => "the other freedoms of this joint move the element in all ways that this one does, whatever its mass: remove one of them, or give it another axis".into(),
-                        true => "the root moves in its own joint as the reference joint does: write `reference: fixed`, or another `joint` of the root".into(),
-                        false => "give what it carries mass or moments of inertia there, or remove a freedom whose axis another one has".into(),
-                    },
-                )
-            }
+            Motion::Idle(idle) => explain_idle(&system, &element, idle, redundant),
             Motion::Slight {
                 axis,
                 inertia,
@@ -165,6 +142,27 @@ impl Resolver<'_> {
             ),
         }
     }
+}
+
+/// The same of a freedom without inertia; `system` and `element` are in quotation marks.
+fn explain_idle(system: &str, element: &str, idle: Idle, redundant: bool) -> (String, String) {
+    let which = match (idle.freedom, idle.reference) {
+        (Some(freedom), _) => format!("the freedom {} of element {element}", quoted(&freedom)),
+        (None, true) => format!("the reference joint of the system {system}"),
+        (None, false) => format!("element {element} on its joint"),
+    };
+    let left = match idle.left {
+        0.0 => "nothing of it is left".to_owned(),
+        left => format!("a share of {left:.0e} of it is left"),
+    };
+    (
+        format!("{which} can move without any inertia: {left} when what it carries, and what is before it in the joint, move freely"),
+        match idle.reference {
+            false if redundant => "the other freedoms of this joint move the element in all ways that this one does, whatever its mass: remove one of them, or give it another axis".into(),
+            true => "the root moves in its own joint as the reference joint does: write `reference: fixed`, or another `joint` of the root".into(),
+            false => "give what it carries mass or moments of inertia there, or remove a freedom whose axis another one has".into(),
+        },
+    )
 }
 
 impl Model {
@@ -356,15 +354,7 @@ fn slight(
     for k in (0..n).rev() {
         let element = &system.elements[k];
         let a = &attitudes[k];
-        let mass = element.mass.value(parameters);
-        let c = cross(apply(a, values(&element.cg, parameters)));
-        let moments = values(&element.inertia, parameters);
-        let axes = product(a, &rotation(values(&element.axes, parameters)));
-        let principal = [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j { moments[i] } else { 0.0 }));
-        let own = plus(
-            &product(&product(&axes, &principal), &transpose(&axes)),
-            &times(&product(&c, &c), -mass),
-        );
+        let (mass, c, own) = inertia(element, a, parameters);
         let j = plus(&own, &turning[k]);
         let h = plus(&times(&c, mass), &moment[k]);
         scale[k] += trace(&own);
