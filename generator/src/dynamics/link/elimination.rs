@@ -291,6 +291,7 @@ struct Outwards<'a, 'g> {
 
 impl<'g> Outwards<'_, 'g> {
     /// The accelerations of link `k`; its parent's are known.
+    // Long: one `match`, an arm for each way in which a joint was eliminated.
     fn solve(&mut self, k: usize) -> Solved<'g> {
         let Written {
             tree,

@@ -263,25 +263,7 @@ impl Resolver<'_> {
             [name] => match self.systems.iter().position(|s| s.name == name) {
                 Some(system) => Some(Subject::System(system)),
                 None => {
-                    let mut forces = self.forces.iter().filter(|f| f.name == name);
-                    let force = forces.find(|f| observable().any(|law| law.key == f.kind.key()));
-                    let element = self
-                        .paths
-                        .iter()
-                        .find(|p| p.rsplit('/').next() == Some(name));
-                    let help = match (force, element) {
-                        (Some(force), _) => format!(
-                            "did you mean {}?",
-                            quoted(&format!("{} {name}", force.kind.key()))
-                        ),
-                        (_, Some(path)) => format!(
-                            "elements are named with their system; did you mean {}?",
-                            quoted(path)
-                        ),
-                        _ => OF_HELP.to_owned(),
-                    };
-                    self.problems
-                        .add(at.problem(format!("there is nothing called {}", quoted(name)), help));
+                    self.nothing_called(name, at);
                     None
                 }
             },
@@ -291,60 +273,94 @@ impl Resolver<'_> {
             ["joint", name] if OF_ANY_JOINT.iter().any(|(what, ..)| *what == written.what) => {
                 self.element_id(name, at).map(Subject::Joint)
             }
-            [kind, name] => {
-                let Some(law) = observable().find(|law| law.key == kind) else {
-                    let message = match LAWS.iter().find(|law| law.key == kind) {
-                        Some(law) => format!("{} is given and has no outputs", law.title),
-                        None => format!("there is no output of {}", quoted(of)),
-                    };
-                    let laws = observable().map(|law| law.key);
-                    let near = nearest(kind, laws.chain(["system", "switch", "vehicle"]));
-                    let help = match near {
-                        Some(near) => format!("did you mean \"{near} {name}\"?"),
-                        None => OF_HELP.to_owned(),
-                    };
-                    self.problems.add(at.problem(message, help));
-                    return None;
-                };
-                let called = law.called();
-                let name = match name.split_once('/') {
-                    Some((name, _)) if law.has_ports => name,
-                    _ => name,
-                };
-                let found = self
-                    .forces
-                    .iter()
-                    .position(|f| f.kind.key() == kind && f.name == name);
-                if found.is_none() {
-                    if self
-                        .disabled
-                        .iter()
-                        .any(|(k, n)| *k == law.key && n == name)
-                    {
-                        // a force that is wrong is left out too, but then that is reported
-                        if !off && self.problems.count() == 0 {
-                            self.problems.add(at.problem(
-                                format!("the {called} {} is switched off", quoted(name)),
-                                "give the output `enabled: false` too, or switch the force on",
-                            ));
-                        }
-                    } else {
-                        let names = self.forces.iter().filter(|f| f.kind.key() == kind);
-                        let names: Vec<&str> = names.map(|f| f.name.as_str()).collect();
-                        self.problems.add(at.problem(
-                            format!("there is no {called} {} among the forces", quoted(name)),
-                            suggestion(name, names, &format!("add a force `{kind}: {name}`")),
-                        ));
-                    }
-                }
-                found.map(Subject::Force)
-            }
+            [kind, name] => self
+                .force_named([kind, name], of, at, off)
+                .map(Subject::Force),
             _ => {
                 self.problems
                     .add(at.problem(format!("{} names nothing", quoted(of)), OF_HELP));
                 None
             }
         }
+    }
+
+    /// Reports a name alone that is that of no system, vehicle or element.
+    fn nothing_called(&self, name: &str, at: At<'_>) {
+        let mut forces = self.forces.iter().filter(|f| f.name == name);
+        let force = forces.find(|f| observable().any(|law| law.key == f.kind.key()));
+        let element = self
+            .paths
+            .iter()
+            .find(|p| p.rsplit('/').next() == Some(name));
+        let help = match (force, element) {
+            (Some(force), _) => format!(
+                "did you mean {}?",
+                quoted(&format!("{} {name}", force.kind.key()))
+            ),
+            (_, Some(path)) => format!(
+                "elements are named with their system; did you mean {}?",
+                quoted(path)
+            ),
+            _ => OF_HELP.to_owned(),
+        };
+        self.problems
+            .add(at.problem(format!("there is nothing called {}", quoted(name)), help));
+    }
+
+    /// The force that `of` names, by its kind and name.
+    fn force_named(
+        &self,
+        [kind, name]: [&str; 2],
+        of: &str,
+        at: At<'_>,
+        off: bool,
+    ) -> Option<usize> {
+        let Some(law) = observable().find(|law| law.key == kind) else {
+            let message = match LAWS.iter().find(|law| law.key == kind) {
+                Some(law) => format!("{} is given and has no outputs", law.title),
+                None => format!("there is no output of {}", quoted(of)),
+            };
+            let laws = observable().map(|law| law.key);
+            let near = nearest(kind, laws.chain(["system", "switch", "vehicle"]));
+            let help = match near {
+                Some(near) => format!("did you mean \"{near} {name}\"?"),
+                None => OF_HELP.to_owned(),
+            };
+            self.problems.add(at.problem(message, help));
+            return None;
+        };
+        let called = law.called();
+        let name = match name.split_once('/') {
+            Some((name, _)) if law.has_ports => name,
+            _ => name,
+        };
+        let found = self
+            .forces
+            .iter()
+            .position(|f| f.kind.key() == kind && f.name == name);
+        if found.is_none() {
+            if self
+                .disabled
+                .iter()
+                .any(|(k, n)| *k == law.key && n == name)
+            {
+                // a force that is wrong is left out too, but then that is reported
+                if !off && self.problems.count() == 0 {
+                    self.problems.add(at.problem(
+                        format!("the {called} {} is switched off", quoted(name)),
+                        "give the output `enabled: false` too, or switch the force on",
+                    ));
+                }
+            } else {
+                let names = self.forces.iter().filter(|f| f.kind.key() == kind);
+                let names: Vec<&str> = names.map(|f| f.name.as_str()).collect();
+                self.problems.add(at.problem(
+                    format!("there is no {called} {} among the forces", quoted(name)),
+                    suggestion(name, names, &format!("add a force `{kind}: {name}`")),
+                ));
+            }
+        }
+        found
     }
 
     fn system_named(&self, name: &str, at: At<'_>) -> Option<usize> {

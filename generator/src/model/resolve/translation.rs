@@ -106,22 +106,8 @@ impl Resolver<'_> {
             if let (Some(begins), Some(start)) = (begins, start) {
                 self.check_start(begins, &velocity[axis], key, start.item(index));
             }
-            curves[axis] = match (component, given) {
-                (FieldComponent::Curve(curve), _) => {
-                    if given != Given::Acceleration {
-                        velocity[axis] = Number::ZERO;
-                    }
-                    Some(curve)
-                }
-                (FieldComponent::Constant(speed), Given::Velocity) => {
-                    velocity[axis] = speed;
-                    None
-                }
-                (FieldComponent::Constant(number), Given::Acceleration) if !number.is_zero() => {
-                    Some(self.constant_curve(format!("{owner} {}", AXES[axis]), number))
-                }
-                (FieldComponent::Constant(_), _) => None,
-            };
+            let owner = format!("{owner} {}", AXES[axis]);
+            curves[axis] = self.along_axis(component, given, owner, &mut velocity[axis]);
         }
         let accelerated = given == Given::Acceleration && curves.iter().any(Option::is_some);
         let stops = (ways.stops == Some(true) && accelerated)
@@ -130,6 +116,32 @@ impl Resolver<'_> {
             given,
             curves,
             stops,
+        }
+    }
+
+    /// The curve of the motion along an axis, if it has one. `velocity` becomes the part of the velocity that no curve says.
+    fn along_axis(
+        &mut self,
+        component: FieldComponent,
+        given: Given,
+        owner: String,
+        velocity: &mut Number,
+    ) -> Option<ScaledCurve> {
+        match (component, given) {
+            (FieldComponent::Curve(curve), _) => {
+                if given != Given::Acceleration {
+                    *velocity = Number::ZERO;
+                }
+                Some(curve)
+            }
+            (FieldComponent::Constant(speed), Given::Velocity) => {
+                *velocity = speed;
+                None
+            }
+            (FieldComponent::Constant(number), Given::Acceleration) if !number.is_zero() => {
+                Some(self.constant_curve(owner, number))
+            }
+            (FieldComponent::Constant(_), _) => None,
         }
     }
 

@@ -87,6 +87,8 @@ impl Equations for Contact {
     }
 }
 
+/// Applies a contact: the normal force, what an edge takes from it, friction, what a fading edge pushes with.
+// Long: the parts of the force in the order in which their nodes are made; each needs those before it.
 fn apply<'g>(
     contact: &Contact,
     setting: Setting<'_, 'g>,
