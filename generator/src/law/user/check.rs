@@ -15,6 +15,7 @@ use crate::law::user::keys::{
 use crate::model::resolve::Resolver;
 use crate::model::resolve::name::{Style, identifier};
 use crate::model::resolve::quantity::{ANY, LENGTH, Measure, TIME};
+use crate::model::resolve::run::time;
 use crate::model::resolve::rust::{self, Fault, Place, Wanted};
 use crate::model::{
     Attachment, Body, Dimension, ElementId, FieldComponent, ForceKind, Joint, Number, ScaledCurve,
@@ -322,7 +323,7 @@ impl<'w> Entries<'w> {
         });
         let (function, source) = user_function(resolver, written, at)?;
         let scale = written.scale.as_ref();
-        let scale = scale.map(|_| resolver.time(scale, at.key("scale"), f64::INFINITY));
+        let scale = scale.map(|_| time(resolver, scale, at.key("scale"), f64::INFINITY));
         Some(User {
             function: UserFunction {
                 name: function,

@@ -345,6 +345,23 @@ impl Resolver<'_> {
         }
     }
 
+    /// A number that depends on no parameter.
+    pub(crate) fn constant(
+        &self,
+        quantity: &Quantity,
+        at: At<'_>,
+        what: &str,
+    ) -> Option<(f64, Measure)> {
+        let (number, measure) = self.measured(quantity, at)?;
+        if number.constant().is_none() {
+            self.problems.add(at.problem(
+                format!("{what} depends on a parameter"),
+                "give a number; expressions of parameters may stand where the parameter is used",
+            ));
+        }
+        Some((number.constant()?, measure))
+    }
+
     /// Folds an expression and finds its dimension.
     fn expression(&self, e: &Expression, at: At<'_>) -> Option<(Number, Measure)> {
         use Measure::{Bare, Known};
