@@ -373,6 +373,7 @@ mod tests {
 
     /// A man of 77.7 kg and 1.753 m and a woman of 49 kg and 1.501 m, derived independently from the same table, printed to four decimals (moments to
     /// six).
+    // Long: the numbers of two bodies.
     #[test]
     fn bodies_are_those_of_an_independent_derivation() {
         let man = [

@@ -112,6 +112,7 @@ pub(crate) fn couple(
     }
 }
 
+/// The freedom that a freedom follows, with ratio and offset.
 fn leader(
     resolver: &Resolver<'_>,
     system: &str,

@@ -207,6 +207,7 @@ fn only_port(
     }
 }
 
+/// The quantity of the port with this index, and its unit.
 fn user_quantity(
     resolver: &Resolver<'_>,
     written: &Written,

@@ -203,6 +203,7 @@ fn parents_first(
     order
 }
 
+/// The checked form of an element; zeros stand for what is wrong.
 fn element(
     resolver: &Resolver<'_>,
     system: &str,

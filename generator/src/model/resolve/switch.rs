@@ -79,6 +79,7 @@ pub(super) fn active(
     active
 }
 
+/// The checked form of a switch.
 fn switch(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Switch> {
     let after = resolver.coefficient(written.after.as_ref(), at.key("after"), TIME);
     let switch = Switch {
@@ -90,6 +91,7 @@ fn switch(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Swit
     Some(switch)
 }
 
+/// What makes a switch fire: a time, or a quantity and its threshold.
 fn trigger(resolver: &Resolver<'_>, written: &WrittenTrigger, at: At<'_>) -> Option<Trigger> {
     const HELP: &str = "write `{ time: 10 ms }`, or `{ of: man/head, what: displacement, component: x, above: 0.1 }` with a quantity as in an output";
     if let Some(time) = &written.time {

@@ -255,6 +255,7 @@ struct Pressed<'g> {
     permanent_set: Expr<'g>,
 }
 
+/// The normal force, before an edge takes from it.
 fn pressed<'g>(
     graph: &'g Graph,
     loads: &mut Loads<'g>,
