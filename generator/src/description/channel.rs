@@ -66,6 +66,23 @@ pub fn number<'t>(list: &'t str, code: &str) -> Result<u32, Vec<&'t str>> {
     Err(codes)
 }
 
+/// A unit of a channel as the model's language spells it; `None` where the channel has none.
+fn unit(said: &str) -> Option<&str> {
+    Some(match said {
+        "" | "NOVALUE" => return None,
+        // as tests spell it: of accelerations, not the gram
+        "g" => "gn",
+        "m/(s*s)" | "m/s2" | "m/s²" => "m/s^2",
+        "rad/(s*s)" => "rad/s^2",
+        "Nm" => "N*m",
+        "kNm" => "kN*m",
+        "°" => "deg",
+        "°/s" => "deg/s",
+        "-" => "1",
+        unit => unit,
+    })
+}
+
 /// A channel as a table of two columns, time \[s\] and value, with the unit of the value as the model's language spells it.
 ///
 /// # Errors
@@ -119,24 +136,12 @@ pub fn table(text: &str, code: &str) -> Result<(String, String), (String, &'stat
             "look whether the file is whole",
         ));
     }
-    let unit = match lines.value("Unit").unwrap_or_default() {
-        "" | "NOVALUE" => {
-            return Err((
-                format!("the channel {code} has no unit"),
-                "write its unit into the file: `Unit :m/s^2`",
-            ));
-        }
-        // as tests spell it: of accelerations, not the gram
-        "g" => "gn",
-        "m/(s*s)" | "m/s2" | "m/s²" => "m/s^2",
-        "rad/(s*s)" => "rad/s^2",
-        "Nm" => "N*m",
-        "kNm" => "kN*m",
-        "°" => "deg",
-        "°/s" => "deg/s",
-        "-" => "1",
-        unit => unit,
-    };
+    let unit = unit(lines.value("Unit").unwrap_or_default()).ok_or_else(|| {
+        (
+            format!("the channel {code} has no unit"),
+            "write its unit into the file: `Unit :m/s^2`",
+        )
+    })?;
     let mut rows = String::new();
     for (index, (line, value)) in lines.data.iter().enumerate() {
         if !value.parse::<f64>().is_ok_and(f64::is_finite) {

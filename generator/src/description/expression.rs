@@ -231,27 +231,7 @@ impl Reader {
             }
             TokenKind::Name(name) if name == "pi" => Ok(leaf(Kind::Number(std::f64::consts::PI))),
             TokenKind::Name(name) if FUNCTIONS.contains(&name.as_str()) => {
-                if self.peek_sign(0, "(").is_none() {
-                    return Err(Mistake {
-                        offset,
-                        length,
-                        message: format!("the function {name} has no argument"),
-                        help: format!("write `{name}(…)`"),
-                    });
-                }
-                self.next += 1;
-                let argument = self.sum()?;
-                let end = self.close(offset + length)?;
-                let function = match name.as_str() {
-                    "sqrt" => Function::SquareRoot,
-                    "sin" => Function::Sine,
-                    _ => Function::Cosine,
-                };
-                Ok(Expression {
-                    offset,
-                    length: end - offset,
-                    kind: Kind::Call(function, Box::new(argument)),
-                })
+                self.call(name, offset, length)
             }
             TokenKind::Name(name) if unit(name).is_some() => {
                 self.next -= 1;
@@ -266,6 +246,31 @@ impl Reader {
             }),
             TokenKind::Name(name) => Ok(leaf(Kind::Parameter(name.clone()))),
         }
+    }
+
+    /// The call of a function whose name has been read.
+    fn call(&mut self, name: &str, offset: usize, length: usize) -> Result<Expression, Mistake> {
+        if self.peek_sign(0, "(").is_none() {
+            return Err(Mistake {
+                offset,
+                length,
+                message: format!("the function {name} has no argument"),
+                help: format!("write `{name}(…)`"),
+            });
+        }
+        self.next += 1;
+        let argument = self.sum()?;
+        let end = self.close(offset + length)?;
+        let function = match name {
+            "sqrt" => Function::SquareRoot,
+            "sin" => Function::Sine,
+            _ => Function::Cosine,
+        };
+        Ok(Expression {
+            offset,
+            length: end - offset,
+            kind: Kind::Call(function, Box::new(argument)),
+        })
     }
 
     /// What stands behind a number: nothing, or units.

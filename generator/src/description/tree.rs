@@ -168,6 +168,7 @@ impl Builder<'_> {
         for event in Parser::new_from_str(self.text) {
             let (event, marks) = event.map_err(|e| self.scan_problem(&e, &open))?;
             let span = self.span(&marks);
+            self.check_is_in_language(&event, span)?;
             let finished = match event {
                 Event::DocumentStart(_) => {
                     documents += 1;
@@ -180,35 +181,6 @@ impl Builder<'_> {
                     }
                     continue;
                 }
-                Event::Alias(_) => {
-                    return Err(self.problem(
-                        span,
-                        "aliases (`*name`) are not part of the language",
-                        "write the value again, or give it a name under `parameters` or `curves`",
-                    ));
-                }
-                Event::Scalar(_, _, anchor, ref tag)
-                | Event::SequenceStart(anchor, ref tag)
-                | Event::MappingStart(anchor, ref tag)
-                    if anchor > 0 || tag.is_some() =>
-                {
-                    let (what, remedy) = if anchor > 0 {
-                        (
-                            "anchors (`&name`) are",
-                            "remove it; what is used twice gets a name under `parameters` or `curves`",
-                        )
-                    } else {
-                        (
-                            "tags (`!name`) are",
-                            "remove it, or put the text in quotation marks",
-                        )
-                    };
-                    return Err(self.problem(
-                        span,
-                        format!("{what} not part of the language"),
-                        remedy,
-                    ));
-                }
                 Event::Scalar(text, style, _, _) => Node {
                     span,
                     kind: Kind::Scalar {
@@ -216,45 +188,23 @@ impl Builder<'_> {
                         plain: style == ScalarStyle::Plain,
                     },
                 },
-                Event::SequenceStart(..) | Event::MappingStart(..) => {
-                    if open.len() == MAX_DEPTH {
-                        return Err(self.too_deep(span));
-                    }
-                    let list = matches!(event, Event::SequenceStart(..));
-                    if let Some(parent) = open.last()
-                        && matches!(parent.node.kind, Kind::Map(_))
-                        && parent.key.is_none()
-                    {
-                        return Err(self.problem(
-                            span,
-                            "a key is a list or a mapping",
-                            "keys are words; text that begins with `{` or `[` needs quotation marks",
-                        ));
-                    }
-                    let under = open
-                        .last()
-                        .and_then(|o| o.key.as_ref())
-                        .map_or(String::new(), |(key, _)| key.clone());
-                    open.push(Open {
-                        node: Node {
-                            span: Span { length: 1, ..span },
-                            kind: if list {
-                                Kind::List(Vec::new())
-                            } else {
-                                Kind::Map(Vec::new())
-                            },
-                        },
-                        key: None,
-                        keys: HashSet::new(),
-                        under,
-                    });
+                Event::SequenceStart(..) => {
+                    self.open(&mut open, Kind::List(Vec::new()), span)?;
+                    continue;
+                }
+                Event::MappingStart(..) => {
+                    self.open(&mut open, Kind::Map(Vec::new()), span)?;
                     continue;
                 }
                 Event::SequenceEnd | Event::MappingEnd => {
                     let Some(closed) = open.pop() else { continue };
                     closed.node
                 }
-                Event::Nothing | Event::StreamStart | Event::StreamEnd | Event::DocumentEnd => {
+                Event::Alias(_)
+                | Event::Nothing
+                | Event::StreamStart
+                | Event::StreamEnd
+                | Event::DocumentEnd => {
                     continue;
                 }
             };
@@ -270,6 +220,66 @@ impl Builder<'_> {
                 "a model begins with `model: its-name`, `dimension: 2` or `3`, and `systems:`",
             ))
         })
+    }
+
+    /// Reports aliases, anchors and tags, which YAML has and the language has not.
+    fn check_is_in_language(&self, event: &Event<'_>, span: Span) -> Result<(), Box<Diagnostic>> {
+        let (anchor, tag) = match event {
+            Event::Alias(_) => {
+                return Err(self.problem(
+                    span,
+                    "aliases (`*name`) are not part of the language",
+                    "write the value again, or give it a name under `parameters` or `curves`",
+                ));
+            }
+            Event::Scalar(_, _, anchor, tag)
+            | Event::SequenceStart(anchor, tag)
+            | Event::MappingStart(anchor, tag) => (*anchor > 0, tag.is_some()),
+            _ => return Ok(()),
+        };
+        let (what, remedy) = match (anchor, tag) {
+            (false, false) => return Ok(()),
+            (true, _) => (
+                "anchors (`&name`) are",
+                "remove it; what is used twice gets a name under `parameters` or `curves`",
+            ),
+            (false, true) => (
+                "tags (`!name`) are",
+                "remove it, or put the text in quotation marks",
+            ),
+        };
+        Err(self.problem(span, format!("{what} not part of the language"), remedy))
+    }
+
+    /// Begins a list or a mapping.
+    fn open(&self, open: &mut Vec<Open>, kind: Kind, span: Span) -> Result<(), Box<Diagnostic>> {
+        if open.len() == MAX_DEPTH {
+            return Err(self.too_deep(span));
+        }
+        if let Some(parent) = open.last()
+            && matches!(parent.node.kind, Kind::Map(_))
+            && parent.key.is_none()
+        {
+            return Err(self.problem(
+                span,
+                "a key is a list or a mapping",
+                "keys are words; text that begins with `{` or `[` needs quotation marks",
+            ));
+        }
+        let under = open
+            .last()
+            .and_then(|o| o.key.as_ref())
+            .map_or(String::new(), |(key, _)| key.clone());
+        open.push(Open {
+            node: Node {
+                span: Span { length: 1, ..span },
+                kind,
+            },
+            key: None,
+            keys: HashSet::new(),
+            under,
+        });
+        Ok(())
     }
 
     /// Puts a value in its list, or under its key; or keeps it as the key of the next value.

@@ -56,6 +56,7 @@ use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
 use crate::model::{Model, System};
 use augmented::{AugmentedTree, Omitted};
+use force::Loads;
 use kinematics::{Motion, State};
 use layout::Layout;
 use outputs::Scene;
@@ -145,29 +146,39 @@ fn by_route(
     symbols: Symbols,
 ) -> Equations {
     let graph = Graph::new();
-    let ids = |values: &[Expr<'_>]| values.iter().map(|e| e.id()).collect::<Vec<NodeId>>();
+    let equations = in_graph(&graph, model, options, route, omitted, symbols);
+    Equations { graph, ..equations }
+}
 
+/// The equations with an empty graph; their nodes are in `graph`.
+// Long: one line for each list of the equations, in the order in which their nodes are made.
+fn in_graph(
+    graph: &Graph,
+    model: &Model,
+    options: Options,
+    route: Route,
+    omitted: Option<Omitted>,
+    symbols: Symbols,
+) -> Equations {
     let layout = Layout::of(model);
-    let started = layout.start(&graph, model);
+    let started = layout.start(graph, model);
     graph.section("initial state");
-    let start = Motion::at_start(&graph, model, &layout, &started);
+    let start = Motion::at_start(graph, model, &layout, &started);
 
-    let state = symbols(&graph, &layout);
-    let motion = Motion::of(&graph, model, &layout, &state);
+    let state = symbols(graph, &layout);
+    let motion = Motion::of(graph, model, &layout, &state);
     let mut trees: Vec<AugmentedTree<'_>> = (0..model.systems.len())
-        .map(|s| AugmentedTree::of(&graph, model, s, &motion))
+        .map(|s| AugmentedTree::of(graph, model, s, &motion))
         .collect();
     if let Some(omitted) = omitted {
         omitted.omit(&mut trees);
     }
     let charts = chart::memory(model, &layout, &started, &state);
-    let mut loads = force::loads(&graph, model, &motion, &start, charts);
+    let mut loads = force::loads(graph, model, &motion, &start, charts);
 
     let zero = graph.constant(0.0).id();
-    let (mut matrix, mut velocity_forces, mut applied_forces) =
-        (Vec::new(), Vec::new(), Vec::new());
     let of_system = |(system, tree)| Spatial {
-        graph: &graph,
+        graph,
         model,
         layout: &layout,
         system,
@@ -175,44 +186,15 @@ fn by_route(
         tree,
     };
     let systems: Vec<Spatial<'_, '_>> = trees.iter().enumerate().map(of_system).collect();
-    let size = layout.velocities.len();
-    let with_axes = || systems.iter().filter(|spatial| !spatial.has_balls_alone());
-    let none = graph.constant(0.0);
-    if options.matrices || route == Route::MassMatrix {
-        matrix = mass_matrix::mass_matrix(&systems, size);
-        velocity_forces = bias_forces::velocity_forces(&systems, none, size);
-        applied_forces = applied_forces::applied_forces(&systems, &loads, none, size);
-        for spatial in with_axes() {
-            let forces = [&mut velocity_forces[..], &mut applied_forces[..]];
-            link::cheaper_matrices(spatial, &loads, &mut matrix, forces);
-        }
-    }
-    let pivots = match factorization::may_vanish(model) && size <= factorization::MOST_PIVOTS {
-        true if matrix.is_empty() => {
-            let matrix = mass_matrix::mass_matrix(&systems, size);
-            factorization::pivots(&graph, model, &layout, &matrix)
-        }
-        true => factorization::pivots(&graph, model, &layout, &matrix),
-        false => Vec::new(),
+    let matrices = match options.matrices || route == Route::MassMatrix {
+        true => Matrices::of(graph, &layout, &systems, &loads),
+        false => Matrices::default(),
     };
-    let mut accelerations = match route {
-        Route::Elimination => elimination::accelerations(&systems, &loads, none, size),
-        Route::MassMatrix => factorization::accelerations(
-            &graph,
-            &layout,
-            &matrix,
-            &velocity_forces,
-            &applied_forces,
-        ),
-    };
-    if route == Route::MassMatrix {
-        for spatial in with_axes() {
-            link::cheaper_accelerations(spatial, &loads, &mut accelerations);
-        }
-    }
-    let rates = layout.coordinate_rates(&graph, model, &state);
+    let pivots = pivots(graph, model, &layout, &systems, &matrices.mass);
+    let accelerations = accelerations(graph, &layout, route, &systems, &loads, &matrices);
+    let rates = layout.coordinate_rates(graph, model, &state);
     let scene = Scene {
-        graph: &graph,
+        graph,
         model,
         layout: &layout,
         motion: &motion,
@@ -226,49 +208,28 @@ fn by_route(
     let momentum = momentum::momentum(&scene);
     let external_wrench = momentum::external_wrench(&scene);
     let triggers = scene.triggers();
-    force::switch::complete(&graph, model, &mut loads, &triggers);
-    let kinks = loads.kinks(&graph);
-    let onsets = loads.onsets(&graph);
-    let corners = onsets[1].len();
-    let onsets = onsets.concat();
-    let curves = loads.curves(&graph);
-    let conditions = conditions::of(&graph, model, &start);
-    let renewed = chart::renewed(&graph, model, &layout, &motion, &state);
+    force::switch::complete(graph, model, &mut loads, &triggers);
+    let kinks = loads.kinks(graph);
+    let onsets = loads.onsets(graph);
+    let curves = loads.curves(graph);
+    let conditions = conditions::of(graph, model, &start);
+    let renewed = chart::renewed(graph, model, &layout, &motion, &state);
     for (memory, chart) in loads.states.memory.iter_mut().zip(&renewed.charts) {
         memory.next = *chart;
     }
-    let states = |states: &[force::LawState<'_>]| -> Vec<LawState> {
-        let state = |state: &force::LawState<'_>| LawState {
-            name: state.name.clone(),
-            unit: state.unit,
-            initial: state.initial.id(),
-            next: state.next.id(),
-        };
-        states.iter().map(state).collect()
-    };
-    let named = |values: &[(String, Expr<'_>)]| -> Vec<Named> {
-        let name = |(name, value): &(String, Expr<'_>)| Named {
-            name: name.clone(),
-            value: value.id(),
-        };
-        values.iter().map(name).collect()
-    };
 
-    let mut needed = [&accelerations[..], &outputs, &applied_forces].concat();
+    let mut needed = [&accelerations[..], &outputs, &matrices.applied_forces].concat();
     needed.extend(powers.iter().map(|(_, power)| *power));
     needed.extend(loads.states.auxiliaries.iter().map(|state| state.next));
-    let needed = ids(&needed);
-    let mass_matrix = matrix
-        .iter()
-        .map(|row| row.iter().map(|e| e.map_or(zero, |e| e.id())).collect())
-        .collect();
-    let equations = Equations {
+    Equations {
         initial_coordinates: ids(&started.q),
         initial_velocities: ids(&started.v),
         coordinate_rates: ids(&rates),
-        mass_matrix,
-        velocity_forces: ids(&velocity_forces),
-        applied_forces: ids(&applied_forces),
+        mass_matrix: (matrices.mass.iter())
+            .map(|row| row.iter().map(|e| e.map_or(zero, |e| e.id())).collect())
+            .collect(),
+        velocity_forces: ids(&matrices.velocity_forces),
+        applied_forces: ids(&matrices.applied_forces),
         accelerations: ids(&accelerations),
         route,
         auxiliaries: states(&loads.states.auxiliaries),
@@ -278,14 +239,14 @@ fn by_route(
         renewed_velocities: ids(&renewed.v),
         guards: named(&loads.events.guards),
         kinks: named(&kinks),
-        onsets: (onsets.iter())
+        corners: onsets[1].len(),
+        onsets: (onsets.iter().flatten())
             .map(|(name, onset)| Onset {
                 name: name.clone(),
                 gap: onset.gap.id(),
                 speed: onset.speed.id(),
             })
             .collect(),
-        corners,
         curves,
         conditions,
         pivots: named(&pivots),
@@ -294,33 +255,123 @@ fn by_route(
         momentum: ids(&momentum),
         external_wrench: ids(&external_wrench),
         outputs: ids(&outputs),
-        curves_of_time: curves_of_time::of(&graph, &needed),
+        curves_of_time: curves_of_time::of(graph, &ids(&needed)),
         quaternions: layout.quaternions(),
         coordinates: layout.coordinates.clone(),
         velocities: layout.velocities.clone(),
         graph: Graph::new(),
+    }
+}
+
+/// S, r_s and r_k; empty where they are not derived.
+#[derive(Default)]
+struct Matrices<'g> {
+    /// S, `None` where it is 0.
+    mass: Vec<Vec<Option<Expr<'g>>>>,
+    /// r_s
+    velocity_forces: Vec<Expr<'g>>,
+    /// r_k
+    applied_forces: Vec<Expr<'g>>,
+}
+
+impl<'g> Matrices<'g> {
+    fn of(
+        graph: &'g Graph,
+        layout: &Layout,
+        systems: &[Spatial<'g, '_>],
+        loads: &Loads<'g>,
+    ) -> Self {
+        let (none, size) = (graph.constant(0.0), layout.velocities.len());
+        let mut matrices = Matrices {
+            mass: mass_matrix::mass_matrix(systems, size),
+            velocity_forces: bias_forces::velocity_forces(systems, none, size),
+            applied_forces: applied_forces::applied_forces(systems, loads, none, size),
+        };
+        for spatial in with_axes(systems) {
+            let forces = [
+                &mut matrices.velocity_forces[..],
+                &mut matrices.applied_forces[..],
+            ];
+            link::cheaper_matrices(spatial, loads, &mut matrices.mass, forces);
+        }
+        matrices
+    }
+}
+
+/// The systems that are not of ball joints alone.
+fn with_axes<'a, 'g, 'm>(
+    systems: &'a [Spatial<'g, 'm>],
+) -> impl Iterator<Item = &'a Spatial<'g, 'm>> {
+    systems.iter().filter(|spatial| !spatial.has_balls_alone())
+}
+
+/// The pivots of S, with what they belong to, where one may vanish. Derives S where there is none yet.
+fn pivots<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    layout: &Layout,
+    systems: &[Spatial<'g, '_>],
+    matrix: &[Vec<Option<Expr<'g>>>],
+) -> Vec<(String, Expr<'g>)> {
+    let size = layout.velocities.len();
+    if !factorization::may_vanish(model) || size > factorization::MOST_PIVOTS {
+        return Vec::new();
+    }
+    match matrix.is_empty() {
+        true => {
+            let matrix = mass_matrix::mass_matrix(systems, size);
+            factorization::pivots(graph, model, layout, &matrix)
+        }
+        false => factorization::pivots(graph, model, layout, matrix),
+    }
+}
+
+/// v̇
+fn accelerations<'g>(
+    graph: &'g Graph,
+    layout: &Layout,
+    route: Route,
+    systems: &[Spatial<'g, '_>],
+    loads: &Loads<'g>,
+    matrices: &Matrices<'g>,
+) -> Vec<Expr<'g>> {
+    let (none, size) = (graph.constant(0.0), layout.velocities.len());
+    if route == Route::Elimination {
+        return elimination::accelerations(systems, loads, none, size);
+    }
+    let mut accelerations = factorization::accelerations(
+        graph,
+        layout,
+        &matrices.mass,
+        &matrices.velocity_forces,
+        &matrices.applied_forces,
+    );
+    for spatial in with_axes(systems) {
+        link::cheaper_accelerations(spatial, loads, &mut accelerations);
+    }
+    accelerations
+}
+
+fn ids(values: &[Expr<'_>]) -> Vec<NodeId> {
+    values.iter().map(|e| e.id()).collect()
+}
+
+fn states(states: &[force::LawState<'_>]) -> Vec<LawState> {
+    let state = |state: &force::LawState<'_>| LawState {
+        name: state.name.clone(),
+        unit: state.unit,
+        initial: state.initial.id(),
+        next: state.next.id(),
     };
-    drop(systems);
-    drop((
-        motion,
-        start,
-        trees,
-        loads,
-        state,
-        rates,
-        outputs,
-        powers,
-        momentum,
-        external_wrench,
-        kinks,
-        onsets,
-        triggers,
-        accelerations,
-        matrix,
-        started,
-        renewed,
-    ));
-    Equations { graph, ..equations }
+    states.iter().map(state).collect()
+}
+
+fn named(values: &[(String, Expr<'_>)]) -> Vec<Named> {
+    let name = |(name, value): &(String, Expr<'_>)| Named {
+        name: name.clone(),
+        value: value.id(),
+    };
+    values.iter().map(name).collect()
 }
 
 /// The time symbol.

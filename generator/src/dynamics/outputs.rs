@@ -67,6 +67,7 @@ impl<'g> Scene<'g, '_> {
         self.model.switches.iter().map(of).collect()
     }
 
+    // Long: one `match`, an arm for each kind of quantity.
     fn quantity(&self, quantity: &Quantity) -> Expr<'g> {
         let zero = self.graph.constant(0.0);
         match quantity {

@@ -53,40 +53,45 @@ pub fn flattened(model: &Model) -> Option<Model> {
         keep.push(force.kind.flatten());
     }
     model.outputs.retain_mut(|output| {
-        let there = match &mut output.quantity {
-            Quantity::Point { at, projection, .. } => {
-                at[1] = Number::ZERO;
-                projection.lies_in_plane()
-            }
-            // the sign of the angle of a single rotation is lost in space
-            Quantity::Rotation {
-                what: RotationQuantity::Angle,
-                projection,
-                ..
-            } => projection.component == Component::Y,
-            Quantity::Rotation { projection, .. } => projection.is_about_y(),
-            Quantity::JointLoad {
-                what, projection, ..
-            } => match what {
-                JointLoadQuantity::Force => projection.lies_in_plane(),
-                JointLoadQuantity::Moment => projection.is_about_y(),
-            },
-            Quantity::ForceOn { projection, .. } | Quantity::ForceOnPoints { projection, .. } => {
-                projection.lies_in_plane()
-            }
-            Quantity::OfForce { what, .. } => what.exists_in_plane(),
-            Quantity::Freedom { .. } | Quantity::Switch { .. } => true,
-            Quantity::System {
-                what: SystemQuantity::AngularMomentum,
-                projection,
-                ..
-            } => projection.is_about_y(),
-            Quantity::System { projection, .. } => projection.lies_in_plane(),
-        };
+        let there = flatten_quantity(&mut output.quantity);
         there && output.quantity.force_mut().is_none_or(|force| keep[*force])
     });
     model.keep_forces(&keep);
     model.is_regular().then_some(model)
+}
+
+/// Makes of a quantity in space what is left of it in the plane; false where that is nothing.
+fn flatten_quantity(quantity: &mut Quantity) -> bool {
+    match quantity {
+        Quantity::Point { at, projection, .. } => {
+            at[1] = Number::ZERO;
+            projection.lies_in_plane()
+        }
+        // the sign of the angle of a single rotation is lost in space
+        Quantity::Rotation {
+            what: RotationQuantity::Angle,
+            projection,
+            ..
+        } => projection.component == Component::Y,
+        Quantity::Rotation { projection, .. } => projection.is_about_y(),
+        Quantity::JointLoad {
+            what, projection, ..
+        } => match what {
+            JointLoadQuantity::Force => projection.lies_in_plane(),
+            JointLoadQuantity::Moment => projection.is_about_y(),
+        },
+        Quantity::ForceOn { projection, .. } | Quantity::ForceOnPoints { projection, .. } => {
+            projection.lies_in_plane()
+        }
+        Quantity::OfForce { what, .. } => what.exists_in_plane(),
+        Quantity::Freedom { .. } | Quantity::Switch { .. } => true,
+        Quantity::System {
+            what: SystemQuantity::AngularMomentum,
+            projection,
+            ..
+        } => projection.is_about_y(),
+        Quantity::System { projection, .. } => projection.lies_in_plane(),
+    }
 }
 
 /// Moments about x and z, relative to the known one about y. All three differ, as those of a real body may.

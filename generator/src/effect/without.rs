@@ -32,6 +32,7 @@ impl Variant {
 }
 
 /// The model without an effect; `None` if the remaining motion would not be determined.
+// Long: one `match`, an arm for each kind of effect.
 pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
     let mut variant = Variant::of(model);
     let model = &mut variant.model;

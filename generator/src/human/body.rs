@@ -193,16 +193,11 @@ impl<'d> Built<'d> {
         all.map(|segment| self.length(segment)).iter().sum()
     }
 
-    /// All elements: the spine upwards, limbs downwards.
-    fn elements(&self) -> Vec<Element> {
+    /// The spine above the pelvis, upwards.
+    fn spine(&self) -> [Limb<'_>; 3] {
         let data = self.data;
         let above = |segment: &Segment| [0.0, 0.0, self.length(segment)];
-        let below = |segment: &Segment| [0.0, 0.0, -self.length(segment)];
-        let shoulders = self.scale * data.shoulder_to_hip;
-        let shoulder_height = shoulders - self.length(&data.pelvis) - self.length(&data.abdomen);
-        let shoulder = [0.0, self.scale * data.half_shoulders, shoulder_height];
-        let hip = [0.0, self.scale * data.half_hips, 0.0];
-        let spine: [Limb<'_>; 3] = [
+        [
             (
                 "abdomen",
                 "pelvis",
@@ -224,8 +219,18 @@ impl<'d> Built<'d> {
                 Joint::Ball,
                 &data.head,
             ),
-        ];
-        let limbs: [Limb<'_>; 6] = [
+        ]
+    }
+
+    /// The limbs of the left side, downwards.
+    fn limbs(&self) -> [Limb<'_>; 6] {
+        let data = self.data;
+        let below = |segment: &Segment| [0.0, 0.0, -self.length(segment)];
+        let shoulders = self.scale * data.shoulder_to_hip;
+        let shoulder_height = shoulders - self.length(&data.pelvis) - self.length(&data.abdomen);
+        let shoulder = [0.0, self.scale * data.half_shoulders, shoulder_height];
+        let hip = [0.0, self.scale * data.half_hips, 0.0];
+        [
             (
                 "left-upper-arm",
                 "thorax",
@@ -262,7 +267,12 @@ impl<'d> Built<'d> {
                 Joint::Hinge,
                 &data.foot,
             ),
-        ];
+        ]
+    }
+
+    /// All elements: the spine upwards, limbs downwards.
+    fn elements(&self) -> Vec<Element> {
+        let data = self.data;
         let up = |segment: &Segment| [0.0, 0.0, (1.0 - segment.com) * self.length(segment)];
         let down = |segment: &Segment| [0.0, 0.0, -segment.com * self.length(segment)];
         let mut elements = vec![Element {
@@ -283,8 +293,8 @@ impl<'d> Built<'d> {
             cg,
             inertia: self.inertia(segment),
         };
-        elements.extend(spine.map(|one| with(one, false, up(one.4))));
-        elements.extend(limbs.map(|one| with(one, true, down(one.4))));
+        elements.extend(self.spine().map(|one| with(one, false, up(one.4))));
+        elements.extend(self.limbs().map(|one| with(one, true, down(one.4))));
         if let Some(foot) = elements.last_mut() {
             // the foot lies: its long axis is x
             let [sagittal, transverse, longitudinal] = foot.inertia;
@@ -363,6 +373,7 @@ mod tests {
 
     /// A man of 77.7 kg and 1.753 m and a woman of 49 kg and 1.501 m, derived independently from the same table, printed to four decimals (moments to
     /// six).
+    // Long: the numbers of two bodies.
     #[test]
     fn bodies_are_those_of_an_independent_derivation() {
         let man = [

@@ -94,7 +94,7 @@ pub(crate) const TRANSLATION: Word = Word {
     joint: |resolver, at| {
         let axes: &[usize] = if resolver.planar { &[0, 2] } else { &[0, 1, 2] };
         let list = sliders(axes).into_iter().map(Listed::plain).collect();
-        resolver.named(list, at)
+        named(resolver, list, at)
     },
 };
 
@@ -113,7 +113,7 @@ pub(crate) const FREE: Word = Word {
                 .iter()
                 .map(|&axis| Made::new(Hinge, Direction::along(axis))),
         );
-        resolver.named(made.into_iter().map(Listed::plain).collect(), at)
+        named(resolver, made.into_iter().map(Listed::plain).collect(), at)
     },
 };
 
@@ -151,181 +151,185 @@ impl Listed<'_> {
     }
 }
 
-impl Resolver<'_> {
-    /// The joint of an element, from its written form.
-    pub fn joint_of(&self, written: Option<&WrittenJoint>, at: At<'_>) -> Joint {
-        let Some(written) = written else {
-            return Joint::Ball;
-        };
-        if let WrittenJoint::Word(word) = written {
-            let known = WORDS.iter().find(|known| known.word == word);
-            return known.map_or(Joint::Ball, |known| (known.joint)(self, at));
+/// The joint of an element, from its written form.
+pub(crate) fn joint_of(
+    resolver: &Resolver<'_>,
+    written: Option<&WrittenJoint>,
+    at: At<'_>,
+) -> Joint {
+    let Some(written) = written else {
+        return Joint::Ball;
+    };
+    if let WrittenJoint::Word(word) = written {
+        let known = WORDS.iter().find(|known| known.word == word);
+        return known.map_or(Joint::Ball, |known| (known.joint)(resolver, at));
+    }
+    let each = written.each(at).into_iter();
+    let listed = each
+        .flat_map(|(one, at)| listed(resolver, one, at))
+        .collect();
+    named(resolver, listed, at)
+}
+
+/// The degrees of freedom that one written joint stands for.
+fn listed<'w>(resolver: &Resolver<'_>, written: &'w Written, at: At<'w>) -> Vec<Listed<'w>> {
+    let there = written.spellings();
+    let [spelling] = there[..] else {
+        not_one_kind(resolver, &there, at);
+        return Vec::new();
+    };
+    check_keys(resolver, written, spelling, at);
+    let number = |value: Option<&Quantity>, key, expected: fn(Coordinate) -> Expected| {
+        match (value, spelling.coordinates) {
+            (Some(value), [one]) => resolver.number(value, at.key(key), expected(*one)),
+            // for several degrees of freedom the key is refused
+            _ => Number::ZERO,
         }
-        let each = written.each(at).into_iter();
-        let listed = each.flat_map(|(one, at)| self.listed(one, at)).collect();
-        self.named(listed, at)
-    }
+    };
+    let zero = number(written.zero.as_ref(), "zero", Coordinate::value);
+    let armature = number(written.armature.as_ref(), "armature", Coordinate::inertia);
+    let made = (spelling.read)(&Reader::new(resolver, written, spelling, at));
+    let listed = |made| Listed {
+        made,
+        name: written.name.as_deref(),
+        zero: zero.clone(),
+        armature: armature.clone(),
+    };
+    made.into_iter().flatten().map(listed).collect()
+}
 
-    /// The degrees of freedom that one written joint stands for.
-    fn listed<'w>(&self, written: &'w Written, at: At<'w>) -> Vec<Listed<'w>> {
-        let there = written.spellings();
-        let [spelling] = there[..] else {
-            self.not_one_kind(&there, at);
-            return Vec::new();
-        };
-        self.check_keys(written, spelling, at);
-        let number = |value: Option<&Quantity>, key, expected: fn(Coordinate) -> Expected| {
-            match (value, spelling.coordinates) {
-                (Some(value), [one]) => self.number(value, at.key(key), expected(*one)),
-                // for several degrees of freedom the key is refused
-                _ => Number::ZERO,
+/// Reports that a joint has no kind or several.
+fn not_one_kind(resolver: &Resolver<'_>, there: &[&Spelling], at: At<'_>) {
+    let quote = |spelling: &Spelling| format!("`{}`", spelling.key.name);
+    let all: Vec<String> = SPELLINGS.iter().map(quote).collect();
+    let there: Vec<&str> = there.iter().map(|spelling| spelling.key.name).collect();
+    resolver.problems.add(at.problem(
+        match there.is_empty() {
+            true => "this does not say which joint it is".to_owned(),
+            false => format!("a joint cannot be {} at once", there.join(" and ")),
+        },
+        format!(
+            "give one of {}; a list has several joints: `[{{ hinge: z }}, {{ hinge: y }}]`",
+            all.join(", ")
+        ),
+    ));
+}
+
+/// Reports keys that do not belong to the kind of a joint.
+fn check_keys(resolver: &Resolver<'_>, written: &Written, spelling: &Spelling, at: At<'_>) {
+    let kind = spelling.key.name;
+    for other in SPELLINGS.iter().filter(|other| other.key.name != kind) {
+        for key in other.keys.iter().map(|key| key.name) {
+            if written.has(key) {
+                resolver.problems.add(at.key(key).key_problem(
+                    format!("a {kind} has no {key}"),
+                    format!("remove the key, or write `{}:`", other.key.name),
+                ));
             }
-        };
-        let zero = number(written.zero.as_ref(), "zero", Coordinate::value);
-        let armature = number(written.armature.as_ref(), "armature", Coordinate::inertia);
-        let made = (spelling.read)(&Reader::new(self, written, spelling, at));
-        let listed = |made| Listed {
-            made,
-            name: written.name.as_deref(),
-            zero: zero.clone(),
-            armature: armature.clone(),
-        };
-        made.into_iter().flatten().map(listed).collect()
+        }
     }
+    if spelling.coordinates.len() == 1 {
+        return;
+    }
+    for (key, is_there) in [
+        ("zero", written.zero.is_some()),
+        ("name", written.name.is_some()),
+        ("armature", written.armature.is_some()),
+        ("follows", written.follows.is_some()),
+    ] {
+        if is_there {
+            resolver.problems.add(at.key(key).key_problem(
+                format!("a {kind} has several freedoms, and `{key}` does not say which"),
+                "write them as a list: `[{ hinge: x, name: … }, { hinge: y }]`",
+            ));
+        }
+    }
+}
 
-    /// Reports that a joint has no kind or several.
-    fn not_one_kind(&self, there: &[&Spelling], at: At<'_>) {
-        let quote = |spelling: &Spelling| format!("`{}`", spelling.key.name);
-        let all: Vec<String> = SPELLINGS.iter().map(quote).collect();
-        let there: Vec<&str> = there.iter().map(|spelling| spelling.key.name).collect();
-        self.problems.add(at.problem(
-            match there.is_empty() {
-                true => "this does not say which joint it is".to_owned(),
-                false => format!("a joint cannot be {} at once", there.join(" and ")),
-            },
+/// The degrees of freedom with their names: as given, otherwise by their kind, and in a list also by their axes.
+fn named(resolver: &Resolver<'_>, listed: Vec<Listed<'_>>, at: At<'_>) -> Joint {
+    if listed.len() > MOST {
+        resolver.problems.add(at.problem(
             format!(
-                "give one of {}; a list has several joints: `[{{ hinge: z }}, {{ hinge: y }}]`",
-                all.join(", ")
+                "a joint of {} freedoms has more than a body can have",
+                listed.len()
             ),
+            "six are enough: three sliders and three hinges",
         ));
     }
-
-    /// Reports keys that do not belong to the kind of a joint.
-    fn check_keys(&self, written: &Written, spelling: &Spelling, at: At<'_>) {
-        let kind = spelling.key.name;
-        for other in SPELLINGS.iter().filter(|other| other.key.name != kind) {
-            for key in other.keys.iter().map(|key| key.name) {
-                if written.has(key) {
-                    self.problems.add(at.key(key).key_problem(
-                        format!("a {kind} has no {key}"),
-                        format!("remove the key, or write `{}:`", other.key.name),
-                    ));
-                }
+    let single = listed.len() == 1;
+    let mut freedoms: Vec<Freedom> = Vec::new();
+    for one in listed {
+        let Made { kind, direction } = one.made;
+        let coordinate = kind.coordinate().name();
+        let name = match (one.name, direction.word) {
+            (Some(name), _) => {
+                resolver.check_name(name, "a freedom", Style::Either, at);
+                name.to_owned()
             }
-        }
-        if spelling.coordinates.len() == 1 {
-            return;
-        }
-        for (key, is_there) in [
-            ("zero", written.zero.is_some()),
-            ("name", written.name.is_some()),
-            ("armature", written.armature.is_some()),
-            ("follows", written.follows.is_some()),
-        ] {
-            if is_there {
-                self.problems.add(at.key(key).key_problem(
-                    format!("a {kind} has several freedoms, and `{key}` does not say which"),
-                    "write them as a list: `[{ hinge: x, name: … }, { hinge: y }]`",
-                ));
-            }
-        }
-    }
-
-    /// The degrees of freedom with their names: as given, otherwise by their kind, and in a list also by their axes.
-    fn named(&self, listed: Vec<Listed<'_>>, at: At<'_>) -> Joint {
-        if listed.len() > MOST {
-            self.problems.add(at.problem(
-                format!(
-                    "a joint of {} freedoms has more than a body can have",
-                    listed.len()
-                ),
-                "six are enough: three sliders and three hinges",
-            ));
-        }
-        let single = listed.len() == 1;
-        let mut freedoms: Vec<Freedom> = Vec::new();
-        for one in listed {
-            let Made { kind, direction } = one.made;
-            let coordinate = kind.coordinate().name();
-            let name = match (one.name, direction.word) {
-                (Some(name), _) => {
-                    self.check_name(name, "a freedom", Style::Either, at);
-                    name.to_owned()
-                }
-                (None, Some(word)) if !single => format!("{coordinate}-{word}"),
-                (None, _) => coordinate.to_owned(),
-            };
-            if freedoms.iter().any(|other| other.name == name) {
-                self.problems.add(at.problem(
-                    format!("two freedoms of this joint are called {}", quoted(&name)),
-                    "give each a name of its own: `{ hinge: [0, 1, 1], name: flexion }`",
-                ));
-            }
-            freedoms.push(Freedom {
-                name,
-                kind,
-                axis: direction.axis,
-                zero: one.zero,
-                position: Number::ZERO,
-                rate: Number::ZERO,
-                armature: one.armature,
-                follows: None,
-            });
-        }
-        Joint::Freedoms(freedoms)
-    }
-
-    /// Coordinates or rates at the start of the degrees of freedom of a joint, as one value or a list.
-    pub fn freedoms_at_start(
-        &self,
-        (path, freedoms): (&str, &mut [Freedom]),
-        written: &OneOrThree,
-        rates: bool,
-        at: At<'_>,
-    ) {
-        let values: Vec<(&Quantity, At<'_>)> = match written {
-            OneOrThree::One(one) => vec![(one, at)],
-            OneOrThree::List(list) => {
-                let items = list.iter().enumerate();
-                items.map(|(i, one)| (one, at.item(i))).collect()
-            }
+            (None, Some(word)) if !single => format!("{coordinate}-{word}"),
+            (None, _) => coordinate.to_owned(),
         };
-        let following = freedoms.iter().any(|f| !f.is_own());
-        let freedoms: Vec<&mut Freedom> = freedoms.iter_mut().filter(|f| f.is_own()).collect();
-        if freedoms.len() != values.len() {
-            let names: Vec<&str> = freedoms.iter().map(|f| f.name.as_str()).collect();
-            self.problems.add(at.problem(
-                format!(
-                    "the joint of {} has {} freedoms{}, but here stand {} values",
-                    quoted(path),
-                    freedoms.len(),
-                    if following { " that follow no other" } else { "" },
-                    values.len()
-                ),
-                match names.is_empty() {
-                    true if following => "remove the line: where it starts follows from the other joint".to_owned(),
-                    true => "remove the line: a weld or a joint without freedoms of its own has no coordinate; on a ball joint, give `angles`".to_owned(),
-                    false => format!("give one value for each: {}", names.join(", ")),
-                },
+        if freedoms.iter().any(|other| other.name == name) {
+            resolver.problems.add(at.problem(
+                format!("two freedoms of this joint are called {}", quoted(&name)),
+                "give each a name of its own: `{ hinge: [0, 1, 1], name: flexion }`",
             ));
-            return;
         }
-        for (freedom, (value, at)) in freedoms.into_iter().zip(values) {
-            let coordinate = freedom.kind.coordinate();
-            match rates {
-                true => freedom.rate = self.number(value, at, coordinate.rate()),
-                false => freedom.position = self.number(value, at, coordinate.value()),
-            }
+        freedoms.push(Freedom {
+            name,
+            kind,
+            axis: direction.axis,
+            zero: one.zero,
+            position: Number::ZERO,
+            rate: Number::ZERO,
+            armature: one.armature,
+            follows: None,
+        });
+    }
+    Joint::Freedoms(freedoms)
+}
+
+/// Coordinates or rates at the start of the degrees of freedom of a joint, as one value or a list.
+pub(crate) fn freedoms_at_start(
+    resolver: &Resolver<'_>,
+    (path, freedoms): (&str, &mut [Freedom]),
+    written: &OneOrThree,
+    rates: bool,
+    at: At<'_>,
+) {
+    let values: Vec<(&Quantity, At<'_>)> = match written {
+        OneOrThree::One(one) => vec![(one, at)],
+        OneOrThree::List(list) => {
+            let items = list.iter().enumerate();
+            items.map(|(i, one)| (one, at.item(i))).collect()
+        }
+    };
+    let following = freedoms.iter().any(|f| !f.is_own());
+    let freedoms: Vec<&mut Freedom> = freedoms.iter_mut().filter(|f| f.is_own()).collect();
+    if freedoms.len() != values.len() {
+        let names: Vec<&str> = freedoms.iter().map(|f| f.name.as_str()).collect();
+        resolver.problems.add(at.problem(
+            format!(
+                "the joint of {} has {} freedoms{}, but here stand {} values",
+                quoted(path),
+                freedoms.len(),
+                if following { " that follow no other" } else { "" },
+                values.len()
+            ),
+            match names.is_empty() {
+                true if following => "remove the line: where it starts follows from the other joint".to_owned(),
+                true => "remove the line: a weld or a joint without freedoms of its own has no coordinate; on a ball joint, give `angles`".to_owned(),
+                false => format!("give one value for each: {}", names.join(", ")),
+            },
+        ));
+        return;
+    }
+    for (freedom, (value, at)) in freedoms.into_iter().zip(values) {
+        let coordinate = freedom.kind.coordinate();
+        match rates {
+            true => freedom.rate = resolver.number(value, at, coordinate.rate()),
+            false => freedom.position = resolver.number(value, at, coordinate.value()),
         }
     }
 }

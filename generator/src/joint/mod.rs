@@ -53,6 +53,8 @@ pub(crate) mod written;
 
 pub use coordinate::Coordinate;
 pub use follows::Follows;
+pub(crate) use follows::{couple, start_followers};
+pub(crate) use list::{freedoms_at_start, joint_of};
 
 use crate::model::Number;
 use std::fmt;

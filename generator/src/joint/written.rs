@@ -6,6 +6,7 @@ use crate::description::joint::{Axis, Freedom as Written};
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::shape::{Key, Shape};
+use crate::law::contact::plane::unit;
 use crate::model::Number;
 use crate::model::resolve::quantity::{Expected, PURE};
 use crate::model::resolve::{NOWHERE, Resolver};
@@ -294,7 +295,7 @@ impl<'r> Reader<'r> {
             false => vector.map(|n| Number::quotient(n, Number::Constant(largest))),
         };
         Direction {
-            axis: resolver.unit(vector),
+            axis: unit(resolver, vector),
             word: None,
         }
     }

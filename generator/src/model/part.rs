@@ -427,6 +427,63 @@ pub(crate) fn components<'a>(
     }
 }
 
+fn of_vehicle(vehicle: &mut Vehicle) -> Vec<&mut Number> {
+    let Vehicle {
+        name: _,
+        position,
+        velocity,
+        translation,
+        angles,
+        angles_at_start,
+    } = vehicle;
+    let mut numbers = Vec::new();
+    numbers.extend(position.iter_mut().chain(velocity).chain(angles_at_start));
+    let curves = translation.curves.iter_mut().flat_map(Part::numbers);
+    let angles = angles.iter_mut().flat_map(Part::numbers);
+    numbers.extend(curves.chain(angles).map(|ruled| ruled.number));
+    numbers
+}
+
+fn of_system(system: &mut System) -> Vec<&mut Number> {
+    let System {
+        name: _,
+        elements,
+        reference,
+        position,
+        velocity,
+    } = system;
+    let mut numbers = Vec::new();
+    numbers.extend(elements.iter_mut().flat_map(of_element));
+    numbers.extend(position.iter_mut().chain(velocity));
+    match reference {
+        Reference::Free | Reference::Fixed => {}
+        Reference::Prescribed(translation) => {
+            let curves = translation.curves.iter_mut().flat_map(Part::numbers);
+            numbers.extend(curves.map(|ruled| ruled.number));
+        }
+        Reference::Riding { vehicle: _, at } => numbers.extend(at),
+    }
+    numbers
+}
+
+fn of_switch(switch: &mut Switch) -> Vec<&mut Number> {
+    let Switch {
+        name: _,
+        trigger,
+        after,
+    } = switch;
+    let mut numbers = Vec::new();
+    numbers.extend(after);
+    match trigger {
+        Trigger::Time(time) => numbers.push(time),
+        Trigger::Above(quantity, threshold) | Trigger::Below(quantity, threshold) => {
+            numbers.push(threshold);
+            numbers.extend(of_quantity(quantity));
+        }
+    }
+    numbers
+}
+
 impl Model {
     /// Every number of the model, wherever it stands.
     pub fn numbers_mut(&mut self) -> Vec<&mut Number> {
@@ -447,39 +504,8 @@ impl Model {
             digest: _,
         } = self;
         let mut numbers = Vec::new();
-        for vehicle in vehicles {
-            let Vehicle {
-                name: _,
-                position,
-                velocity,
-                translation,
-                angles,
-                angles_at_start,
-            } = vehicle;
-            numbers.extend(position.iter_mut().chain(velocity).chain(angles_at_start));
-            let curves = translation.curves.iter_mut().flat_map(Part::numbers);
-            let angles = angles.iter_mut().flat_map(Part::numbers);
-            numbers.extend(curves.chain(angles).map(|ruled| ruled.number));
-        }
-        for system in systems {
-            let System {
-                name: _,
-                elements,
-                reference,
-                position,
-                velocity,
-            } = system;
-            numbers.extend(elements.iter_mut().flat_map(of_element));
-            numbers.extend(position.iter_mut().chain(velocity));
-            match reference {
-                Reference::Free | Reference::Fixed => {}
-                Reference::Prescribed(translation) => {
-                    let curves = translation.curves.iter_mut().flat_map(Part::numbers);
-                    numbers.extend(curves.map(|ruled| ruled.number));
-                }
-                Reference::Riding { vehicle: _, at } => numbers.extend(at),
-            }
-        }
+        numbers.extend(vehicles.iter_mut().flat_map(of_vehicle));
+        numbers.extend(systems.iter_mut().flat_map(of_system));
         for force in forces {
             for field in force.kind.fields(dimension) {
                 match field {
@@ -502,21 +528,7 @@ impl Model {
         {
             numbers.extend(of_quantity(quantity));
         }
-        for switch in switches {
-            let Switch {
-                name: _,
-                trigger,
-                after,
-            } = switch;
-            numbers.extend(after);
-            match trigger {
-                Trigger::Time(time) => numbers.push(time),
-                Trigger::Above(quantity, threshold) | Trigger::Below(quantity, threshold) => {
-                    numbers.push(threshold);
-                    numbers.extend(of_quantity(quantity));
-                }
-            }
-        }
+        numbers.extend(switches.iter_mut().flat_map(of_switch));
         numbers
     }
 

@@ -193,6 +193,43 @@ impl<'a> Reader<'a> {
         robot.name = self.name(root, "a robot").unwrap_or_default();
         self.version(root);
         self.unknown_macros(root);
+        let links = self.links(root, &mut robot);
+        if robot.links.is_empty() && self.problems.borrow().is_empty() {
+            self.problem(
+                self.place(root),
+                "the robot has no links",
+                "add at least one `<link name=\"…\">`",
+            );
+        }
+        let mut joints: BTreeMap<String, usize> = BTreeMap::new();
+        for node in root.children().filter(|n| n.has_tag_name("joint")) {
+            if let Some(joint) = self.joint(node, &links, &mut robot.left_out) {
+                if let Some(earlier) = joints.insert(joint.name.clone(), joint.place.0) {
+                    self.twice(node, "joint", &joint.name, earlier);
+                }
+                robot.joints.push(joint);
+            }
+        }
+        for joint in &robot.joints {
+            if let Some(Mimic { leader, place, .. }) = &joint.mimic
+                && !joints.contains_key(leader)
+            {
+                self.problem(
+                    *place,
+                    format!(
+                        "the joint {} that {} follows does not exist",
+                        quoted(leader),
+                        quoted(&joint.name)
+                    ),
+                    "give the name of a joint of this file",
+                );
+            }
+        }
+        robot
+    }
+
+    /// Reads the links, and notes what is left out; returns the index of each link by its name.
+    fn links(&self, root: Node<'a, 'a>, robot: &mut Robot) -> BTreeMap<String, usize> {
         let mut links: BTreeMap<String, usize> = BTreeMap::new();
         let mut materials: BTreeMap<String, usize> = BTreeMap::new();
         for node in root.children().filter(Node::is_element) {
@@ -227,38 +264,7 @@ impl<'a> Reader<'a> {
                 }
             }
         }
-        if robot.links.is_empty() && self.problems.borrow().is_empty() {
-            self.problem(
-                self.place(root),
-                "the robot has no links",
-                "add at least one `<link name=\"…\">`",
-            );
-        }
-        let mut joints: BTreeMap<String, usize> = BTreeMap::new();
-        for node in root.children().filter(|n| n.has_tag_name("joint")) {
-            if let Some(joint) = self.joint(node, &links, &mut robot.left_out) {
-                if let Some(earlier) = joints.insert(joint.name.clone(), joint.place.0) {
-                    self.twice(node, "joint", &joint.name, earlier);
-                }
-                robot.joints.push(joint);
-            }
-        }
-        for joint in &robot.joints {
-            if let Some(Mimic { leader, place, .. }) = &joint.mimic
-                && !joints.contains_key(leader)
-            {
-                self.problem(
-                    *place,
-                    format!(
-                        "the joint {} that {} follows does not exist",
-                        quoted(leader),
-                        quoted(&joint.name)
-                    ),
-                    "give the name of a joint of this file",
-                );
-            }
-        }
-        robot
+        links
     }
 
     fn twice(&self, node: Node<'_, '_>, what: &str, name: &str, earlier: usize) {
@@ -352,8 +358,7 @@ impl<'a> Reader<'a> {
     }
 
     fn inertial(&self, node: Node<'a, 'a>, link: &str) -> Option<Inertial> {
-        let child = |tag| node.children().find(move |n| n.has_tag_name(tag));
-        let (Some(mass), Some(inertia)) = (child("mass"), child("inertia")) else {
+        let (Some(mass), Some(inertia)) = (child(node, "mass"), child(node, "inertia")) else {
             self.problem(
                 self.place(node),
                 format!("the inertia of {} is not complete", quoted(link)),
@@ -384,7 +389,7 @@ impl<'a> Reader<'a> {
     /// Checks that a shape is written correctly; it is not imported.
     fn shape(&self, node: Node<'a, 'a>) {
         self.origin(node);
-        let geometry = node.children().find(|n| n.has_tag_name("geometry"));
+        let geometry = child(node, "geometry");
         let shape = geometry.and_then(|g| g.children().find(Node::is_element));
         let Some(shape) = shape else {
             self.problem(
@@ -425,141 +430,26 @@ impl<'a> Reader<'a> {
         left_out: &mut BTreeMap<&'static str, Vec<usize>>,
     ) -> Option<Joint> {
         let name = self.name(node, "a joint")?;
-        let child = |tag: &'static str| node.children().find(move |n| n.has_tag_name(tag));
-        let kind = match node.attribute("type") {
-            Some("fixed") => Kind::Fixed,
-            Some("revolute") => Kind::Revolute,
-            Some("continuous") => Kind::Continuous,
-            Some("prismatic") => Kind::Prismatic,
-            Some("planar") => Kind::Planar,
-            Some("floating") => Kind::Floating,
-            other => {
-                let message = match other {
-                    Some(other) => format!("there is no type of joint {}", quoted(other)),
-                    None => format!("the joint {} has no type", quoted(&name)),
-                };
-                self.problem(
-                    self.place_of(node, "type"),
-                    message,
-                    "a `type` is one of revolute, continuous, prismatic, fixed, floating, planar",
-                );
-                return None;
-            }
-        };
-        let link = |tag: &'static str| {
-            let Some(found) = child(tag) else {
-                self.problem(
-                    self.place(node),
-                    format!("the joint {} has no {tag}", quoted(&name)),
-                    format!("add `<{tag} link=\"…\"/>`"),
-                );
-                return None;
-            };
-            let named = found.attribute("link").unwrap_or_default();
-            let index = links.get(named).copied();
-            if index.is_none() {
-                self.problem(
-                    self.place_of(found, "link"),
-                    format!(
-                        "the {tag} {} of the joint {} does not exist",
-                        quoted(named),
-                        quoted(&name)
-                    ),
-                    "give the name of a link of this file",
-                );
-            }
-            index
-        };
-        let (parent, outboard) = (link("parent"), link("child"));
-        let moves = !matches!(kind, Kind::Fixed | Kind::Floating);
-        let axis = match child("axis") {
-            _ if !moves => [1.0, 0.0, 0.0],
-            None => [1.0, 0.0, 0.0],
-            Some(axis) => {
-                let written = self.numbers::<3>(axis, "xyz").unwrap_or([1.0, 0.0, 0.0]);
-                let norm = length(written);
-                if !(norm > 0.0 && norm.is_finite()) {
-                    self.problem(
-                        self.place_of(axis, "xyz"),
-                        format!("the axis of the joint {} has no direction", quoted(&name)),
-                        "give a vector that is not zero",
-                    );
-                }
-                // an axis whose length is 1 up to rounding is kept as it is written
-                if (norm - 1.0).abs() < 1e-15 {
-                    written
-                } else {
-                    scale(written, 1.0 / norm)
-                }
-            }
-        };
-        let limits = self.limits(child("limit"), kind, &name, node);
-        if let Some(controller) = child("safety_controller") {
+        let kind = self.kind(node, &name)?;
+        let parent = self.link_of_joint(node, "parent", &name, links);
+        let outboard = self.link_of_joint(node, "child", &name, links);
+        let axis = self.axis(node, kind, &name);
+        let limits = self.limits(child(node, "limit"), kind, &name, node);
+        if let Some(controller) = child(node, "safety_controller") {
             left_out
                 .entry("safety controllers")
                 .or_default()
                 .push(self.place(controller).0);
             self.required(controller, "k_velocity");
         }
-        if let Some(calibration) = child("calibration") {
+        if let Some(calibration) = child(node, "calibration") {
             left_out
                 .entry("calibrations")
                 .or_default()
                 .push(self.place(calibration).0);
         }
-        let dynamics = child("dynamics");
-        if let Some(dynamics) = dynamics
-            && dynamics.attribute("damping").is_none()
-            && dynamics.attribute("friction").is_none()
-        {
-            self.problem(
-                self.place(dynamics),
-                "<dynamics> says neither damping nor friction",
-                "give one, or remove the element",
-            );
-        }
-        let coefficient = |key: &str| {
-            let value = dynamics.and_then(|n| {
-                n.attribute(key)
-                    .map(|_| (n, self.required(n, key).unwrap_or(0.0)))
-            });
-            if let Some((n, value)) = value
-                && value < 0.0
-            {
-                self.problem(
-                    self.place_of(n, key),
-                    format!("the {key} of the joint {} is negative", quoted(&name)),
-                    "give 0 or more",
-                );
-            }
-            value.map_or(0.0, |(_, value)| value)
-        };
-        let (damping, friction) = (coefficient("damping"), coefficient("friction"));
-        let mimic = child("mimic").and_then(|mimic| {
-            let leader = mimic.attribute("joint").unwrap_or_default().to_owned();
-            if leader.is_empty() {
-                self.problem(
-                    self.place(mimic),
-                    format!(
-                        "the joint {} follows a joint that is not named",
-                        quoted(&name)
-                    ),
-                    "add `joint=\"…\"`",
-                );
-            }
-            let number = |key: &str, otherwise: f64| match mimic.attribute(key) {
-                Some(_) => self.required(mimic, key).unwrap_or(otherwise),
-                None => otherwise,
-            };
-            let (multiplier, offset) = (number("multiplier", 1.0), number("offset", 0.0));
-            let place = self.place_of(mimic, "joint");
-            (!leader.is_empty()).then_some(Mimic {
-                leader,
-                place,
-                multiplier,
-                offset,
-            })
-        });
+        let [damping, friction] = self.dynamics(node, &name);
+        let mimic = child(node, "mimic").and_then(|mimic| self.mimic(mimic, &name));
         Some(Joint {
             place: self.place_of(node, "name"),
             kind,
@@ -572,6 +462,137 @@ impl<'a> Reader<'a> {
             friction,
             mimic,
             name,
+        })
+    }
+
+    /// The type of a joint.
+    fn kind(&self, node: Node<'_, '_>, joint: &str) -> Option<Kind> {
+        let message = match node.attribute("type") {
+            Some("fixed") => return Some(Kind::Fixed),
+            Some("revolute") => return Some(Kind::Revolute),
+            Some("continuous") => return Some(Kind::Continuous),
+            Some("prismatic") => return Some(Kind::Prismatic),
+            Some("planar") => return Some(Kind::Planar),
+            Some("floating") => return Some(Kind::Floating),
+            Some(other) => format!("there is no type of joint {}", quoted(other)),
+            None => format!("the joint {} has no type", quoted(joint)),
+        };
+        self.problem(
+            self.place_of(node, "type"),
+            message,
+            "a `type` is one of revolute, continuous, prismatic, fixed, floating, planar",
+        );
+        None
+    }
+
+    /// The link that `<parent>` or `<child>` names.
+    fn link_of_joint(
+        &self,
+        node: Node<'a, 'a>,
+        tag: &'static str,
+        joint: &str,
+        links: &BTreeMap<String, usize>,
+    ) -> Option<usize> {
+        let Some(found) = child(node, tag) else {
+            self.problem(
+                self.place(node),
+                format!("the joint {} has no {tag}", quoted(joint)),
+                format!("add `<{tag} link=\"…\"/>`"),
+            );
+            return None;
+        };
+        let named = found.attribute("link").unwrap_or_default();
+        let index = links.get(named).copied();
+        if index.is_none() {
+            self.problem(
+                self.place_of(found, "link"),
+                format!(
+                    "the {tag} {} of the joint {} does not exist",
+                    quoted(named),
+                    quoted(joint)
+                ),
+                "give the name of a link of this file",
+            );
+        }
+        index
+    }
+
+    /// The axis of a joint, at unit length; x where none is written or the joint has none.
+    fn axis(&self, node: Node<'a, 'a>, kind: Kind, joint: &str) -> Vector {
+        const X: Vector = [1.0, 0.0, 0.0];
+        let moves = !matches!(kind, Kind::Fixed | Kind::Floating);
+        let Some(axis) = child(node, "axis").filter(|_| moves) else {
+            return X;
+        };
+        let written = self.numbers::<3>(axis, "xyz").unwrap_or(X);
+        let norm = length(written);
+        if !(norm > 0.0 && norm.is_finite()) {
+            self.problem(
+                self.place_of(axis, "xyz"),
+                format!("the axis of the joint {} has no direction", quoted(joint)),
+                "give a vector that is not zero",
+            );
+        }
+        // an axis whose length is 1 up to rounding is kept as it is written
+        match (norm - 1.0).abs() < 1e-15 {
+            true => written,
+            false => scale(written, 1.0 / norm),
+        }
+    }
+
+    /// The coefficients of damping and friction of a joint.
+    fn dynamics(&self, node: Node<'a, 'a>, joint: &str) -> [f64; 2] {
+        const KEYS: [&str; 2] = ["damping", "friction"];
+        let Some(dynamics) = child(node, "dynamics") else {
+            return [0.0; 2];
+        };
+        if KEYS.iter().all(|key| dynamics.attribute(*key).is_none()) {
+            self.problem(
+                self.place(dynamics),
+                "<dynamics> says neither damping nor friction",
+                "give one, or remove the element",
+            );
+        }
+        KEYS.map(|key| {
+            if dynamics.attribute(key).is_none() {
+                return 0.0;
+            }
+            let value = self.required(dynamics, key).unwrap_or(0.0);
+            if value < 0.0 {
+                self.problem(
+                    self.place_of(dynamics, key),
+                    format!("the {key} of the joint {} is negative", quoted(joint)),
+                    "give 0 or more",
+                );
+            }
+            value
+        })
+    }
+
+    /// The joint that a joint follows; none where it is not named.
+    fn mimic(&self, mimic: Node<'_, '_>, joint: &str) -> Option<Mimic> {
+        let leader = mimic.attribute("joint").unwrap_or_default().to_owned();
+        if leader.is_empty() {
+            self.problem(
+                self.place(mimic),
+                format!(
+                    "the joint {} follows a joint that is not named",
+                    quoted(joint)
+                ),
+                "add `joint=\"…\"`",
+            );
+        }
+        let number = |key: &str, otherwise: f64| match mimic.attribute(key) {
+            Some(_) => self.required(mimic, key).unwrap_or(otherwise),
+            None => otherwise,
+        };
+        let (multiplier, offset) = (number("multiplier", 1.0), number("offset", 0.0));
+        let place = self.place_of(mimic, "joint");
+        (!leader.is_empty()).then_some(Mimic {
+            leader,
+            place,
+            multiplier,
+            offset,
         })
     }
 
@@ -614,7 +635,7 @@ impl<'a> Reader<'a> {
             at: [0.0; 3],
             turn: IDENTITY,
         };
-        let Some(origin) = node.children().find(|n| n.has_tag_name("origin")) else {
+        let Some(origin) = child(node, "origin") else {
             return frame;
         };
         if origin.attribute("xyz").is_some() {
@@ -711,6 +732,11 @@ impl<'a> Reader<'a> {
         }
         values
     }
+}
+
+/// The first child with this tag.
+fn child<'a>(node: Node<'a, 'a>, tag: &'static str) -> Option<Node<'a, 'a>> {
+    node.children().find(|n| n.has_tag_name(tag))
 }
 
 /// A finite number in the notation of C.

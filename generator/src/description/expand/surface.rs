@@ -169,8 +169,8 @@ impl Expander<'_> {
         );
     }
 
-    /// The contacts that one entry stands for: one for each pair of surfaces on two bodies.
-    pub fn each_contact(&mut self, contact: Node) -> Vec<Node> {
+    /// The sides of a contact that are written, each with the surfaces that it stands for.
+    fn sides(&mut self, contact: &Node) -> Vec<Side> {
         let mut sides: Vec<Side> = Vec::new();
         for (key, _) in SIDES {
             let Some(value) = contact.get(key) else {
@@ -198,6 +198,12 @@ impl Expander<'_> {
                 several: list.is_some(),
             });
         }
+        sides
+    }
+
+    /// The contacts that one entry stands for: one for each pair of surfaces on two bodies.
+    pub fn each_contact(&mut self, contact: Node) -> Vec<Node> {
+        let sides = self.sides(&contact);
         // what is wrong with the sides of a contact is reported where it is resolved
         let [first, second] = &sides[..] else {
             return match sides.iter().any(|side| side.several) {

@@ -98,6 +98,7 @@ impl<'g> Axes<'g> {
 
 impl<'g> BodyWithChildren<'g, '_> {
     /// Eliminates an element on which no force acts.
+    // Long: the formulas of the table above, one after the other; each needs most of those before it.
     pub(super) fn link(
         &self,
         axes: Axes<'g>,

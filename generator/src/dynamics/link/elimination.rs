@@ -259,61 +259,69 @@ fn outwards<'g>(
     inwards: &Inwards<'g>,
     name: &dyn Fn(&Link<'g>) -> String,
 ) -> Vec<Solved<'g>> {
-    let graph = tree.graph;
-    let none = Vec3::zero(graph);
-    let written = Written {
-        tree,
-        framed,
-        choice,
+    let mut pass = Outwards {
+        written: Written {
+            tree,
+            framed,
+            choice,
+        },
+        motions,
+        inwards,
+        moves: Vec::new(),
+        known: FxHashMap::default(),
     };
-    let mut moves: Vec<(Vec3<'g>, Vec3<'g>)> = Vec::new();
-    let mut solved = Vec::new();
-    // v̇ of shared velocities, by row
-    let mut known: FxHashMap<usize, Expr<'g>> = FxHashMap::default();
-    for (k, link) in tree.links.iter().enumerate() {
-        graph.section(format!("element {}: accelerations", name(link)));
-        let frame = &framed.links[k];
-        let (mut a, mut alpha) = match link.parent {
-            None => (none, none),
-            Some(p) => {
-                let (a, alpha) = moves[p];
-                let places = match framed.links[p].aligned {
-                    true => vec![frame.place],
-                    false => steps(frame.place, choice.links[p].order),
-                };
-                let at = places.into_iter().rev().fold(a, |a, r| a + alpha.cross(r));
-                (
-                    back_through(&frame.turns, at),
-                    back_through(&frame.turns, alpha),
-                )
-            }
-        };
+    let of_link = |(k, link)| {
+        tree.graph
+            .section(format!("element {}: accelerations", name(link)));
+        pass.solve(k)
+    };
+    tree.links.iter().enumerate().map(of_link).collect()
+}
+
+/// The state of the pass from the root to the leaves.
+struct Outwards<'a, 'g> {
+    written: Written<'g, 'a>,
+    motions: &'a [LinkMotion<'g>],
+    inwards: &'a Inwards<'g>,
+    /// Of each link so far: the acceleration of its origin and its angular acceleration, in its axes.
+    moves: Vec<(Vec3<'g>, Vec3<'g>)>,
+    /// v̇ of shared velocities, by row.
+    known: FxHashMap<usize, Expr<'g>>,
+}
+
+impl<'g> Outwards<'_, 'g> {
+    /// The accelerations of link `k`; its parent's are known.
+    // Long: one `match`, an arm for each way in which a joint was eliminated.
+    fn solve(&mut self, k: usize) -> Solved<'g> {
+        let Written {
+            tree,
+            framed,
+            choice,
+        } = self.written;
+        let (graph, link, frame) = (tree.graph, &tree.links[k], &framed.links[k]);
+        let none = Vec3::zero(graph);
+        let (mut a, mut alpha) = self.carried(k);
         let absolute = |v: Vec3<'g>| match frame.aligned {
             true => v,
             false => link.rotation.times(v),
         };
-        let slid = |a: Vec3<'g>, alpha: Vec3<'g>| {
-            let along = written.along(k);
-            along.map_or(a, |along| a + alpha.cross(along))
-        };
-        let along = |v: Vec3<'g>, by: Expr<'g>| Vec3([v.0[0], v.0[1], v.0[2] + by]);
         let mut result = Solved {
             rotation: none,
             base: none,
         };
-        match &inwards.eliminated[k] {
+        match &self.inwards.eliminated[k] {
             Eliminated::Base if !link.joint.is_ball() => {
-                (a, alpha) = inwards.outboard[k].floating_in_plane(graph);
+                (a, alpha) = self.inwards.outboard[k].floating_in_plane(graph);
                 result.rotation.0[0] = frame.sign * alpha.0[2];
                 result.base = choice.unit * frame.axes.times(a);
             }
             Eliminated::Base => {
-                (a, alpha) = inwards.outboard[k].floating(graph);
+                (a, alpha) = self.inwards.outboard[k].floating(graph);
                 // the origin of the joint, which differs from that of the frame
                 let back = Vec3(choice.base.map(|b| graph.constant(-b / choice.unit)));
                 let turned = LinkMotion {
                     alpha,
-                    ..motions[k]
+                    ..self.motions[k]
                 };
                 let at_joint = choice.unit * (a + turned.gamma(back));
                 result.rotation = absolute(alpha);
@@ -330,19 +338,20 @@ fn outwards<'g>(
                 result.rotation = absolute(alpha);
             }
             Eliminated::Axis(axis, gains) => {
-                a = slid(a, alpha);
+                a = self.slid(k, a, alpha);
                 if link.joint.is_absolute() {
                     alpha = none;
                 }
                 let rate = axis.rate(a, alpha, choice.links[k].scales_rate);
                 let rate = gains.iter().fold(rate, |rate, (row, gain)| {
-                    known.get(row).map_or(rate, |other| rate - *gain * *other)
+                    let known = self.known.get(row);
+                    known.map_or(rate, |other| rate - *gain * *other)
                 });
-                alpha = along(alpha, axis.turn * rate);
-                a = along(a, axis.slide * rate);
+                alpha = plus_along(alpha, axis.turn * rate);
+                a = plus_along(a, axis.slide * rate);
                 let unit = if axis.turn == 0.0 { choice.unit } else { 1.0 };
                 let sign = frame.sign * unit;
-                result.rotation.0[0] = sign * (rate + motions[k].reference);
+                result.rotation.0[0] = sign * (rate + self.motions[k].reference);
             }
             Eliminated::Share {
                 turn,
@@ -350,26 +359,66 @@ fn outwards<'g>(
                 share,
                 row,
             } => {
-                a = slid(a, alpha);
-                for head in inwards.heads[k].iter().filter(|head| head.own) {
-                    known.insert(head.velocity.row, head.rate(a, alpha, &known));
-                }
-                if let Some(&rate) = known.get(row) {
-                    alpha = along(alpha, *turn * (*share * rate));
-                    a = along(a, *slide * (*share * rate));
+                a = self.slid(k, a, alpha);
+                let own = self.inwards.heads[k].iter().filter(|head| head.own);
+                self.know(own, a, alpha);
+                if let Some(&rate) = self.known.get(row) {
+                    alpha = plus_along(alpha, *turn * (*share * rate));
+                    a = plus_along(a, *slide * (*share * rate));
                     result.rotation.0[0] = rate;
                 }
             }
         }
         // the shared velocities in which the joint of the link has no share, the last one first
-        let others = inwards.heads[k].iter().filter(|head| !head.own);
-        for head in others.rev() {
-            known.insert(head.velocity.row, head.rate(a, alpha, &known));
-        }
-        moves.push((a, alpha));
-        solved.push(result);
+        let others = self.inwards.heads[k].iter().filter(|head| !head.own);
+        self.know(others.rev(), a, alpha);
+        self.moves.push((a, alpha));
+        result
     }
-    solved
+
+    /// The accelerations that a link has where its joint is at rest, in its axes.
+    fn carried(&self, k: usize) -> (Vec3<'g>, Vec3<'g>) {
+        let Written {
+            tree,
+            framed,
+            choice,
+        } = self.written;
+        let Some(p) = tree.links[k].parent else {
+            return (Vec3::zero(tree.graph), Vec3::zero(tree.graph));
+        };
+        let frame = &framed.links[k];
+        let (a, alpha) = self.moves[p];
+        let places = match framed.links[p].aligned {
+            true => vec![frame.place],
+            false => steps(frame.place, choice.links[p].order),
+        };
+        let at = places.into_iter().rev().fold(a, |a, r| a + alpha.cross(r));
+        (
+            back_through(&frame.turns, at),
+            back_through(&frame.turns, alpha),
+        )
+    }
+
+    /// The acceleration where a slider has moved the origin to.
+    fn slid(&self, k: usize, a: Vec3<'g>, alpha: Vec3<'g>) -> Vec3<'g> {
+        let along = self.written.along(k);
+        along.map_or(a, |along| a + alpha.cross(along))
+    }
+
+    /// Adds the rates of shared velocities, in this order.
+    fn know<'h>(&mut self, heads: impl Iterator<Item = &'h Head<'g>>, a: Vec3<'g>, alpha: Vec3<'g>)
+    where
+        'g: 'h,
+    {
+        for head in heads {
+            let rate = head.rate(a, alpha, &self.known);
+            self.known.insert(head.velocity.row, rate);
+        }
+    }
+}
+
+fn plus_along<'g>(v: Vec3<'g>, by: Expr<'g>) -> Vec3<'g> {
+    Vec3([v.0[0], v.0[1], v.0[2] + by])
 }
 
 /// The wrench that a link's own body needs, minus the wrench that acts on it.

@@ -184,162 +184,269 @@ pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
 impl<'g> Framed<'g> {
     /// The tree in the frames of a choice.
     pub fn of(tree: &Tree<'g>, natural: &[(Matrix, f64)], choice: &Choice) -> Self {
-        let graph = tree.graph;
-        let axes: Vec<Matrix> = (natural.iter().zip(&choice.links))
+        let axes = (natural.iter().zip(&choice.links))
             .map(|((axes, _), link)| turned_axes(axes, link.turn))
             .collect();
-        let aligned: Vec<bool> = choice.links.iter().map(|link| link.aligned).collect();
-        let origin =
-            |k: usize| Vec3(origin_of(tree, natural, choice, k).map(|a| graph.constant(a)));
-        let mut links: Vec<FramedLink<'g>> = Vec::new();
-        let mut constants: Vec<Constant<'g>> = Vec::new();
-        // for each link, the rotations of links that keep the axes of the inboard side
-        let mut aligning: Vec<Vec<Turn<'g>>> = Vec::new();
-        // for each aligned link, the sum of the angles, variable and constant
-        let mut angles: Vec<(Expr<'g>, f64)> = Vec::new();
-        // by link, in the plane: the angles that it and its axes have in the absolute frame
-        let mut turned: Vec<[Expr<'g>; 2]> = Vec::new();
-        for (k, link) in tree.links.iter().enumerate() {
-            let constant = |m: &Matrix| m.map(|row| row.map(|a| graph.constant(a)));
-            let carrier = link.parent.map_or(IDENTITY, |p| axes[p]);
-            let r = snapped(&product(&transpose(&carrier), &axes[k]));
-            let shift = link.parent.map_or(Vec3::zero(graph), origin);
-            let place = link.place + origin(k) - shift;
-            let place = in_axes(&transpose(&carrier), place);
-            let mut place = cleaned((1.0 / choice.unit) * place);
-            let mut body = link.body.moved(-origin(k)).in_axes(&transpose(&axes[k]));
-            if !(k == 0 && tree.free) {
-                body = body.felt(&link.joint);
-            }
-            let body = Body {
-                mass: (choice.unit * choice.unit) * body.mass,
-                first: choice.unit * body.first,
-                second: body.second,
-                sizes: [choice.unit * body.sizes[0], body.sizes[1]],
-            };
-            constants.push(Constant {
-                body,
-                place,
-                against: r,
-            });
-            let mut turns = Vec::new();
-            let mut own_turns = Vec::new();
-            let (mut angle, mut offset) = (graph.constant(0.0), 0.0);
-            let [carrier_turned, axes_turned] = match link.parent {
-                Some(p) => turned[p],
-                None => [tree.ground.angle; 2],
-            };
-            let mut own_turned = carrier_turned;
-            match &link.joint {
-                LinkJoint::Ball { .. } => {
-                    let own = match aligned[k] {
-                        true => Mat3(constant(&IDENTITY)),
-                        false => link.rotation,
-                    };
-                    if let Some(p) = link.parent.filter(|&p| aligned[p]) {
-                        place = tree.links[p].rotation.times(place);
-                    }
-                    let carrier = link.parent.map_or(tree.ground.axes, |p| links[p].axes);
-                    let between = carrier.transposed().product(&own);
-                    if !is_identity(&between) {
-                        turns.push(Turn::Matrix(between));
-                    }
-                }
-                LinkJoint::Axis {
-                    turn,
-                    position,
-                    axis,
-                    absolute,
-                    ..
-                } => {
-                    let sign = natural[k].1;
-                    let [outer, tilt, inner] = z_x_z(&r);
-                    if *turn != 0.0 {
-                        angle = sign * *position;
-                        own_turned = carrier_turned + (turn * axis[1]) * *position;
-                    }
-                    if *absolute {
-                        angle = sign * (*position - axes_turned);
-                        own_turned = *position;
-                    }
-                    offset = inner;
-                    let on_aligned = link.parent.filter(|&p| aligned[p]);
-                    if let Some(p) = on_aligned {
-                        place = turned_about_z(place, angles[p]);
-                        if !absolute {
-                            angle = angle + angles[p].0;
-                        }
-                        offset += angles[p].1 + outer;
-                    }
-                    // for aligned links, the angle turns the links that they carry
-                    if !aligned[k] {
-                        push_about(graph, &mut turns, 2, angle, offset);
-                    }
-                    if on_aligned.is_none() {
-                        push_constant(graph, &mut turns, 0, tilt);
-                        push_constant(graph, &mut turns, 2, outer);
-                    }
-                }
-            }
-            angles.push((angle, offset));
-            turned.push(match aligned[k] {
-                true => [own_turned, axes_turned],
-                false => [own_turned; 2],
-            });
-            if aligned[k] {
-                match &link.joint {
-                    LinkJoint::Ball { .. } => own_turns.push(Turn::Matrix(link.rotation)),
-                    LinkJoint::Axis { .. } => push_about(graph, &mut own_turns, 2, angle, offset),
-                }
-            }
-            let body = body.turned(&own_turns);
-            // in a joint of several degrees of freedom, the last link has the axes of the element
-            let mut carried = tree.links.iter().filter(|l| l.parent == Some(k));
-            let inside = carried.any(|carried| carried.element == link.element);
-            let axes = match (&link.joint, aligned[k] || inside) {
-                (LinkJoint::Ball { .. }, _) if aligned[k] => Mat3(constant(&IDENTITY)),
-                (LinkJoint::Ball { .. }, _) => link.rotation,
-                (LinkJoint::Axis { .. }, false) => link.rotation.product(&Mat3(constant(&axes[k]))),
-                (LinkJoint::Axis { .. }, true) => {
-                    let carrier = link.parent.map_or(tree.ground.axes, |p| links[p].axes);
-                    let turns = turns.iter().rev();
-                    // the columns of the carrier's axes, turned by the constant part
-                    let rows = carrier.0.map(|row| {
-                        turns
-                            .clone()
-                            .fold(Vec3(row), |v, turn| turn.inverse().vector(v))
-                            .0
-                    });
-                    Mat3(rows)
-                }
-            };
-            links.push(FramedLink {
-                turns,
-                place,
-                body,
-                in_reference: body,
-                aligned: aligned[k],
-                sign: natural[k].1,
-                axes,
-                origin: match &link.joint {
-                    LinkJoint::Ball { .. } => Vec3::zero(graph),
-                    LinkJoint::Axis { .. } => {
-                        let along = choice.links[k].place / choice.unit;
-                        Vec3([0.0, 0.0, along].map(|a| graph.constant(a)))
-                    }
-                },
-                against: r,
-            });
-            aligning.push(own_turns);
+        let mut framing = Framing {
+            tree,
+            natural,
+            choice,
+            axes,
+            links: Vec::new(),
+            constants: Vec::new(),
+            aligning: Vec::new(),
+            angles: Vec::new(),
+            turned: Vec::new(),
+        };
+        for k in 0..tree.links.len() {
+            framing.add(k);
         }
+        let mut links = framing.links;
         if choice.links.iter().any(|link| link.keep.is_some()) {
-            let bodies = kept(tree, choice, &constants);
-            for ((link, body), turns) in links.iter_mut().zip(bodies).zip(&aligning) {
+            let bodies = kept(tree, choice, &framing.constants);
+            for ((link, body), turns) in links.iter_mut().zip(bodies).zip(&framing.aligning) {
                 link.in_reference = body.turned(turns);
             }
         }
         Framed { links }
     }
+}
+
+/// Brings the links into their frames, from the root to the leaves.
+struct Framing<'a, 'g> {
+    tree: &'a Tree<'g>,
+    natural: &'a [(Matrix, f64)],
+    choice: &'a Choice,
+    /// The axes of each frame, as columns.
+    axes: Vec<Matrix>,
+    links: Vec<FramedLink<'g>>,
+    constants: Vec<Constant<'g>>,
+    /// For each link, the rotations of links that keep the axes of the inboard side.
+    aligning: Vec<Vec<Turn<'g>>>,
+    /// For each aligned link, the sum of the angles, variable and constant.
+    angles: Vec<(Expr<'g>, f64)>,
+    /// By link, in the plane: the angles that it and its axes have in the absolute frame.
+    turned: Vec<[Expr<'g>; 2]>,
+}
+
+/// How a link stands on its parent.
+struct Placed<'g> {
+    /// The rotations from its axes to the parent's, in order.
+    turns: Vec<Turn<'g>>,
+    /// Its origin from the parent's, in the parent's axes.
+    place: Vec3<'g>,
+    /// The angle of its joint about z, variable and constant; that of aligned parents included.
+    angle: (Expr<'g>, f64),
+    /// In the plane: its angle in the absolute frame.
+    own_turned: Expr<'g>,
+}
+
+impl<'g> Framing<'_, 'g> {
+    fn is_aligned(&self, k: usize) -> bool {
+        self.choice.links[k].aligned
+    }
+
+    /// The axes of what carries a link, in absolute axes.
+    fn carrier_axes(&self, k: usize) -> Mat3<'g> {
+        let parent = self.tree.links[k].parent;
+        parent.map_or(self.tree.ground.axes, |p| self.links[p].axes)
+    }
+
+    /// Brings link `k` into its frame; its parent is there already.
+    fn add(&mut self, k: usize) {
+        let (graph, link) = (self.tree.graph, &self.tree.links[k]);
+        let constant = self.constant(k);
+        let axes_turned = match link.parent {
+            Some(p) => self.turned[p][1],
+            None => self.tree.ground.angle,
+        };
+        let Placed {
+            turns,
+            place,
+            angle,
+            own_turned,
+        } = match &link.joint {
+            LinkJoint::Ball { .. } => self.on_ball(k, &constant),
+            LinkJoint::Axis {
+                turn,
+                position,
+                axis,
+                absolute,
+                ..
+            } => self.on_axis(k, &constant, (*turn, *axis), *position, *absolute),
+        };
+        self.angles.push(angle);
+        let is_aligned = self.is_aligned(k);
+        self.turned.push(match is_aligned {
+            true => [own_turned, axes_turned],
+            false => [own_turned; 2],
+        });
+        let mut own_turns = Vec::new();
+        if is_aligned {
+            match &link.joint {
+                LinkJoint::Ball { .. } => own_turns.push(Turn::Matrix(link.rotation)),
+                LinkJoint::Axis { .. } => push_about(graph, &mut own_turns, 2, angle.0, angle.1),
+            }
+        }
+        let body = constant.body.turned(&own_turns);
+        let axes = self.absolute_axes(k, &turns);
+        self.links.push(FramedLink {
+            turns,
+            place,
+            body,
+            in_reference: body,
+            aligned: is_aligned,
+            sign: self.natural[k].1,
+            axes,
+            origin: match &link.joint {
+                LinkJoint::Ball { .. } => Vec3::zero(graph),
+                LinkJoint::Axis { .. } => {
+                    let along = self.choice.links[k].place / self.choice.unit;
+                    Vec3([0.0, 0.0, along].map(|a| graph.constant(a)))
+                }
+            },
+            against: constant.against,
+        });
+        self.aligning.push(own_turns);
+        self.constants.push(constant);
+    }
+
+    /// What does not depend on the coordinates: the body, the place on the parent and the rotation against it.
+    fn constant(&self, k: usize) -> Constant<'g> {
+        let (tree, unit) = (self.tree, self.choice.unit);
+        let (graph, link) = (tree.graph, &tree.links[k]);
+        let origin = |k: usize| {
+            Vec3(origin_of(tree, self.natural, self.choice, k).map(|a| graph.constant(a)))
+        };
+        let carrier = link.parent.map_or(IDENTITY, |p| self.axes[p]);
+        let against = snapped(&product(&transpose(&carrier), &self.axes[k]));
+        let shift = link.parent.map_or(Vec3::zero(graph), origin);
+        let place = link.place + origin(k) - shift;
+        let place = in_axes(&transpose(&carrier), place);
+        let place = cleaned((1.0 / unit) * place);
+        let body = link.body.moved(-origin(k));
+        let mut body = body.in_axes(&transpose(&self.axes[k]));
+        if !(k == 0 && tree.free) {
+            body = body.felt(&link.joint);
+        }
+        let body = Body {
+            mass: (unit * unit) * body.mass,
+            first: unit * body.first,
+            second: body.second,
+            sizes: [unit * body.sizes[0], body.sizes[1]],
+        };
+        Constant {
+            body,
+            place,
+            against,
+        }
+    }
+
+    /// A link on a ball.
+    fn on_ball(&self, k: usize, constant: &Constant<'g>) -> Placed<'g> {
+        let (tree, link) = (self.tree, &self.tree.links[k]);
+        let own = match self.is_aligned(k) {
+            true => constant_matrix(tree.graph, &IDENTITY),
+            false => link.rotation,
+        };
+        let mut place = constant.place;
+        if let Some(p) = link.parent.filter(|&p| self.is_aligned(p)) {
+            place = tree.links[p].rotation.times(place);
+        }
+        let between = self.carrier_axes(k).transposed().product(&own);
+        let mut turns = Vec::new();
+        if !is_identity(&between) {
+            turns.push(Turn::Matrix(between));
+        }
+        Placed {
+            turns,
+            place,
+            angle: (tree.graph.constant(0.0), 0.0),
+            own_turned: link.parent.map_or(tree.ground.angle, |p| self.turned[p][0]),
+        }
+    }
+
+    /// A link on an axis, with the coordinate of its joint.
+    fn on_axis(
+        &self,
+        k: usize,
+        constant: &Constant<'g>,
+        (turn, axis): (f64, [f64; 3]),
+        position: Expr<'g>,
+        absolute: bool,
+    ) -> Placed<'g> {
+        let (graph, link) = (self.tree.graph, &self.tree.links[k]);
+        let [carrier_turned, axes_turned] = match link.parent {
+            Some(p) => self.turned[p],
+            None => [self.tree.ground.angle; 2],
+        };
+        let sign = self.natural[k].1;
+        let (mut angle, mut own_turned) = (graph.constant(0.0), carrier_turned);
+        let [outer, tilt, inner] = z_x_z(&constant.against);
+        if turn != 0.0 {
+            angle = sign * position;
+            own_turned = carrier_turned + (turn * axis[1]) * position;
+        }
+        if absolute {
+            angle = sign * (position - axes_turned);
+            own_turned = position;
+        }
+        let (mut place, mut offset) = (constant.place, inner);
+        let on_aligned = link.parent.filter(|&p| self.is_aligned(p));
+        if let Some(p) = on_aligned {
+            place = turned_about_z(place, self.angles[p]);
+            if !absolute {
+                angle = angle + self.angles[p].0;
+            }
+            offset += self.angles[p].1 + outer;
+        }
+        let mut turns = Vec::new();
+        // for aligned links, the angle turns the links that they carry
+        if !self.is_aligned(k) {
+            push_about(graph, &mut turns, 2, angle, offset);
+        }
+        if on_aligned.is_none() {
+            push_constant(graph, &mut turns, 0, tilt);
+            push_constant(graph, &mut turns, 2, outer);
+        }
+        Placed {
+            turns,
+            place,
+            angle: (angle, offset),
+            own_turned,
+        }
+    }
+
+    /// The rotation from the axes of a link to absolute axes; `turns` are those to its parent's.
+    fn absolute_axes(&self, k: usize, turns: &[Turn<'g>]) -> Mat3<'g> {
+        let (graph, link) = (self.tree.graph, &self.tree.links[k]);
+        // in a joint of several degrees of freedom, the last link has the axes of the element
+        let mut carried = self.tree.links.iter().filter(|l| l.parent == Some(k));
+        let inside = carried.any(|carried| carried.element == link.element);
+        match (&link.joint, self.is_aligned(k) || inside) {
+            (LinkJoint::Ball { .. }, _) if self.is_aligned(k) => constant_matrix(graph, &IDENTITY),
+            (LinkJoint::Ball { .. }, _) => link.rotation,
+            (LinkJoint::Axis { .. }, false) => {
+                let axes = constant_matrix(graph, &self.axes[k]);
+                link.rotation.product(&axes)
+            }
+            (LinkJoint::Axis { .. }, true) => {
+                let turns = turns.iter().rev();
+                // the columns of the carrier's axes, turned by the constant part
+                let rows = self.carrier_axes(k).0.map(|row| {
+                    turns
+                        .clone()
+                        .fold(Vec3(row), |v, turn| turn.inverse().vector(v))
+                        .0
+                });
+                Mat3(rows)
+            }
+        }
+    }
+}
+
+fn constant_matrix<'g>(graph: &'g Graph, m: &Matrix) -> Mat3<'g> {
+    Mat3(m.map(|row| row.map(|a| graph.constant(a))))
 }
 
 /// The axes of a link's frame after its turn about z.

@@ -58,6 +58,50 @@ impl<'g> LinkMotion<'g> {
         }))
     }
 
+    /// Adds the motion along z to a displacement, at this speed.
+    fn slide(&mut self, displacement: Expr<'g>, speed: Expr<'g>) {
+        let graph = speed.graph();
+        let mut along = Vec3::zero(graph);
+        along.0[2] = displacement;
+        let coriolis = 2.0 * speed;
+        let [x, y, _] = self.omega.0;
+        self.acceleration = self.acceleration
+            + self.gamma(along)
+            + Vec3([y * coriolis, -(x * coriolis), graph.constant(0.0)]);
+    }
+
+    /// Adds the rotation about z at this rate.
+    fn turn(&mut self, rate: Expr<'g>) {
+        self.omega.0[2] = self.omega.0[2] + rate;
+        let [x, y, _] = self.omega.0;
+        self.alpha.0[0] = self.alpha.0[0] + y * rate;
+        self.alpha.0[1] = self.alpha.0[1] - x * rate;
+    }
+
+    /// Adds q̈ref of a joint that turns, slides, or both.
+    fn accelerate(&mut self, turns: bool, slides: bool, chosen: ReferenceTurn) {
+        let zero = self.reference.graph().constant(0.0);
+        match (turns, slides) {
+            (true, false) => {
+                let [x, y, _] = self.omega.0;
+                let given = self.alpha.0[2];
+                let wanted = match chosen {
+                    ReferenceTurn::Zero => zero,
+                    ReferenceTurn::Rest => given,
+                    ReferenceTurn::Product => x * y,
+                    ReferenceTurn::NegativeProduct => -(x * y),
+                };
+                self.reference = wanted - given;
+                self.alpha.0[2] = wanted;
+            }
+            (false, _) if chosen != ReferenceTurn::Rest => {
+                self.reference = -self.acceleration.0[2];
+                self.acceleration.0[2] = zero;
+            }
+            _ => {}
+        }
+    }
+
     /// The wrench that a body needs in this motion.
     pub fn inertia(&self, body: &Body<'g>, by_inertia: bool) -> Wrench<'g> {
         let h = body.first;
@@ -144,105 +188,18 @@ pub fn motion<'g>(
     choice: &Choice,
     reference: Reference,
 ) -> Vec<LinkMotion<'g>> {
-    let graph = tree.graph;
-    let (none, zero) = (Vec3::zero(graph), graph.constant(0.0));
     let ground = LinkMotion {
         omega: tree.ground.omega,
         alpha: tree.ground.alpha,
         acceleration: (1.0 / choice.unit) * tree.ground.acceleration,
-        reference: zero,
+        reference: tree.graph.constant(0.0),
     };
     let mut motions: Vec<LinkMotion<'g>> = Vec::new();
     for (k, link) in tree.links.iter().enumerate() {
-        let (frame, chosen) = (&framed.links[k], &choice.links[k]);
         let parent = link.parent.map_or(&ground, |p| &motions[p]);
-        let back = |v: Vec3<'g>| back_through(&frame.turns, v);
-        let mut carried = parent.acceleration;
-        let order = link.parent.map_or([0, 1, 2], |p| choice.links[p].order);
-        let single = link.parent.is_some_and(|p| framed.links[p].aligned);
-        match single {
-            true => carried = carried + parent.gamma(frame.place),
-            false => {
-                for step in steps(frame.place, order).into_iter().rev() {
-                    carried = carried + parent.gamma(step);
-                }
-            }
-        }
-        let mut motion = LinkMotion {
-            omega: none,
-            alpha: none,
-            acceleration: back(carried),
-            reference: zero,
-        };
-        match &link.joint {
-            LinkJoint::Ball { omega, bias, .. } => {
-                let in_link = |v: Vec3<'g>| match frame.aligned {
-                    true => v,
-                    false => link.rotation.transposed_times(v),
-                };
-                motion.omega = in_link(*omega);
-                if reference != Reference::Chosen {
-                    motion.alpha = in_link(*bias);
-                }
-            }
-            LinkJoint::Axis {
-                rate,
-                absolute: true,
-                ..
-            } => motion.omega.0[2] = frame.sign * *rate,
-            LinkJoint::Axis {
-                turn,
-                rate,
-                coupled,
-                ..
-            } => {
-                // coupled joints must accelerate together
-                let chosen = match reference == Reference::Rest || *coupled {
-                    true => ReferenceTurn::Rest,
-                    false => chosen.reference,
-                };
-                motion.omega = back(parent.omega);
-                motion.alpha = back(parent.alpha);
-                let slides = slide(&link.joint, choice.unit, frame.sign);
-                if let Some((d, speed)) = slides {
-                    let mut along = none;
-                    along.0[2] = d;
-                    let coriolis = 2.0 * speed;
-                    let [x, y, _] = motion.omega.0;
-                    motion.acceleration = motion.acceleration
-                        + motion.gamma(along)
-                        + Vec3([y * coriolis, -(x * coriolis), zero]);
-                }
-                if *turn != 0.0 {
-                    let rate = frame.sign * *rate;
-                    motion.omega.0[2] = motion.omega.0[2] + rate;
-                    let [x, y, _] = motion.omega.0;
-                    motion.alpha.0[0] = motion.alpha.0[0] + y * rate;
-                    motion.alpha.0[1] = motion.alpha.0[1] - x * rate;
-                }
-                match (*turn != 0.0, slides.is_some()) {
-                    (true, false) => {
-                        let [x, y, _] = motion.omega.0;
-                        let given = motion.alpha.0[2];
-                        let wanted = match chosen {
-                            ReferenceTurn::Zero => zero,
-                            ReferenceTurn::Rest => given,
-                            ReferenceTurn::Product => x * y,
-                            ReferenceTurn::NegativeProduct => -(x * y),
-                        };
-                        motion.reference = wanted - given;
-                        motion.alpha.0[2] = wanted;
-                    }
-                    (false, _) if chosen != ReferenceTurn::Rest => {
-                        motion.reference = -motion.acceleration.0[2];
-                        motion.acceleration.0[2] = zero;
-                    }
-                    _ => {}
-                }
-            }
-        }
+        let mut motion = of_link(tree, framed, choice, reference, k, parent);
         if link.parent.is_none() && tree.free {
-            motion.acceleration = none;
+            motion.acceleration = Vec3::zero(tree.graph);
         }
         if let (0, Some([omega, alpha, acceleration])) = (k, tree.carrier) {
             (motion.omega, motion.alpha, motion.acceleration) = (omega, alpha, acceleration);
@@ -250,4 +207,75 @@ pub fn motion<'g>(
         motions.push(motion);
     }
     motions
+}
+
+/// The reference motion of link `k`, given that of its parent.
+fn of_link<'g>(
+    tree: &Tree<'g>,
+    framed: &Framed<'g>,
+    choice: &Choice,
+    reference: Reference,
+    k: usize,
+    parent: &LinkMotion<'g>,
+) -> LinkMotion<'g> {
+    let (none, zero) = (Vec3::zero(tree.graph), tree.graph.constant(0.0));
+    let (link, frame) = (&tree.links[k], &framed.links[k]);
+    let back = |v: Vec3<'g>| back_through(&frame.turns, v);
+    let mut carried = parent.acceleration;
+    let order = link.parent.map_or([0, 1, 2], |p| choice.links[p].order);
+    let single = link.parent.is_some_and(|p| framed.links[p].aligned);
+    match single {
+        true => carried = carried + parent.gamma(frame.place),
+        false => {
+            for step in steps(frame.place, order).into_iter().rev() {
+                carried = carried + parent.gamma(step);
+            }
+        }
+    }
+    let mut motion = LinkMotion {
+        omega: none,
+        alpha: none,
+        acceleration: back(carried),
+        reference: zero,
+    };
+    match &link.joint {
+        LinkJoint::Ball { omega, bias, .. } => {
+            let in_link = |v: Vec3<'g>| match frame.aligned {
+                true => v,
+                false => link.rotation.transposed_times(v),
+            };
+            motion.omega = in_link(*omega);
+            if reference != Reference::Chosen {
+                motion.alpha = in_link(*bias);
+            }
+        }
+        LinkJoint::Axis {
+            rate,
+            absolute: true,
+            ..
+        } => motion.omega.0[2] = frame.sign * *rate,
+        LinkJoint::Axis {
+            turn,
+            rate,
+            coupled,
+            ..
+        } => {
+            motion.omega = back(parent.omega);
+            motion.alpha = back(parent.alpha);
+            let slides = slide(&link.joint, choice.unit, frame.sign);
+            if let Some((d, speed)) = slides {
+                motion.slide(d, speed);
+            }
+            if *turn != 0.0 {
+                motion.turn(frame.sign * *rate);
+            }
+            // coupled joints must accelerate together
+            let chosen = match reference == Reference::Rest || *coupled {
+                true => ReferenceTurn::Rest,
+                false => choice.links[k].reference,
+            };
+            motion.accelerate(*turn != 0.0, slides.is_some(), chosen);
+        }
+    }
+    motion
 }

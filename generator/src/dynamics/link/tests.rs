@@ -339,6 +339,7 @@ fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'sta
 }
 
 /// All results, both ways.
+// Long: each result in turn, which is derived in the frames of links and then compared.
 fn said<'g>(
     spatial: &Spatial<'g, '_>,
     loads: &force::Loads<'g>,

@@ -141,12 +141,75 @@ impl LinkJoint<'_> {
     }
 }
 
+/// The joints of the links of an element, each with the row of its velocity, from the carrier outwards. `None` if an axis is a parameter.
+fn joints<'g>(
+    spatial: &Spatial<'g, '_>,
+    loads: Option<&Loads<'g>>,
+    k: usize,
+) -> Option<Vec<(usize, LinkJoint<'g>)>> {
+    let (graph, model, motion) = (spatial.graph, spatial.model, spatial.motion_of(k));
+    let shares = spatial.layout.shares(graph, model, spatial.id(k));
+    let acting = loads.map(|loads| &loads.wrenches.on_freedoms[spatial.system][k][..]);
+    let acting = acting.unwrap_or_default();
+    let freedoms = match &spatial.of_system().elements[k].joint {
+        Joint::Ball if model.dimension == Dimension::Plane => {
+            let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+            let joint = LinkJoint::Axis {
+                axis: [0.0, 1.0, 0.0],
+                turn: 1.0,
+                slide: zero,
+                position: motion.angle,
+                rate: motion.omega.0[1],
+                acting: zero,
+                ratio: one,
+                armature: zero,
+                coupled: false,
+                absolute: true,
+            };
+            return Some(vec![(shares[0].velocity, joint)]);
+        }
+        Joint::Ball => {
+            let columns = [0, 1, 2].map(|j| motion.axes[j]);
+            let joint = LinkJoint::Ball {
+                omega: motion.omega,
+                bias: motion.bias,
+                columns: Mat3::from_columns(columns),
+            };
+            return Some(vec![(shares[0].velocity, joint)]);
+        }
+        Joint::Freedoms(freedoms) => freedoms,
+    };
+    let mut joints = Vec::new();
+    for (i, freedom) in freedoms.iter().enumerate() {
+        let axis = vector(graph, &freedom.axis).0.map(|a| a.as_constant());
+        let [Some(x), Some(y), Some(z)] = axis else {
+            return None;
+        };
+        let (q, rate) = motion.freedoms[i];
+        let (turn, slide) = turn_and_advance(graph, &*freedom.kind);
+        let joint = LinkJoint::Axis {
+            axis: [x, y, z],
+            turn,
+            slide,
+            position: q + number(graph, &freedom.zero),
+            rate,
+            acting: acting.get(i).copied().unwrap_or(graph.constant(0.0)),
+            ratio: shares[i].ratio,
+            armature: number(graph, &freedom.armature),
+            coupled: false,
+            absolute: false,
+        };
+        joints.push((shares[i].velocity, joint));
+    }
+    Some(joints)
+}
+
 impl<'g> Tree<'g> {
     /// The links of a system, with the wrenches on them. Without `loads` no force acts, and the reference joint is at rest. `None` if link frames do
     /// not apply: an axis is a parameter; a free reference joint has a first element that is not on a ball; or, in the plane, an element has an
     /// absolute orientation.
     pub fn of(spatial: &Spatial<'g, '_>, loads: Option<&Loads<'g>>) -> Option<Self> {
-        let (graph, model, system) = (spatial.graph, spatial.model, spatial.of_system());
+        let (graph, system) = (spatial.graph, spatial.of_system());
         let free = matches!(system.reference, Reference::Free);
         let first_is_ball = system.elements.first()?.joint == Joint::Ball;
         let complete = spatial.tree.bodies.iter().all(|body| body.gyroscopic);
@@ -168,72 +231,19 @@ impl<'g> Tree<'g> {
                 Some(_) => carried_at + vector(graph, &element.at),
                 None => carried_at,
             };
-            let shares = spatial.layout.shares(graph, model, spatial.id(k));
-            let link = |row, parent, joint, place| Link {
-                element: k,
-                row,
-                parent,
-                joint,
-                place,
-                body: Body::none(graph),
-                rotation: motion.rotation,
-                load: Wrench::none(graph),
-                carries: None,
-            };
-            let acting = loads.map(|loads| &loads.wrenches.on_freedoms[spatial.system][k][..]);
-            let acting = acting.unwrap_or_default();
-            match &element.joint {
-                Joint::Ball if model.dimension == Dimension::Plane => {
-                    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-                    let joint = LinkJoint::Axis {
-                        axis: [0.0, 1.0, 0.0],
-                        turn: 1.0,
-                        slide: zero,
-                        position: motion.angle,
-                        rate: motion.omega.0[1],
-                        acting: zero,
-                        ratio: one,
-                        armature: zero,
-                        coupled: false,
-                        absolute: true,
-                    };
-                    links.push(link(shares[0].velocity, parent, joint, place));
-                    (parent, place) = (Some(links.len() - 1), none);
-                }
-                Joint::Ball => {
-                    let columns = [0, 1, 2].map(|j| motion.axes[j]);
-                    let joint = LinkJoint::Ball {
-                        omega: motion.omega,
-                        bias: motion.bias,
-                        columns: Mat3::from_columns(columns),
-                    };
-                    links.push(link(shares[0].velocity, parent, joint, place));
-                    (parent, place) = (Some(links.len() - 1), none);
-                }
-                Joint::Freedoms(freedoms) => {
-                    for (i, freedom) in freedoms.iter().enumerate() {
-                        let axis = vector(graph, &freedom.axis).0.map(|a| a.as_constant());
-                        let [Some(x), Some(y), Some(z)] = axis else {
-                            return None;
-                        };
-                        let (q, rate) = motion.freedoms[i];
-                        let (turn, slide) = turn_and_advance(graph, &*freedom.kind);
-                        let joint = LinkJoint::Axis {
-                            axis: [x, y, z],
-                            turn,
-                            slide,
-                            position: q + number(graph, &freedom.zero),
-                            rate,
-                            acting: acting.get(i).copied().unwrap_or(graph.constant(0.0)),
-                            ratio: shares[i].ratio,
-                            armature: number(graph, &freedom.armature),
-                            coupled: false,
-                            absolute: false,
-                        };
-                        links.push(link(shares[i].velocity, parent, joint, place));
-                        (parent, place) = (Some(links.len() - 1), none);
-                    }
-                }
+            for (row, joint) in joints(spatial, loads, k)? {
+                links.push(Link {
+                    element: k,
+                    row,
+                    parent,
+                    joint,
+                    place,
+                    body: Body::none(graph),
+                    rotation: motion.rotation,
+                    load: Wrench::none(graph),
+                    carries: None,
+                });
+                (parent, place) = (Some(links.len() - 1), none);
             }
             seats.push((parent, place));
             let Some(to) = parent else { continue };

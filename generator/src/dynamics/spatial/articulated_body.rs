@@ -44,19 +44,14 @@ struct Eliminated<'g> {
     bias: Vec<Expr<'g>>,
 }
 
-/// v̇ of the system, by row.
-pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(usize, Expr<'g>)> {
-    let mut accelerations = Vec::new();
+/// The pass from the leaves to the root: the bodies outboard of each joint, after its elimination, and what the pass outwards needs.
+fn inwards<'g>(
+    spatial: &Spatial<'g, '_>,
+    loads: &Loads<'g>,
+    biases: &[Vec3<'g>],
+) -> (Vec<Articulated<'g>>, Vec<Option<Eliminated<'g>>>) {
     let (graph, system) = (spatial.graph, spatial.system);
     let elements = &spatial.of_system().elements;
-    let free = spatial.layout.reference_velocities(system);
-    // in a frame in which the common field vanishes
-    let field = loads.wrenches.fields[system];
-    let given = match free {
-        Some(_) => Vec3::zero(graph),
-        None => reference_acceleration(graph, spatial.of_system(), spatial.motion) - field,
-    };
-    let biases = spatial.origin_biases(given);
     let mut outboard: Vec<Articulated<'g>> = (spatial.bodies().iter().enumerate())
         .map(|(k, body)| {
             graph.section(format!(
@@ -102,6 +97,23 @@ pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(u
             outboard[parent] = outboard[parent].plus(passed);
         }
     }
+    (outboard, eliminated)
+}
+
+/// v̇ of the system, by row.
+pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(usize, Expr<'g>)> {
+    let mut accelerations = Vec::new();
+    let (graph, system) = (spatial.graph, spatial.system);
+    let elements = &spatial.of_system().elements;
+    let free = spatial.layout.reference_velocities(system);
+    // in a frame in which the common field vanishes
+    let field = loads.wrenches.fields[system];
+    let given = match free {
+        Some(_) => Vec3::zero(graph),
+        None => reference_acceleration(graph, spatial.of_system(), spatial.motion) - field,
+    };
+    let biases = spatial.origin_biases(given);
+    let (outboard, eliminated) = inwards(spatial, loads, &biases);
 
     graph.section(format!(
         "system {}: reference joint",

@@ -52,6 +52,8 @@ pub(super) fn unsigned(nodes: &[Node], id: NodeId) -> (bool, NodeId) {
     (negative, id)
 }
 
+/// The sums and products of the nodes that are live.
+// Long: one pass over the nodes, whose steps share the lists that are open.
 pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
     let nodes = graph.nodes();
     let users = Users::of(&nodes, live);

@@ -92,7 +92,7 @@ impl Keys for Airbag {
     }
 
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        resolver.airbag(self, at)
+        super::check::airbag(resolver, self, at).map(ForceKind::from)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

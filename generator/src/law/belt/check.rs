@@ -4,7 +4,6 @@ use super::keys::{
     Belt as Written, Limiter as WrittenLimiter, Pretensioner as WrittenPretensioner,
     Retractor as WrittenRetractor,
 };
-use crate::description::force::Attachment as WrittenEnd;
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
@@ -139,393 +138,418 @@ pub struct Pretensioner {
     pub retract: ScaledCurve,
 }
 
-impl Resolver<'_> {
-    /// Resolves a belt.
-    pub fn belt(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
-        let name = &written.belt;
-        let from = self.end(&written.from, at.key("from"));
-        let to = self.end(&written.to, at.key("to"));
-        let rings = self.rings(written, at);
-        if let (Some(a), Some(b)) = (&from, &to)
-            && a.on == b.on
-            && rings.iter().flatten().all(|ring| ring.on.on == a.on)
-        {
-            let (message, help) = match rings.as_ref().is_some_and(Vec::is_empty) {
-                true => (
-                    format!("both ends of belt {} are on the same body", quoted(name)),
-                    "a belt runs between two bodies; `frame` is the absolute frame",
-                ),
-                false => (
-                    format!(
-                        "the ends and all rings of belt {} are on the same body",
-                        quoted(name)
-                    ),
-                    "a belt acts between two bodies: put an end or a ring on another; `frame` is the absolute frame",
-                ),
-            };
-            self.problems.add(at.key("to").problem(message, help));
-        }
-        let before = self.problems.count();
-        let force = self.tension(written, at);
-        if force.is_none() && self.problems.count() == before {
-            let (place, times) = match &written.force {
-                Some(_) => {
-                    let place = at.key("force");
-                    (place, place.node.get("times").is_some())
-                }
-                None => (at.key("stiffness"), false),
-            };
-            self.problems.add(place.problem(
-                match times {
-                    true => no_force(name),
-                    false => format!("belt {} has no force at any elongation", quoted(name)),
-                },
-                "give a curve that is not zero everywhere, or switch the belt off by `enabled: false`",
-            ));
-        }
-        let length = self.untensioned(written, at, force.as_ref());
-        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
-        let damping_stretch = self.fade(
-            (written.damping.as_ref(), damping.is_some()),
-            (written.damping_stretch.as_ref(), at.key("damping_stretch")),
-            (LENGTH, DAMPING_STRETCH),
-        );
-        let hysteresis = self.hysteresis(
-            force.as_ref(),
-            Unloading {
-                curve: written.unloading.as_ref(),
-                slope: written.unloading_slope.as_ref(),
-                loading: ("force", true),
-                at,
-                owner: format!("belt {name} unloading"),
-                expected: [PURE, FORCE, SLOPE],
-            },
-        );
-        let limiter = written
-            .limiter
-            .as_ref()
-            .map(|l| self.limiter(l, at.key("limiter"), force.as_ref()));
-        let retractor = written
-            .retractor
-            .as_ref()
-            .map(|r| self.retractor(r, at, force.as_ref()));
-        let film_spool = written
-            .retractor
-            .as_ref()
-            .and_then(|r| self.film_spool(r, at.key("retractor"), name));
-        let pretensioner = written
-            .pretensioner
-            .as_ref()
-            .and_then(|p| self.pretensioner(p, at.key("pretensioner"), name));
-        Some(ForceKind::Belt(Box::new(Belt {
-            from: from?,
-            to: to?,
-            rings: rings?,
-            force: force?,
-            hysteresis,
-            damping,
-            damping_stretch,
-            length,
-            retractor: match retractor {
-                Some(retractor) => Some(retractor?),
-                None => None,
-            },
-            film_spool,
-            pretensioner,
-            limiter,
-        })))
+/// The checked form of a belt.
+pub(crate) fn belt(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<Belt> {
+    let name = &written.belt;
+    let from = resolver.end(&written.from, at.key("from"));
+    let to = resolver.end(&written.to, at.key("to"));
+    let rings = rings(resolver, written, at);
+    if let (Some(from), Some(to)) = (&from, &to) {
+        check_bodies(resolver, name, [from, to], rings.as_deref(), at.key("to"));
     }
+    let force = acting_tension(resolver, written, at);
+    let length = untensioned(resolver, written, at, force.as_ref());
+    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+    let damping_stretch = resolver.fade(
+        (written.damping.as_ref(), damping.is_some()),
+        (written.damping_stretch.as_ref(), at.key("damping_stretch")),
+        (LENGTH, DAMPING_STRETCH),
+    );
+    let hysteresis = resolver.hysteresis(
+        force.as_ref(),
+        Unloading {
+            curve: written.unloading.as_ref(),
+            slope: written.unloading_slope.as_ref(),
+            loading: ("force", true),
+            at,
+            owner: format!("belt {name} unloading"),
+            expected: [PURE, FORCE, SLOPE],
+        },
+    );
+    let limiter = written
+        .limiter
+        .as_ref()
+        .map(|l| limiter(resolver, l, at.key("limiter"), force.as_ref()));
+    let reel = written.retractor.as_ref();
+    let retractor = reel.map(|r| retractor(resolver, r, at, force.as_ref()));
+    let film_spool = reel.and_then(|r| film_spool(resolver, r, at.key("retractor"), name));
+    let pretensioner = written
+        .pretensioner
+        .as_ref()
+        .and_then(|p| pretensioner(resolver, p, at.key("pretensioner"), name));
+    Some(Belt {
+        from: from?,
+        to: to?,
+        rings: rings?,
+        force: force?,
+        hysteresis,
+        damping,
+        damping_stretch,
+        length,
+        retractor: match retractor {
+            Some(retractor) => Some(retractor?),
+            None => None,
+        },
+        film_spool,
+        pretensioner,
+        limiter,
+    })
+}
 
-    /// The rings that it runs through; none where one of them is wrong.
-    fn rings(&self, written: &Written, at: At<'_>) -> Option<Vec<Ring>> {
-        let at = at.key("through");
-        let mut rings: Vec<Ring> = Vec::new();
-        let mut all = true;
-        for (index, ring) in written.through.iter().flatten().enumerate() {
-            let at = at.item(index);
-            let name = &ring.ring;
-            if rings.iter().any(|other| other.name == *name) {
-                self.problems.add(at.key("ring").problem(
-                    format!(
-                        "belt {} has two rings {}",
-                        quoted(&written.belt),
-                        quoted(name)
-                    ),
-                    "give each ring of a belt another name",
-                ));
-            }
-            if name.trim().is_empty() || name.chars().any(char::is_control) {
-                self.problems.add(at.key("ring").problem(
-                    "the name of a ring is empty or not one line",
-                    "give it a name: outputs and effects call it by that",
-                ));
-            }
-            let friction = self.coefficient(ring.friction.as_ref(), at.key("friction"), PURE);
-            let resistance = match &ring.resistance {
-                Some(given) => self.number(given, at.key("resistance"), LINEAR_DAMPING),
-                None => RESISTANCE.into(),
-            };
-            let position = self.vector(&ring.at, at.key("at"), LENGTH);
-            match self.body(&ring.on, at.key("on")) {
-                Some(on) => rings.push(Ring {
-                    name: name.clone(),
-                    on: Attachment { on, at: position },
-                    friction,
-                    resistance,
-                }),
-                None => all = false,
-            }
-        }
-        all.then_some(rings)
+/// Reports a belt whose ends and rings are all on one body; rings are `None` where one of them is wrong.
+fn check_bodies(
+    resolver: &Resolver<'_>,
+    name: &str,
+    [from, to]: [&Attachment; 2],
+    rings: Option<&[Ring]>,
+    at: At<'_>,
+) {
+    let mut others = rings.into_iter().flatten();
+    if from.on != to.on || others.any(|ring| ring.on.on != from.on) {
+        return;
     }
+    let (message, help) = match rings.is_some_and(<[Ring]>::is_empty) {
+        true => (
+            format!("both ends of belt {} are on the same body", quoted(name)),
+            "a belt runs between two bodies; `frame` is the absolute frame",
+        ),
+        false => (
+            format!(
+                "the ends and all rings of belt {} are on the same body",
+                quoted(name)
+            ),
+            "a belt acts between two bodies: put an end or a ring on another; `frame` is the absolute frame",
+        ),
+    };
+    resolver.problems.add(at.problem(message, help));
+}
 
-    /// By what the tension of a locked reel exceeds that of the spool, against the webbing that has come off it.
-    fn film_spool(
-        &mut self,
-        written: &WrittenRetractor,
-        at: At<'_>,
-        name: &str,
-    ) -> Option<ScaledCurve> {
-        let place = at.key("film_spool");
-        let owner = format!("belt {name} film spool");
-        let before = self.problems.count();
-        let film = self.function(written.film_spool.as_ref()?, place, &owner, LENGTH, FORCE);
-        // a curve that is 0 everywhere is none
-        if film.is_none() && self.problems.count() > before {
-            return None;
-        }
-        let ends = film.as_ref().and_then(|film| {
-            let (curve, _) = self.curve_of(film)?;
-            let (first, last) = (curve.points[0], curve.points[curve.points.len() - 1]);
-            let rises = curve.points.windows(2).all(|pair| pair[1][1] >= pair[0][1]);
-            Some(first == [0.0, 0.0] && rises && last[1] > 0.0)
-        });
-        if ends != Some(true) {
-            self.problems.add(place.problem(
+/// The rings that it runs through; none where one of them is wrong.
+fn rings(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Vec<Ring>> {
+    let at = at.key("through");
+    let mut rings: Vec<Ring> = Vec::new();
+    let mut all = true;
+    for (index, ring) in written.through.iter().flatten().enumerate() {
+        let at = at.item(index);
+        let name = &ring.ring;
+        if rings.iter().any(|other| other.name == *name) {
+            resolver.problems.add(at.key("ring").problem(
                 format!(
-                    "`retractor.film_spool` of belt {} must come to an end",
+                    "belt {} has two rings {}",
+                    quoted(&written.belt),
                     quoted(name)
                 ),
-                "begin the curve with [0, 0], let no ordinate be smaller than the one before, and the last be more than 0; leave `film_spool` out for a reel that holds at once",
+                "give each ring of a belt another name",
             ));
         }
-        film
-    }
-
-    /// The tension against the relative elongation.
-    fn tension(&mut self, written: &Written, at: At<'_>) -> Option<ScaledCurve> {
-        let owner = format!("belt {} force", written.belt);
-        if written.force.is_none() && written.stiffness.is_none() {
-            self.problems.add(at.problem(
-                format!("belt {} has no force", quoted(&written.belt)),
-                "add `force: …`, a curve of the relative elongation, or `stiffness: …` for a straight one",
+        if name.trim().is_empty() || name.chars().any(char::is_control) {
+            resolver.problems.add(at.key("ring").problem(
+                "the name of a ring is empty or not one line",
+                "give it a name: outputs and effects call it by that",
             ));
-            return None;
         }
-        if let (None, Some(stiffness)) = (&written.force, &written.stiffness)
-            && let Some(slope) = self.per_length(written, stiffness, at)
-        {
-            return self.line(owner, slope);
-        }
-        self.elastic(
-            ("force", written.force.as_ref()),
-            written.stiffness.as_ref(),
-            at,
-            &owner,
-            [PURE, FORCE, SLOPE],
-        )
-    }
-
-    /// The force per relative elongation of a stiffness in newtons per metre; `None` of one in newtons.
-    fn per_length(&self, written: &Written, stiffness: &Quantity, at: At<'_>) -> Option<Number> {
-        let place = at.key("stiffness");
-        let before = self.problems.count();
-        let measured = self.measured(stiffness, place);
-        let Some((number, Measure::Known(dimension))) = measured else {
-            // what is reported here is not reported again
-            return (self.problems.count() > before).then_some(Number::ZERO);
+        let friction = resolver.coefficient(ring.friction.as_ref(), at.key("friction"), PURE);
+        let resistance = match &ring.resistance {
+            Some(given) => resolver.number(given, at.key("resistance"), LINEAR_DAMPING),
+            None => RESISTANCE.into(),
         };
-        if dimension != STIFFNESS.dimension {
-            return None;
+        let position = resolver.vector(&ring.at, at.key("at"), LENGTH);
+        match resolver.body(&ring.on, at.key("on")) {
+            Some(on) => rings.push(Ring {
+                name: name.clone(),
+                on: Attachment { on, at: position },
+                friction,
+                resistance,
+            }),
+            None => all = false,
         }
-        let Some(length) = &written.length else {
-            self.problems.add(place.problem(
-                "a stiffness per length needs the untensioned length of the belt, which here follows from the scene",
-                "give `length` too, or the force per relative elongation: 50 N/mm of a belt of 0.5 m are 25 kN",
-            ));
-            return Some(Number::ZERO);
-        };
-        let length = self.number(length, at.key("length"), LENGTH);
-        Some(Number::product(number, length))
     }
+    all.then_some(rings)
+}
 
-    fn limiter(&self, written: &WrittenLimiter, at: At<'_>, force: Option<&ScaledCurve>) -> Number {
-        let place = at.key("force");
-        if let Some(force) = force {
-            self.check_invertible(force, "limiter", place);
-        }
-        self.number(&written.force, place, FORCE)
+/// By what the tension of a locked reel exceeds that of the spool, against the webbing that has come off it.
+fn film_spool(
+    resolver: &mut Resolver<'_>,
+    written: &WrittenRetractor,
+    at: At<'_>,
+    name: &str,
+) -> Option<ScaledCurve> {
+    let place = at.key("film_spool");
+    let owner = format!("belt {name} film spool");
+    let before = resolver.problems.count();
+    let film = resolver.function(written.film_spool.as_ref()?, place, &owner, LENGTH, FORCE);
+    // a curve that is 0 everywhere is none
+    if film.is_none() && resolver.problems.count() > before {
+        return None;
     }
+    let ends = film.as_ref().and_then(|film| {
+        let (curve, _) = resolver.curve_of(film)?;
+        let (first, last) = (curve.points[0], curve.points[curve.points.len() - 1]);
+        let rises = curve.points.windows(2).all(|pair| pair[1][1] >= pair[0][1]);
+        Some(first == [0.0, 0.0] && rises && last[1] > 0.0)
+    });
+    if ends != Some(true) {
+        resolver.problems.add(place.problem(
+            format!(
+                "`retractor.film_spool` of belt {} must come to an end",
+                quoted(name)
+            ),
+            "begin the curve with [0, 0], let no ordinate be smaller than the one before, and the last be more than 0; leave `film_spool` out for a reel that holds at once",
+        ));
+    }
+    film
+}
 
-    fn retractor(
-        &self,
-        written: &WrittenRetractor,
-        at: At<'_>,
-        force: Option<&ScaledCurve>,
-    ) -> Option<Retractor> {
-        for key in ["slack", "pretension", "length"] {
-            if at.node.get(key).is_some() {
-                self.problems.add(at.key(key).key_problem(
-                    "with a retractor the untensioned length follows from where it locks",
-                    format!("remove `{key}`; the tension until it locks is its `spool`"),
-                ));
+/// The tension against the relative elongation; one that is 0 everywhere is reported.
+fn acting_tension(
+    resolver: &mut Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+) -> Option<ScaledCurve> {
+    let name = &written.belt;
+    let before = resolver.problems.count();
+    let force = tension(resolver, written, at);
+    if force.is_none() && resolver.problems.count() == before {
+        let (place, times) = match &written.force {
+            Some(_) => {
+                let place = at.key("force");
+                (place, place.node.get("times").is_some())
             }
-        }
-        let at = at.key("retractor");
-        let lock = self.switch_id(&written.lock, at.key("lock"));
-        let place = at.key("spool");
-        let spool = self.coefficient(written.spool.as_ref(), place, FORCE);
-        let spool = spool.unwrap_or(Number::ZERO);
-        if let (Some(force), false) = (force, spool.is_zero()) {
-            self.check_invertible(force, "retractor", place);
-        }
-        Some(Retractor { lock: lock?, spool })
+            None => (at.key("stiffness"), false),
+        };
+        resolver.problems.add(place.problem(
+            match times {
+                true => no_force(name),
+                false => format!("belt {} has no force at any elongation", quoted(name)),
+            },
+            "give a curve that is not zero everywhere, or switch the belt off by `enabled: false`",
+        ));
     }
+    force
+}
 
-    fn pretensioner(
-        &mut self,
-        written: &WrittenPretensioner,
-        at: At<'_>,
-        name: &str,
-    ) -> Option<Pretensioner> {
-        let fire = self.switch_id(&written.fire, at.key("fire"));
-        let place = at.key("retract");
-        let owner = format!("belt {name} retract");
-        let retract = self.function(&written.retract, place, &owner, TIME, LENGTH)?;
-        let first = self.curve_of(&retract).map(|(curve, _)| curve.points[0]);
-        if first.is_some_and(|point| point != [0.0, 0.0]) {
-            self.problems.add(place.problem(
-                "a pretensioner begins with nothing at the time of its firing",
-                "begin the curve with [0, 0]; its abscissa is the time since the switch",
+/// The tension against the relative elongation; `None` where it is wrong, missing, or 0 everywhere.
+fn tension(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<ScaledCurve> {
+    let owner = format!("belt {} force", written.belt);
+    if written.force.is_none() && written.stiffness.is_none() {
+        resolver.problems.add(at.problem(
+            format!("belt {} has no force", quoted(&written.belt)),
+            "add `force: …`, a curve of the relative elongation, or `stiffness: …` for a straight one",
+        ));
+        return None;
+    }
+    if let (None, Some(stiffness)) = (&written.force, &written.stiffness)
+        && let Some(slope) = per_length(resolver, written, stiffness, at)
+    {
+        return resolver.line(owner, slope);
+    }
+    resolver.elastic(
+        ("force", written.force.as_ref()),
+        written.stiffness.as_ref(),
+        at,
+        &owner,
+        [PURE, FORCE, SLOPE],
+    )
+}
+
+/// The force per relative elongation of a stiffness in newtons per metre; `None` of one in newtons.
+fn per_length(
+    resolver: &Resolver<'_>,
+    written: &Written,
+    stiffness: &Quantity,
+    at: At<'_>,
+) -> Option<Number> {
+    let place = at.key("stiffness");
+    let before = resolver.problems.count();
+    let measured = resolver.measured(stiffness, place);
+    let Some((number, Measure::Known(dimension))) = measured else {
+        // what is reported here is not reported again
+        return (resolver.problems.count() > before).then_some(Number::ZERO);
+    };
+    if dimension != STIFFNESS.dimension {
+        return None;
+    }
+    let Some(length) = &written.length else {
+        resolver.problems.add(place.problem(
+            "a stiffness per length needs the untensioned length of the belt, which here follows from the scene",
+            "give `length` too, or the force per relative elongation: 50 N/mm of a belt of 0.5 m are 25 kN",
+        ));
+        return Some(Number::ZERO);
+    };
+    let length = resolver.number(length, at.key("length"), LENGTH);
+    Some(Number::product(number, length))
+}
+
+/// The largest tension.
+fn limiter(
+    resolver: &Resolver<'_>,
+    written: &WrittenLimiter,
+    at: At<'_>,
+    force: Option<&ScaledCurve>,
+) -> Number {
+    let place = at.key("force");
+    if let Some(force) = force {
+        check_invertible(resolver, force, "limiter", place);
+    }
+    resolver.number(&written.force, place, FORCE)
+}
+
+/// The reel; none where its switch is wrong.
+fn retractor(
+    resolver: &Resolver<'_>,
+    written: &WrittenRetractor,
+    at: At<'_>,
+    force: Option<&ScaledCurve>,
+) -> Option<Retractor> {
+    for key in ["slack", "pretension", "length"] {
+        if at.node.get(key).is_some() {
+            resolver.problems.add(at.key(key).key_problem(
+                "with a retractor the untensioned length follows from where it locks",
+                format!("remove `{key}`; the tension until it locks is its `spool`"),
             ));
         }
-        let delay = self.coefficient(written.delay.as_ref(), at.key("delay"), TIME);
-        Some(Pretensioner {
-            fire: fire?,
-            delay,
-            retract,
-        })
     }
-
-    /// A point on a body.
-    pub fn end(&self, written: &WrittenEnd, at: At<'_>) -> Option<Attachment> {
-        let position = self.vector(&written.at, at.key("at"), LENGTH);
-        self.body(&written.on, at.key("on"))
-            .map(|on| Attachment { on, at: position })
+    let at = at.key("retractor");
+    let lock = resolver.switch_id(&written.lock, at.key("lock"));
+    let place = at.key("spool");
+    let spool = resolver.coefficient(written.spool.as_ref(), place, FORCE);
+    let spool = spool.unwrap_or(Number::ZERO);
+    if let (Some(force), false) = (force, spool.is_zero()) {
+        check_invertible(resolver, force, "retractor", place);
     }
+    Some(Retractor { lock: lock?, spool })
+}
 
-    fn untensioned(
-        &self,
-        written: &Written,
-        at: At<'_>,
-        force: Option<&ScaledCurve>,
-    ) -> BeltLength {
-        let given: Vec<(&str, &Quantity)> = [
-            ("slack", &written.slack),
-            ("pretension", &written.pretension),
-            ("length", &written.length),
-        ]
-        .into_iter()
-        .filter_map(|(key, quantity)| Some((key, quantity.as_ref()?)))
+/// What takes webbing in; none where its switch is wrong or it takes in nothing.
+fn pretensioner(
+    resolver: &mut Resolver<'_>,
+    written: &WrittenPretensioner,
+    at: At<'_>,
+    name: &str,
+) -> Option<Pretensioner> {
+    let fire = resolver.switch_id(&written.fire, at.key("fire"));
+    let place = at.key("retract");
+    let owner = format!("belt {name} retract");
+    let retract = resolver.function(&written.retract, place, &owner, TIME, LENGTH)?;
+    let first = resolver
+        .curve_of(&retract)
+        .map(|(curve, _)| curve.points[0]);
+    if first.is_some_and(|point| point != [0.0, 0.0]) {
+        resolver.problems.add(place.problem(
+            "a pretensioner begins with nothing at the time of its firing",
+            "begin the curve with [0, 0]; its abscissa is the time since the switch",
+        ));
+    }
+    let delay = resolver.coefficient(written.delay.as_ref(), at.key("delay"), TIME);
+    Some(Pretensioner {
+        fire: fire?,
+        delay,
+        retract,
+    })
+}
+
+/// How the untensioned length is given.
+fn untensioned(
+    resolver: &Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+    force: Option<&ScaledCurve>,
+) -> BeltLength {
+    let given: Vec<(&str, &Quantity)> = [
+        ("slack", &written.slack),
+        ("pretension", &written.pretension),
+        ("length", &written.length),
+    ]
+    .into_iter()
+    .filter_map(|(key, quantity)| Some((key, quantity.as_ref()?)))
+    .collect();
+    let none = BeltLength::Slack(Number::ZERO);
+    let &[(key, quantity)] = given.as_slice() else {
+        if let [_, (second, _), ..] = given[..] {
+            resolver.problems.add(at.key(second).key_problem(
+                format!("the length of belt {} is given twice, by {} and {second}", quoted(&written.belt), given[0].0),
+                "keep one of `slack`, `pretension`, `length`; without any the belt is just taut at the start",
+            ));
+        }
+        return none;
+    };
+    let place = at.key(key);
+    let expected = if key == "pretension" { FORCE } else { LENGTH };
+    let number = resolver.number(quantity, place, expected);
+    match key {
+        "length" => BeltLength::Given(number),
+        "slack" => BeltLength::Slack(number),
+        _ if number.is_zero() => none,
+        _ => {
+            if let Some(force) = force {
+                check_invertible(resolver, force, "pretension", place);
+            }
+            BeltLength::Pretension(number)
+        }
+    }
+}
+
+/// A tension belongs to one elongation only where the curve rises, or falls, all the way from (0, 0) on. `what` needs it. How it is
+/// scaled is a requirement of the force.
+fn check_invertible(resolver: &Resolver<'_>, force: &ScaledCurve, what: &str, at: At<'_>) {
+    let Some((curve, _)) = resolver.curve_of(force) else {
+        return;
+    };
+    let signs = curve.points.windows(2).map(|pair| pair[1][1] - pair[0][1]);
+    let signs: Vec<f64> = signs.collect();
+    let all = |sign: f64| signs.iter().all(|step| step * sign > 0.0);
+    if curve.points[0] != [0.0, 0.0] || !(all(1.0) || all(-1.0)) {
+        resolver.problems.add(at.problem(
+            format!("with a {what}, the force curve must rise strictly from (0, 0), or the length is not determined"),
+            match what {
+                "pretension" => "begin the curve with [0, 0] and let every ordinate be larger than the one before, or give `length`",
+                _ => "begin the curve with [0, 0] and let every ordinate be larger than the one before",
+            },
+        ));
+    }
+}
+
+/// How what carries the root of a system is turned at the start.
+fn reference_rotation(resolver: &Resolver<'_>, system: &System) -> Matrix {
+    match &system.reference {
+        Reference::Riding { vehicle, .. } => {
+            vehicle_start(&resolver.vehicles[*vehicle], &resolver.defaults).0
+        }
+        _ => IDENTITY,
+    }
+}
+
+/// Reports belts whose ends coincide at the start, so that their untensioned length is nothing.
+pub(crate) fn check_belts(resolver: &Resolver<'_>, loaded: &Loaded) {
+    let frames: Vec<_> = resolver
+        .systems
+        .iter()
+        .map(|s| start(s, reference_rotation(resolver, s), &resolver.defaults))
         .collect();
-        let none = BeltLength::Slack(Number::ZERO);
-        let &[(key, quantity)] = given.as_slice() else {
-            if let [_, (second, _), ..] = given[..] {
-                self.problems.add(at.key(second).key_problem(
-                    format!("the length of belt {} is given twice, by {} and {second}", quoted(&written.belt), given[0].0),
-                    "keep one of `slack`, `pretension`, `length`; without any the belt is just taut at the start",
-                ));
-            }
-            return none;
+    for force in &resolver.forces {
+        let ForceKind::Belt(belt) = &force.kind else {
+            continue;
         };
-        let place = at.key(key);
-        let expected = if key == "pretension" { FORCE } else { LENGTH };
-        let number = self.number(quantity, place, expected);
-        match key {
-            "length" => BeltLength::Given(number),
-            "slack" => BeltLength::Slack(number),
-            _ if number.is_zero() => none,
-            _ => {
-                if let Some(force) = force {
-                    self.check_invertible(force, "pretension", place);
-                }
-                BeltLength::Pretension(number)
-            }
-        }
-    }
-
-    /// A tension belongs to one elongation only where the curve rises, or falls, all the way from (0, 0) on. `what` needs it. How it is
-    /// scaled is a requirement of the force.
-    fn check_invertible(&self, force: &ScaledCurve, what: &str, at: At<'_>) {
-        let Some((curve, _)) = self.curve_of(force) else {
-            return;
+        let points = belt
+            .points()
+            .map(|point| place(point, &frames, &resolver.vehicles, &resolver.defaults));
+        let points: Vec<_> = points.collect();
+        let apart: f64 = points
+            .windows(2)
+            .map(|ends| distance(ends[0], ends[1]))
+            .sum();
+        let slack = match &belt.length {
+            BeltLength::Given(_) => continue,
+            BeltLength::Slack(slack) => slack.value(&resolver.defaults),
+            BeltLength::Pretension(_) => 0.0,
         };
-        let signs = curve.points.windows(2).map(|pair| pair[1][1] - pair[0][1]);
-        let signs: Vec<f64> = signs.collect();
-        let all = |sign: f64| signs.iter().all(|step| step * sign > 0.0);
-        if curve.points[0] != [0.0, 0.0] || !(all(1.0) || all(-1.0)) {
-            self.problems.add(at.problem(
-                format!("with a {what}, the force curve must rise strictly from (0, 0), or the length is not determined"),
-                match what {
-                    "pretension" => "begin the curve with [0, 0] and let every ordinate be larger than the one before, or give `length`",
-                    _ => "begin the curve with [0, 0] and let every ordinate be larger than the one before",
-                },
+        if apart + slack < SHORTEST
+            && let Some(at) = belt_place(loaded, &force.name)
+        {
+            resolver.problems.add(at.problem(
+                must_have_length(&force.name),
+                "move one end, or give `length` or `slack`",
             ));
-        }
-    }
-
-    /// How what carries the root of a system is turned at the start.
-    fn reference_rotation(&self, system: &System) -> Matrix {
-        match &system.reference {
-            Reference::Riding { vehicle, .. } => {
-                vehicle_start(&self.vehicles[*vehicle], &self.defaults).0
-            }
-            _ => IDENTITY,
-        }
-    }
-
-    /// Reports belts whose ends coincide at the start, so that their untensioned length is nothing.
-    pub fn check_belts(&self, loaded: &Loaded) {
-        let frames: Vec<_> = self
-            .systems
-            .iter()
-            .map(|s| start(s, self.reference_rotation(s), &self.defaults))
-            .collect();
-        for force in &self.forces {
-            let ForceKind::Belt(belt) = &force.kind else {
-                continue;
-            };
-            let points = belt
-                .points()
-                .map(|point| place(point, &frames, &self.vehicles, &self.defaults));
-            let points: Vec<_> = points.collect();
-            let apart: f64 = points
-                .windows(2)
-                .map(|ends| distance(ends[0], ends[1]))
-                .sum();
-            let slack = match &belt.length {
-                BeltLength::Given(_) => continue,
-                BeltLength::Slack(slack) => slack.value(&self.defaults),
-                BeltLength::Pretension(_) => 0.0,
-            };
-            if apart + slack < SHORTEST
-                && let Some(at) = belt_place(loaded, &force.name)
-            {
-                self.problems.add(at.problem(
-                    must_have_length(&force.name),
-                    "move one end, or give `length` or `slack`",
-                ));
-            }
         }
     }
 }

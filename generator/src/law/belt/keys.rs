@@ -118,7 +118,7 @@ impl Keys for Belt {
     }
 
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        resolver.belt(self, at)
+        super::check::belt(resolver, self, at).map(ForceKind::from)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

@@ -1,6 +1,7 @@
 //! Contacts of an ellipsoid with a plane or another ellipsoid.
 
 use super::keys::{Contact as Written, Ellipsoid as WrittenEllipsoid};
+use super::plane::plane;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::short::Surface;
@@ -10,7 +11,7 @@ use crate::model::resolve::quantity::{
     ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS,
 };
 use crate::model::resolve::{NOWHERE, Resolver, name::Style};
-use crate::model::{Attachment, Bristle, ForceKind, Friction, Hysteresis, Number, ScaledCurve};
+use crate::model::{Attachment, Bristle, Friction, Hysteresis, Number, ScaledCurve};
 
 /// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
 const FRICTION_SPEED: f64 = 0.01;
@@ -125,203 +126,237 @@ pub enum EdgeRule {
     Fade(Number),
 }
 
-impl Resolver<'_> {
-    /// Resolves a contact.
-    pub fn contact(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
-        let round = at.key("ellipsoid");
-        let ellipsoid = self.ellipsoid(&written.ellipsoid, round);
-        let degree = self.degree(written.ellipsoid.degree.as_ref(), round.key("degree"));
-        let (against, other) = match (&written.plane, &written.with) {
-            (Some(plane), None) => {
-                let place = at.key("plane");
-                (self.plane(plane, place).map(Against::Plane), place)
-            }
-            (None, Some(with)) => {
-                let place = at.key("with");
-                let second = self.degree(with.degree.as_ref(), place.key("degree"));
-                for (degree, place) in [(degree, round), (second, place)] {
-                    if degree > 2 {
-                        self.problems.add(place.key("degree").problem(
-                            "ellipsoids of higher degree meet planes only",
-                            "leave `degree` out, or write `plane` instead of `with`",
-                        ));
-                    }
+/// The checked form of a contact.
+pub(crate) fn contact(
+    resolver: &mut Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+) -> Option<Contact> {
+    let round = at.key("ellipsoid");
+    let ellipsoid = ellipsoid(resolver, &written.ellipsoid, round);
+    let degree = degree(
+        resolver,
+        written.ellipsoid.degree.as_ref(),
+        round.key("degree"),
+    );
+    let (against, other) = against(resolver, written, degree, at);
+    if let (Some(first), Some(second)) = (&ellipsoid, &against) {
+        check_bodies(resolver, &written.contact, first, second, other);
+    }
+    let elastic = resolver.elastic(
+        ("elastic", written.elastic.as_ref()),
+        written.stiffness.as_ref(),
+        at,
+        &format!("contact {} elastic", written.contact),
+        [LENGTH, FORCE, STIFFNESS],
+    );
+    let hysteresis = resolver.hysteresis(
+        elastic.as_ref(),
+        Unloading {
+            curve: written.unloading.as_ref(),
+            slope: written.unloading_slope.as_ref(),
+            loading: (
+                "elastic",
+                written.elastic.is_some() || written.stiffness.is_some(),
+            ),
+            at,
+            owner: format!("contact {} unloading", written.contact),
+            expected: [LENGTH, FORCE, STIFFNESS],
+        },
+    );
+    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+    let damping_depth = resolver.fade(
+        (written.damping.as_ref(), damping.is_some()),
+        (written.damping_depth.as_ref(), at.key("damping_depth")),
+        (LENGTH, DAMPING_DEPTH),
+    );
+    let limit = written.friction.as_ref();
+    let friction = resolver.friction(
+        limit,
+        written.friction_speed.as_ref(),
+        at,
+        (FRICTION, SPEED, FRICTION_SPEED),
+    );
+    let displacement = written.friction_displacement.as_ref();
+    let bristle = resolver.bristle((limit, friction.is_some()), displacement, at, LENGTH);
+    check_fading_edge(
+        resolver,
+        against.as_ref(),
+        hysteresis.as_ref(),
+        degree,
+        at.key("plane").key("extent"),
+    );
+    let Ellipsoid {
+        center,
+        semi_axes,
+        axes,
+    } = ellipsoid?;
+    Some(Contact {
+        ellipsoid: center,
+        semi_axes,
+        axes,
+        degree,
+        against: against?,
+        elastic,
+        hysteresis,
+        damping,
+        damping_depth,
+        friction,
+        bristle,
+    })
+}
+
+/// What an ellipsoid of this degree meets, and where that is written.
+fn against<'w>(
+    resolver: &Resolver<'_>,
+    written: &Written,
+    of_first: u32,
+    at: At<'w>,
+) -> (Option<Against>, At<'w>) {
+    match (&written.plane, &written.with) {
+        (Some(written), None) => {
+            let place = at.key("plane");
+            (plane(resolver, written, place).map(Against::Plane), place)
+        }
+        (None, Some(with)) => {
+            let place = at.key("with");
+            let of_second = degree(resolver, with.degree.as_ref(), place.key("degree"));
+            for (degree, place) in [(of_first, at.key("ellipsoid")), (of_second, place)] {
+                if degree > 2 {
+                    resolver.problems.add(place.key("degree").problem(
+                        "ellipsoids of higher degree meet planes only",
+                        "leave `degree` out, or write `plane` instead of `with`",
+                    ));
                 }
-                (self.ellipsoid(with, place).map(Against::Ellipsoid), place)
             }
-            (Some(_), Some(_)) => {
-                self.problems.add(at.key("with").key_problem(
-                    "the contact is with a plane and with an ellipsoid",
-                    "write two contacts, one with `plane` and one with `with`",
-                ));
-                (None, at)
-            }
-            (None, None) => {
-                self.problems.add(at.key("contact").problem(
-                    format!(
-                        "the ellipsoid of contact {} meets nothing",
-                        quoted(&written.contact)
-                    ),
-                    "add `plane: …`, or `with: …` for another ellipsoid",
-                ));
-                (None, at)
-            }
-        };
-        if let (Some(a), Some(b)) = (&ellipsoid, &against)
-            && a.center.on == b.place().on
-        {
-            let both = match b {
-                Against::Plane(_) => "the ellipsoid and the plane",
-                Against::Ellipsoid(_) => "both ellipsoids",
-            };
-            self.problems.add(other.key("on").problem(
+            let second = ellipsoid(resolver, with, place);
+            (second.map(Against::Ellipsoid), place)
+        }
+        (Some(_), Some(_)) => {
+            resolver.problems.add(at.key("with").key_problem(
+                "the contact is with a plane and with an ellipsoid",
+                "write two contacts, one with `plane` and one with `with`",
+            ));
+            (None, at)
+        }
+        (None, None) => {
+            resolver.problems.add(at.key("contact").problem(
                 format!(
-                    "{both} of contact {} are on the same body",
+                    "the ellipsoid of contact {} meets nothing",
                     quoted(&written.contact)
                 ),
-                "put them on two bodies; `frame` is the absolute frame",
+                "add `plane: …`, or `with: …` for another ellipsoid",
             ));
+            (None, at)
         }
-        let owner = format!("contact {} elastic", written.contact);
-        let elastic = self.elastic(
-            ("elastic", written.elastic.as_ref()),
-            written.stiffness.as_ref(),
-            at,
-            &owner,
-            [LENGTH, FORCE, STIFFNESS],
-        );
-        let hysteresis = self.hysteresis(
-            elastic.as_ref(),
-            Unloading {
-                curve: written.unloading.as_ref(),
-                slope: written.unloading_slope.as_ref(),
-                loading: (
-                    "elastic",
-                    written.elastic.is_some() || written.stiffness.is_some(),
-                ),
-                at,
-                owner: format!("contact {} unloading", written.contact),
-                expected: [LENGTH, FORCE, STIFFNESS],
-            },
-        );
-        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
-        let damping_depth = self.fade(
-            (written.damping.as_ref(), damping.is_some()),
-            (written.damping_depth.as_ref(), at.key("damping_depth")),
-            (LENGTH, DAMPING_DEPTH),
-        );
-        let friction = self.friction(
-            written.friction.as_ref(),
-            written.friction_speed.as_ref(),
-            at,
-            (FRICTION, SPEED, FRICTION_SPEED),
-        );
-        let displacement_at = at.key("friction_displacement");
-        if written.friction_displacement.is_some() && written.friction.is_none() {
-            self.problems.add(displacement_at.key_problem(
-                "a friction displacement means nothing without friction",
-                "add `friction: …`, or remove `friction_displacement`",
-            ));
-        }
-        let displacement = written.friction_displacement.as_ref();
-        let bristle = self
-            .coefficient(displacement, displacement_at, LENGTH)
-            .filter(|_| friction.is_some())
-            .map(|displacement| Bristle { displacement });
-        if let Some(extent) = against
-            .as_ref()
-            .and_then(Against::plane)
-            .and_then(|plane| plane.extent.as_ref())
-            && matches!(extent.rule, EdgeRule::Fade(_))
-        {
-            let place = at.key("plane").key("extent");
-            if hysteresis
-                .as_ref()
-                .is_some_and(|law| law.unloading.is_some())
-            {
-                self.problems.add(place.key_problem(
-                    "an edge that fades must know the energy that unloading gives back, which of a curve `unloading` it does not",
-                    "write `edge: { rule: cut }`, or `unloading_slope` alone",
-                ));
-            }
-            if degree > 2 {
-                self.problems.add(place.key_problem(
-                    "the deepest point of an ellipsoid of higher degree leaps from corner to corner, and an edge cannot fade under it",
-                    "write `edge: { rule: cut }`, or leave `degree` out",
-                ));
-            }
-        }
-        let Ellipsoid {
-            center,
-            semi_axes,
-            axes,
-        } = ellipsoid?;
-        Some(ForceKind::Contact(Box::new(Contact {
-            ellipsoid: center,
-            semi_axes,
-            axes,
-            degree,
-            against: against?,
-            elastic,
-            hysteresis,
-            damping,
-            damping_depth,
-            friction,
-            bristle,
-        })))
     }
+}
 
-    /// Judges a named surface, also where no contact names it.
-    pub fn surface(&self, name: &str, written: &Surface, at: At<'_>) {
-        self.check_name(name, "a surface", Style::Either, at.on_key());
-        match written {
-            Surface::Ellipsoid(ellipsoid) => {
-                self.ellipsoid(ellipsoid, at);
-                self.degree(ellipsoid.degree.as_ref(), at.key("degree"));
-            }
-            Surface::Plane(plane) => {
-                self.plane(plane, at);
-            }
+/// Reports a contact of two things on the same body; the second is at `place`.
+fn check_bodies(
+    resolver: &Resolver<'_>,
+    name: &str,
+    first: &Ellipsoid,
+    second: &Against,
+    place: At<'_>,
+) {
+    if first.center.on != second.place().on {
+        return;
+    }
+    let both = match second {
+        Against::Plane(_) => "the ellipsoid and the plane",
+        Against::Ellipsoid(_) => "both ellipsoids",
+    };
+    resolver.problems.add(place.key("on").problem(
+        format!("{both} of contact {} are on the same body", quoted(name)),
+        "put them on two bodies; `frame` is the absolute frame",
+    ));
+}
+
+/// Reports an edge that fades where the force has no energy as a function of the penetration, or leaps.
+fn check_fading_edge(
+    resolver: &Resolver<'_>,
+    against: Option<&Against>,
+    hysteresis: Option<&Hysteresis>,
+    degree: u32,
+    place: At<'_>,
+) {
+    let extent = against
+        .and_then(Against::plane)
+        .and_then(|plane| plane.extent.as_ref());
+    if !extent.is_some_and(|extent| matches!(extent.rule, EdgeRule::Fade(_))) {
+        return;
+    }
+    if hysteresis.is_some_and(|law| law.unloading.is_some()) {
+        resolver.problems.add(place.key_problem(
+            "an edge that fades must know the energy that unloading gives back, which of a curve `unloading` it does not",
+            "write `edge: { rule: cut }`, or `unloading_slope` alone",
+        ));
+    }
+    if degree > 2 {
+        resolver.problems.add(place.key_problem(
+            "the deepest point of an ellipsoid of higher degree leaps from corner to corner, and an edge cannot fade under it",
+            "write `edge: { rule: cut }`, or leave `degree` out",
+        ));
+    }
+}
+
+/// Judges a named surface, also where no contact names it.
+pub(crate) fn surface(resolver: &Resolver<'_>, name: &str, written: &Surface, at: At<'_>) {
+    resolver.check_name(name, "a surface", Style::Either, at.on_key());
+    match written {
+        Surface::Ellipsoid(written) => {
+            ellipsoid(resolver, written, at);
+            degree(resolver, written.degree.as_ref(), at.key("degree"));
+        }
+        Surface::Plane(written) => {
+            plane(resolver, written, at);
         }
     }
+}
 
-    /// An ellipsoid; the degree is for the caller.
-    pub(crate) fn ellipsoid(&self, written: &WrittenEllipsoid, at: At<'_>) -> Option<Ellipsoid> {
-        let center = Attachment {
-            on: self.body(&written.on, at.key("on"))?,
-            at: self.vector(&written.center, at.key("center"), LENGTH),
-        };
-        let semi_axes = self.vector(&written.semi_axes, at.key("semi_axes"), LENGTH);
-        let axes = match &written.axes {
-            Some(axes) => self.rotation(axes, at.key("axes"), ANGLE),
-            None => NOWHERE,
-        };
-        Some(Ellipsoid {
-            center,
-            semi_axes,
-            axes,
-        })
-    }
+/// An ellipsoid; the degree is for the caller.
+pub(crate) fn ellipsoid(
+    resolver: &Resolver<'_>,
+    written: &WrittenEllipsoid,
+    at: At<'_>,
+) -> Option<Ellipsoid> {
+    let center = Attachment {
+        on: resolver.body(&written.on, at.key("on"))?,
+        at: resolver.vector(&written.center, at.key("center"), LENGTH),
+    };
+    let semi_axes = resolver.vector(&written.semi_axes, at.key("semi_axes"), LENGTH);
+    let axes = match &written.axes {
+        Some(axes) => resolver.rotation(axes, at.key("axes"), ANGLE),
+        None => NOWHERE,
+    };
+    Some(Ellipsoid {
+        center,
+        semi_axes,
+        axes,
+    })
+}
 
-    /// The degree of an ellipsoid, 2 where none is given.
-    fn degree(&self, written: Option<&Quantity>, at: At<'_>) -> u32 {
-        let Some(quantity) = written else { return 2 };
-        let (number, value) = self.valued(quantity, at, PURE);
-        let Some(value) = value else { return 2 };
-        let even = value % 2.0 == 0.0 && (2.0..=MAX_DEGREE).contains(&value);
-        if number.constant().is_none() {
-            self.problems.add(at.problem(
-                "the degree depends on a parameter",
-                "give a number: it decides which code is generated",
-            ));
-        } else if !even {
-            self.problems.add(at.problem(
-                format!("the degree of an ellipsoid is {value}"),
-                format!("give an even number from 2, the ellipsoid itself, to {MAX_DEGREE}, nearly a box"),
-            ));
-        } else {
-            return value as u32;
-        }
-        2
+/// The degree of an ellipsoid, 2 where none is given.
+fn degree(resolver: &Resolver<'_>, written: Option<&Quantity>, at: At<'_>) -> u32 {
+    let Some(quantity) = written else { return 2 };
+    let (number, value) = resolver.valued(quantity, at, PURE);
+    let Some(value) = value else { return 2 };
+    let even = value % 2.0 == 0.0 && (2.0..=MAX_DEGREE).contains(&value);
+    if number.constant().is_none() {
+        resolver.problems.add(at.problem(
+            "the degree depends on a parameter",
+            "give a number: it decides which code is generated",
+        ));
+    } else if !even {
+        resolver.problems.add(at.problem(
+            format!("the degree of an ellipsoid is {value}"),
+            format!(
+                "give an even number from 2, the ellipsoid itself, to {MAX_DEGREE}, nearly a box"
+            ),
+        ));
+    } else {
+        return value as u32;
     }
+    2
 }

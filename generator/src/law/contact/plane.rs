@@ -10,148 +10,151 @@ use crate::model::{Attachment, EdgeRule, Extent, Number, Plane};
 /// Width over which a force fades at an edge, where none is given \[m\].
 const EDGE_WIDTH: f64 = 10e-3;
 
-impl Resolver<'_> {
-    /// Resolves a plane.
-    pub fn plane(&self, written: &Written, at: At<'_>) -> Option<Plane> {
-        let on = self.body(&written.on, at.key("on"));
-        let point = self.vector(&written.at, at.key("at"), LENGTH);
-        let normal = self.normal(written, at.key("normal"));
-        let tangent = self.tangent(&normal, written, at);
-        let extent = self.extent(written, at);
-        Some(Plane {
-            at: Attachment { on: on?, at: point },
-            normal,
-            tangent,
-            extent,
-        })
-    }
+/// The checked form of a plane.
+pub(crate) fn plane(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Plane> {
+    let on = resolver.body(&written.on, at.key("on"));
+    let point = resolver.vector(&written.at, at.key("at"), LENGTH);
+    let normal = normal(resolver, written, at.key("normal"));
+    let tangent = tangent(resolver, &normal, written, at);
+    let extent = extent(resolver, written, at);
+    Some(Plane {
+        at: Attachment { on: on?, at: point },
+        normal,
+        tangent,
+        extent,
+    })
+}
 
-    /// The normal at unit length. Its components may be lengths or pure numbers, all that matters is their ratio.
-    fn normal(&self, plane: &Written, at: At<'_>) -> [Number; 3] {
-        let before = self.problems.count();
-        let vector = self.vector(&plane.normal, at, PURE);
-        match self.problems.count() > before {
-            true => vector,
-            false => self.unit(vector),
-        }
+/// The normal at unit length. Its components may be lengths or pure numbers, all that matters is their ratio.
+fn normal(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> [Number; 3] {
+    let before = resolver.problems.count();
+    let vector = resolver.vector(&plane.normal, at, PURE);
+    match resolver.problems.count() > before {
+        true => vector,
+        false => unit(resolver, vector),
     }
+}
 
-    /// A vector at unit length. Its components are neither so large nor so small that their squares overflow or lose their digits.
-    pub fn unit(&self, vector: [Number; 3]) -> [Number; 3] {
-        let length = if vector.iter().all(|n| n.constant().is_some()) {
-            let squares = vector.iter().map(|n| n.value(&self.defaults).powi(2));
-            Number::Constant(squares.sum::<f64>().sqrt())
-        } else {
-            let squares = vector.iter().map(|n| Number::product(n.clone(), n.clone()));
-            Number::square_root(squares.fold(Number::ZERO, Number::sum))
-        };
-        vector.map(|n| Number::quotient(n, length.clone()))
-    }
+/// A vector at unit length. Its components are neither so large nor so small that their squares overflow or lose their digits.
+pub(crate) fn unit(resolver: &Resolver<'_>, vector: [Number; 3]) -> [Number; 3] {
+    let length = if vector.iter().all(|n| n.constant().is_some()) {
+        let squares = vector.iter().map(|n| n.value(&resolver.defaults).powi(2));
+        Number::Constant(squares.sum::<f64>().sqrt())
+    } else {
+        let squares = vector.iter().map(|n| Number::product(n.clone(), n.clone()));
+        Number::square_root(squares.fold(Number::ZERO, Number::sum))
+    };
+    vector.map(|n| Number::quotient(n, length.clone()))
+}
 
-    /// In space, the direction `along`, or the one in the plane that is nearest to an axis.
-    fn tangent(&self, normal: &[Number; 3], plane: &Written, at: At<'_>) -> [Number; 3] {
-        let place = at.key("along");
-        if self.planar {
-            if plane.along.is_some() {
-                self.problems.add(place.key_problem(
-                    "in the plane x–z a contact plane is a line and has one direction",
-                    "remove `along`",
-                ));
-            }
-            return NOWHERE;
-        }
-        let before = self.problems.count();
-        let along = match &plane.along {
-            Some(along) => self.vector(along, place, PURE),
-            None => {
-                let size = |axis: &usize| normal[*axis].value(&self.defaults).abs();
-                let across = (0..3).min_by(|a, b| size(a).total_cmp(&size(b)));
-                let mut axis = NOWHERE;
-                axis[across.unwrap_or_default()] = Number::Constant(1.0);
-                axis
-            }
-        };
-        if self.problems.count() > before {
-            return NOWHERE;
-        }
-        // a − (a·n) n
-        let products = (0..3).map(|i| Number::product(along[i].clone(), normal[i].clone()));
-        let part = products.fold(Number::ZERO, Number::sum);
-        let tangent: [Number; 3] = std::array::from_fn(|i| {
-            let normal = Number::product(part.clone(), normal[i].clone());
-            Number::difference(along[i].clone(), normal)
-        });
+/// In space, the direction `along`, or the one in the plane that is nearest to an axis.
+fn tangent(
+    resolver: &Resolver<'_>,
+    normal: &[Number; 3],
+    plane: &Written,
+    at: At<'_>,
+) -> [Number; 3] {
+    let place = at.key("along");
+    if resolver.planar {
         if plane.along.is_some() {
-            return self.unit(tangent);
+            resolver.problems.add(place.key_problem(
+                "in the plane x–z a contact plane is a line and has one direction",
+                "remove `along`",
+            ));
         }
-        // of a normal without a direction there is none along the plane
-        let squares = tangent.iter().map(|n| n.value(&self.defaults).powi(2));
-        match squares.sum::<f64>() > 0.0 {
-            true => self.unit(tangent),
-            false => NOWHERE,
-        }
+        return NOWHERE;
     }
+    let before = resolver.problems.count();
+    let along = match &plane.along {
+        Some(along) => resolver.vector(along, place, PURE),
+        None => {
+            let size = |axis: &usize| normal[*axis].value(&resolver.defaults).abs();
+            let across = (0..3).min_by(|a, b| size(a).total_cmp(&size(b)));
+            let mut axis = NOWHERE;
+            axis[across.unwrap_or_default()] = Number::Constant(1.0);
+            axis
+        }
+    };
+    if resolver.problems.count() > before {
+        return NOWHERE;
+    }
+    // a − (a·n) n
+    let products = (0..3).map(|i| Number::product(along[i].clone(), normal[i].clone()));
+    let part = products.fold(Number::ZERO, Number::sum);
+    let tangent: [Number; 3] = std::array::from_fn(|i| {
+        let normal = Number::product(part.clone(), normal[i].clone());
+        Number::difference(along[i].clone(), normal)
+    });
+    if plane.along.is_some() {
+        return unit(resolver, tangent);
+    }
+    // of a normal without a direction there is none along the plane
+    let squares = tangent.iter().map(|n| n.value(&resolver.defaults).powi(2));
+    match squares.sum::<f64>() > 0.0 {
+        true => unit(resolver, tangent),
+        false => NOWHERE,
+    }
+}
 
-    /// Where a plane ends.
-    fn extent(&self, plane: &Written, at: At<'_>) -> Option<Extent> {
-        let (extent_at, edge_at) = (at.key("extent"), at.key("edge"));
-        let Some(written) = &plane.extent else {
-            if plane.edge.is_some() {
-                self.problems.add(edge_at.key_problem(
-                    "a plane without `extent` has no edge",
-                    "add `extent: …`, half the length of the plane, or remove `edge`",
-                ));
-            }
-            return None;
-        };
-        let right = if self.planar { 1 } else { 2 };
-        let lengths: Vec<(&Quantity, At<'_>)> = match written {
-            OneOrThree::One(one) => vec![(one, extent_at)],
-            OneOrThree::List(list) => list
-                .iter()
-                .enumerate()
-                .map(|(i, length)| (length, extent_at.item(i)))
-                .collect(),
-        };
-        if lengths.len() != right || (self.planar && matches!(written, OneOrThree::List(_))) {
-            self.problems.add(if self.planar {
-                extent_at.problem(
-                    "in the plane x–z a contact plane is a line with one length",
-                    "give half of it, without brackets",
-                )
-            } else {
-                extent_at.problem(
-                    "a plane in space has two lengths",
-                    "write `[a, b]`: half its length along the first tangent and along the second",
-                )
-            });
-            return None;
+/// Where a plane ends.
+fn extent(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> Option<Extent> {
+    let (extent_at, edge_at) = (at.key("extent"), at.key("edge"));
+    let Some(written) = &plane.extent else {
+        if plane.edge.is_some() {
+            resolver.problems.add(edge_at.key_problem(
+                "a plane without `extent` has no edge",
+                "add `extent: …`, half the length of the plane, or remove `edge`",
+            ));
         }
-        let before = self.problems.count();
-        let half_lengths: Vec<Number> = lengths
-            .into_iter()
-            .map(|(length, place)| self.number(length, place, LENGTH))
-            .collect();
-        let (rule, width) = match &plane.edge {
-            Some(edge) => (edge.rule, edge.width.as_ref()),
-            None => (None, None),
-        };
-        let width_at = edge_at.key("width");
-        let rule = match (rule, width) {
-            (Some(WrittenRule::Cut), Some(_)) => {
-                self.problems.add(width_at.key_problem(
-                    "an edge that cuts has no width",
-                    "remove `width`, or write `rule: fade`",
-                ));
-                EdgeRule::Cut
-            }
-            (Some(WrittenRule::Cut), None) => EdgeRule::Cut,
-            (_, None) => {
-                let narrow = |width, half: &Number| Number::smaller(width, half.clone());
-                EdgeRule::Fade(half_lengths.iter().fold(EDGE_WIDTH.into(), narrow))
-            }
-            (_, Some(width)) => EdgeRule::Fade(self.number(width, width_at, LENGTH)),
-        };
-        (self.problems.count() == before).then_some(Extent { half_lengths, rule })
+        return None;
+    };
+    let right = if resolver.planar { 1 } else { 2 };
+    let lengths: Vec<(&Quantity, At<'_>)> = match written {
+        OneOrThree::One(one) => vec![(one, extent_at)],
+        OneOrThree::List(list) => list
+            .iter()
+            .enumerate()
+            .map(|(i, length)| (length, extent_at.item(i)))
+            .collect(),
+    };
+    if lengths.len() != right || (resolver.planar && matches!(written, OneOrThree::List(_))) {
+        resolver.problems.add(if resolver.planar {
+            extent_at.problem(
+                "in the plane x–z a contact plane is a line with one length",
+                "give half of it, without brackets",
+            )
+        } else {
+            extent_at.problem(
+                "a plane in space has two lengths",
+                "write `[a, b]`: half its length along the first tangent and along the second",
+            )
+        });
+        return None;
     }
+    let before = resolver.problems.count();
+    let half_lengths: Vec<Number> = lengths
+        .into_iter()
+        .map(|(length, place)| resolver.number(length, place, LENGTH))
+        .collect();
+    let (rule, width) = match &plane.edge {
+        Some(edge) => (edge.rule, edge.width.as_ref()),
+        None => (None, None),
+    };
+    let width_at = edge_at.key("width");
+    let rule = match (rule, width) {
+        (Some(WrittenRule::Cut), Some(_)) => {
+            resolver.problems.add(width_at.key_problem(
+                "an edge that cuts has no width",
+                "remove `width`, or write `rule: fade`",
+            ));
+            EdgeRule::Cut
+        }
+        (Some(WrittenRule::Cut), None) => EdgeRule::Cut,
+        (_, None) => {
+            let narrow = |width, half: &Number| Number::smaller(width, half.clone());
+            EdgeRule::Fade(half_lengths.iter().fold(EDGE_WIDTH.into(), narrow))
+        }
+        (_, Some(width)) => EdgeRule::Fade(resolver.number(width, width_at, LENGTH)),
+    };
+    (resolver.problems.count() == before).then_some(Extent { half_lengths, rule })
 }

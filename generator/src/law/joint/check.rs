@@ -253,368 +253,398 @@ pub struct Bending {
     pub torsion: JointTorque,
 }
 
-impl Resolver<'_> {
-    /// Resolves a joint force.
-    pub fn joint(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
-        let child = self.element_id(&written.joint, at.key("joint"));
-        let owner = format!("joint {} elastic", written.path());
-        if let Some(id) = child
-            && let joint @ KinematicJoint::Freedoms(_) = self.joint_at(id)
-        {
-            return self.law_of_freedom(written, id, joint.freedoms(), at);
-        }
-        if written.freedom.is_some() && child.is_some() {
-            self.problems.add(at.key("freedom").key_problem(
-                format!("{} is on a ball joint, which has no freedoms of its own", quoted(&written.joint)),
-                match self.planar {
-                    true => "remove the key",
-                    false => "write `about: { x: … }` with one of x, y, z, or give the element a `joint:`",
-                },
+/// The checked form of a joint force: a law of relative rotations, or of one freedom.
+pub(crate) fn joint(
+    resolver: &mut Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+) -> Option<ForceKind> {
+    let child = resolver.element_id(&written.joint, at.key("joint"));
+    let owner = format!("joint {} elastic", written.path());
+    if let Some(id) = child
+        && let joint @ KinematicJoint::Freedoms(_) = joint_at(resolver, id)
+    {
+        let law = law_of_freedom(resolver, written, id, joint.freedoms(), at);
+        return law.map(ForceKind::from);
+    }
+    if written.freedom.is_some() && child.is_some() {
+        resolver.problems.add(at.key("freedom").key_problem(
+            format!(
+                "{} is on a ball joint, which has no freedoms of its own",
+                quoted(&written.joint)
+            ),
+            match resolver.planar {
+                true => "remove the key",
+                false => {
+                    "write `about: { x: … }` with one of x, y, z, or give the element a `joint:`"
+                }
+            },
+        ));
+    }
+    let (about, bending) = match resolver.planar {
+        true => (in_plane(resolver, written, at, &owner), None),
+        false => (
+            about_axes(resolver, written, at, &owner),
+            bending(resolver, written, at, &owner),
+        ),
+    };
+    Some(ForceKind::from(Joint {
+        child: child?,
+        about,
+        bending: bending.map(Box::new),
+    }))
+}
+
+/// In the plane: the law of the one rotation, which is about y.
+fn in_plane(
+    resolver: &mut Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+    owner: &str,
+) -> [JointTorque; 3] {
+    for key in of_several_rotations(written) {
+        resolver.problems.add(at.key(key).key_problem(
+            "in the plane a joint has one rotation",
+            format!("write `elastic`, `damping`, … directly, without `{key}`"),
+        ));
+    }
+    let mut about: [JointTorque; 3] = Default::default();
+    about[1] = torque(resolver, Law::of_joint(written, at, OF_ANGLE), owner);
+    about
+}
+
+/// In space: the laws about the Bryant angles.
+fn about_axes(
+    resolver: &mut Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+    owner: &str,
+) -> [JointTorque; 3] {
+    for key in OF_ONE_ROTATION {
+        if at.node.get(key).is_some() {
+            resolver.problems.add(at.key(key).key_problem(
+                format!("in space a joint has three rotations, and \"{key}\" does not say which"),
+                format!("write `about: {{ y: {{ {key}: … }} }}` with one of x, y, z"),
             ));
         }
-        let mut about: [JointTorque; 3] = Default::default();
-        let mut bending = None;
-        if self.planar {
-            for (key, is_there) in [
-                ("about", written.about.is_some()),
-                ("axis", written.axis.is_some()),
-                ("flexion", written.flexion.is_some()),
-                ("torsion", written.torsion.is_some()),
-            ] {
-                if is_there {
-                    self.problems.add(at.key(key).key_problem(
-                        "in the plane a joint has one rotation",
-                        format!("write `elastic`, `damping`, … directly, without `{key}`"),
-                    ));
-                }
+    }
+    let mut about: [JointTorque; 3] = Default::default();
+    if let Some(a) = &written.about {
+        let axes = [(&a.x, "x"), (&a.y, "y"), (&a.z, "z")];
+        for (law, (written, axis)) in about.iter_mut().zip(axes) {
+            if let Some(written) = written {
+                let written = Law::of(written, at.key("about").key(axis));
+                *law = torque(resolver, written, &format!("{owner} {axis}"));
             }
-            about[1] = self.torque(Law::of_joint(written, at, OF_ANGLE), &owner);
-        } else {
-            for key in OF_ONE_ROTATION {
-                if at.node.get(key).is_some() {
-                    self.problems.add(at.key(key).key_problem(
-                        format!(
-                            "in space a joint has three rotations, and \"{key}\" does not say which"
-                        ),
-                        format!("write `about: {{ y: {{ {key}: … }} }}` with one of x, y, z"),
-                    ));
-                }
-            }
-            if let Some(a) = &written.about {
-                let axes = [(&a.x, "x"), (&a.y, "y"), (&a.z, "z")];
-                for (index, (torque, axis)) in axes.into_iter().enumerate() {
-                    if let Some(t) = torque {
-                        let law = Law::of(t, at.key("about").key(axis));
-                        about[index] = self.torque(law, &format!("{owner} {axis}"));
-                    }
-                }
-            }
-            bending = self.bending(written, at, &owner);
         }
-        Some(ForceKind::from(Joint {
-            child: child?,
-            about,
-            bending: bending.map(Box::new),
-        }))
     }
+    about
+}
 
-    /// The joint of an element.
-    fn joint_at(&self, id: ElementId) -> KinematicJoint {
-        self.systems[id.system].elements[id.element].joint.clone()
+/// The keys of a ball joint in space that are written.
+fn of_several_rotations(written: &Written) -> impl Iterator<Item = &'static str> {
+    [
+        ("about", written.about.is_some()),
+        ("axis", written.axis.is_some()),
+        ("flexion", written.flexion.is_some()),
+        ("torsion", written.torsion.is_some()),
+    ]
+    .into_iter()
+    .filter_map(|(key, is_there)| is_there.then_some(key))
+}
+
+/// The joint of an element.
+fn joint_at(resolver: &Resolver<'_>, id: ElementId) -> KinematicJoint {
+    resolver.systems[id.system].elements[id.element]
+        .joint
+        .clone()
+}
+
+/// The law of one freedom of a joint.
+fn law_of_freedom(
+    resolver: &mut Resolver<'_>,
+    written: &Written,
+    child: ElementId,
+    freedoms: &[KinematicFreedom],
+    at: At<'_>,
+) -> Option<Freedom> {
+    for key in of_several_rotations(written) {
+        resolver.problems.add(at.key(key).key_problem(
+            format!(
+                "the joint of {} is no ball: its laws are of its own coordinates",
+                quoted(&written.joint)
+            ),
+            format!("write `elastic`, `damping`, … directly, without `{key}`"),
+        ));
     }
+    let name = written.freedom.as_deref();
+    let freedom = freedom_named(resolver, name, &written.joint, freedoms, at)?;
+    let measures = match freedoms[freedom].kind.turns() {
+        true => OF_ANGLE,
+        false => OF_LENGTH,
+    };
+    let owner = format!("joint {} elastic", written.path());
+    let law = torque(resolver, Law::of_joint(written, at, measures), &owner);
+    Some(Freedom {
+        child,
+        freedom,
+        law: Box::new(law),
+    })
+}
 
-    /// The law of one freedom of a joint.
-    fn law_of_freedom(
-        &mut self,
-        written: &Written,
-        child: ElementId,
-        freedoms: &[KinematicFreedom],
-        at: At<'_>,
-    ) -> Option<ForceKind> {
-        for (key, is_there) in [
-            ("about", written.about.is_some()),
-            ("axis", written.axis.is_some()),
-            ("flexion", written.flexion.is_some()),
-            ("torsion", written.torsion.is_some()),
-        ] {
-            if is_there {
-                self.problems.add(at.key(key).key_problem(
+/// Which freedom of a joint is meant.
+pub(crate) fn freedom_named(
+    resolver: &Resolver<'_>,
+    name: Option<&str>,
+    path: &str,
+    freedoms: &[KinematicFreedom],
+    at: At<'_>,
+) -> Option<usize> {
+    let names = || freedoms.iter().map(|f| f.name.as_str());
+    let all = names()
+        .map(|n| format!("`{n}`"))
+        .collect::<Vec<_>>()
+        .join(", ");
+    match (name, freedoms) {
+        (_, []) => {
+            resolver.problems.add(at.problem(
+                format!("{} is welded: its joint has no freedom", quoted(path)),
+                "remove this, or give the element another `joint:`",
+            ));
+            None
+        }
+        (None, [_]) => Some(0),
+        (None, _) => {
+            resolver.problems.add(at.problem(
+                format!(
+                    "the joint of {} has several freedoms, and it is not said which is meant",
+                    quoted(path)
+                ),
+                format!("add `freedom:` with one of {all}"),
+            ));
+            None
+        }
+        (Some(name), _) => {
+            let found = freedoms.iter().position(|f| f.name == name);
+            if found.is_none() {
+                resolver.problems.add(at.key("freedom").problem(
                     format!(
-                        "the joint of {} is no ball: its laws are of its own coordinates",
-                        quoted(&written.joint)
+                        "the joint of {} has no freedom {}",
+                        quoted(path),
+                        quoted(name)
                     ),
-                    format!("write `elastic`, `damping`, … directly, without `{key}`"),
+                    match nearest(name, names()) {
+                        Some(near) => format!("did you mean `{near}`? There are {all}"),
+                        None => format!("there are {all}"),
+                    },
                 ));
             }
-        }
-        let name = written.freedom.as_deref();
-        let freedom = self.freedom_named(name, &written.joint, freedoms, at)?;
-        let measures = match freedoms[freedom].kind.turns() {
-            true => OF_ANGLE,
-            false => OF_LENGTH,
-        };
-        let owner = format!("joint {} elastic", written.path());
-        let law = self.torque(Law::of_joint(written, at, measures), &owner);
-        Some(ForceKind::from(Freedom {
-            child,
-            freedom,
-            law: Box::new(law),
-        }))
-    }
-
-    /// Which freedom of a joint is meant.
-    pub fn freedom_named(
-        &self,
-        name: Option<&str>,
-        path: &str,
-        freedoms: &[KinematicFreedom],
-        at: At<'_>,
-    ) -> Option<usize> {
-        let names = || freedoms.iter().map(|f| f.name.as_str());
-        let all = names()
-            .map(|n| format!("`{n}`"))
-            .collect::<Vec<_>>()
-            .join(", ");
-        match (name, freedoms) {
-            (_, []) => {
-                self.problems.add(at.problem(
-                    format!("{} is welded: its joint has no freedom", quoted(path)),
-                    "remove this, or give the element another `joint:`",
-                ));
-                None
-            }
-            (None, [_]) => Some(0),
-            (None, _) => {
-                self.problems.add(at.problem(
-                    format!(
-                        "the joint of {} has several freedoms, and it is not said which is meant",
-                        quoted(path)
-                    ),
-                    format!("add `freedom:` with one of {all}"),
-                ));
-                None
-            }
-            (Some(name), _) => {
-                let found = freedoms.iter().position(|f| f.name == name);
-                if found.is_none() {
-                    self.problems.add(at.key("freedom").problem(
-                        format!(
-                            "the joint of {} has no freedom {}",
-                            quoted(path),
-                            quoted(name)
-                        ),
-                        match nearest(name, names()) {
-                            Some(near) => format!("did you mean `{near}`? There are {all}"),
-                            None => format!("there are {all}"),
-                        },
-                    ));
-                }
-                found
-            }
+            found
         }
     }
+}
 
-    /// Flexion and torsion; `None` where neither has a law.
-    fn bending(&mut self, written: &Written, at: At<'_>, owner: &str) -> Option<Bending> {
-        if written.axis.is_some() && written.flexion.is_none() && written.torsion.is_none() {
-            self.problems.add(at.key("axis").key_problem(
-                "a long axis means nothing without flexion and torsion",
-                "add `flexion: …` or `torsion: …`, or remove `axis`",
+/// Flexion and torsion; `None` where neither has a law.
+fn bending(
+    resolver: &mut Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+    owner: &str,
+) -> Option<Bending> {
+    if written.axis.is_some() && written.flexion.is_none() && written.torsion.is_none() {
+        resolver.problems.add(at.key("axis").key_problem(
+            "a long axis means nothing without flexion and torsion",
+            "add `flexion: …` or `torsion: …`, or remove `axis`",
+        ));
+    }
+    let bending = Bending {
+        axis: match written.axis {
+            Some(LongAxis::X) => 0,
+            Some(LongAxis::Y) => 1,
+            Some(LongAxis::Z) | None => 2,
+        },
+        flexion: match &written.flexion {
+            Some(written) => flexion(resolver, written, at.key("flexion"), owner),
+            None => JointTorque::default(),
+        },
+        torsion: match &written.torsion {
+            Some(torsion) => {
+                let law = Law::of(torsion, at.key("torsion"));
+                torque(resolver, law, &format!("{owner} torsion"))
+            }
+            None => JointTorque::default(),
+        },
+    };
+    let none = JointTorque::default();
+    (bending.flexion != none || bending.torsion != none).then_some(bending)
+}
+
+/// The law of the angle between the long axes. Where it is 0 the plane of bending is not determined, and so there
+/// must be no elastic torque.
+fn flexion(resolver: &mut Resolver<'_>, written: &Flexion, at: At<'_>, owner: &str) -> JointTorque {
+    let law = Law {
+        elastic: written.elastic.as_ref(),
+        stiffness: written.stiffness.as_ref(),
+        unloading: written.unloading.as_ref(),
+        unloading_slope: written.unloading_slope.as_ref(),
+        neutral: None,
+        damping: written.damping.as_ref(),
+        friction: written.friction.as_ref(),
+        friction_speed: written.friction_speed.as_ref(),
+        friction_displacement: None,
+        stop: written.stop.as_ref(),
+        lock: None,
+        motor: None,
+        drive: None,
+        at,
+        measures: OF_ANGLE,
+    };
+    let torque = torque(resolver, law, &format!("{owner} flexion"));
+    let curve = torque.elastic.as_ref().and_then(|e| resolver.curve_of(e));
+    if curve.is_some_and(|(curve, _)| !curve.points.contains(&[0.0, 0.0])) {
+        resolver.problems.add(at.key("elastic").problem(
+            "where the long axes are parallel a torque of flexion has no direction, and so must be 0",
+            "let the curve pass through the point [0, 0]",
+        ));
+    }
+    if let Some(stop) = &written.stop {
+        let place = at.key("stop");
+        if stop.from.is_some() {
+            resolver.problems.add(place.key("from").key_problem(
+                "the angle of flexion is never negative, and at 0 there is nothing to stop",
+                "remove `from`; `to` is where the bending ends",
             ));
         }
-        let bending = Bending {
-            axis: match written.axis {
-                Some(LongAxis::X) => 0,
-                Some(LongAxis::Y) => 1,
-                Some(LongAxis::Z) | None => 2,
-            },
-            flexion: match &written.flexion {
-                Some(flexion) => self.flexion(flexion, at.key("flexion"), owner),
-                None => JointTorque::default(),
-            },
-            torsion: match &written.torsion {
-                Some(torsion) => {
-                    let law = Law::of(torsion, at.key("torsion"));
-                    self.torque(law, &format!("{owner} torsion"))
-                }
-                None => JointTorque::default(),
-            },
-        };
-        let none = JointTorque::default();
-        (bending.flexion != none || bending.torsion != none).then_some(bending)
     }
+    torque
+}
 
-    /// The law of the angle between the long axes. Where it is 0 the plane of bending is not determined, and so there
-    /// must be no elastic torque.
-    fn flexion(&mut self, written: &Flexion, at: At<'_>, owner: &str) -> JointTorque {
-        let law = Law {
-            elastic: written.elastic.as_ref(),
-            stiffness: written.stiffness.as_ref(),
-            unloading: written.unloading.as_ref(),
-            unloading_slope: written.unloading_slope.as_ref(),
-            neutral: None,
-            damping: written.damping.as_ref(),
-            friction: written.friction.as_ref(),
-            friction_speed: written.friction_speed.as_ref(),
-            friction_displacement: None,
-            stop: written.stop.as_ref(),
-            lock: None,
-            motor: None,
-            drive: None,
+/// The law of one coordinate.
+fn torque(resolver: &mut Resolver<'_>, law: Law<'_>, owner: &str) -> JointTorque {
+    let (at, of) = (law.at, law.measures);
+    let elastic = resolver.elastic(
+        ("elastic", law.elastic),
+        law.stiffness,
+        at,
+        owner,
+        [of.coordinate, of.force, of.stiffness],
+    );
+    let neutral = law
+        .neutral
+        .map(|n| resolver.number(n, at.key("neutral"), of.coordinate));
+    if law.neutral.is_some() && law.elastic.is_none() && law.stiffness.is_none() {
+        resolver.problems.add(at.key("neutral").key_problem(
+            "a neutral angle means nothing without an elastic curve",
+            "add `elastic: …` or `stiffness: …`, or remove `neutral`",
+        ));
+    }
+    let hysteresis = resolver.hysteresis(
+        elastic.as_ref(),
+        Unloading {
+            curve: law.unloading,
+            slope: law.unloading_slope,
+            loading: ("elastic", law.elastic.is_some() || law.stiffness.is_some()),
             at,
-            measures: OF_ANGLE,
-        };
-        let torque = self.torque(law, &format!("{owner} flexion"));
-        let curve = torque.elastic.as_ref().and_then(|e| self.curve_of(e));
-        if curve.is_some_and(|(curve, _)| !curve.points.contains(&[0.0, 0.0])) {
-            self.problems.add(at.key("elastic").problem(
-                "where the long axes are parallel a torque of flexion has no direction, and so must be 0",
-                "let the curve pass through the point [0, 0]",
-            ));
-        }
-        if let Some(stop) = &written.stop {
-            let place = at.key("stop");
-            if stop.from.is_some() {
-                self.problems.add(place.key("from").key_problem(
-                    "the angle of flexion is never negative, and at 0 there is nothing to stop",
-                    "remove `from`; `to` is where the bending ends",
-                ));
-            }
-        }
-        torque
+            owner: owner.replacen(" elastic", " unloading", 1),
+            expected: [of.coordinate, of.force, of.stiffness],
+        },
+    );
+    let friction = resolver.friction(
+        law.friction,
+        law.friction_speed,
+        at,
+        (of.force, of.rate, of.friction_speed),
+    );
+    let bristle = resolver.bristle(
+        (law.friction, friction.is_some()),
+        law.friction_displacement,
+        at,
+        of.coordinate,
+    );
+    let motor = law.motor.map(|motor| {
+        let owner = owner.replacen(" elastic", " motor", 1);
+        resolver.component(motor, at.key("motor"), &owner, of.force)
+    });
+    let drive = law
+        .drive
+        .and_then(|d| drive(resolver, d, at.key("drive"), owner, of));
+    JointTorque {
+        neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
+        elastic,
+        hysteresis,
+        damping: resolver.coefficient(law.damping, at.key("damping"), of.damping),
+        friction,
+        bristle,
+        stop: law.stop.and_then(|s| stop(resolver, s, at.key("stop"), of)),
+        lock: law.lock.and_then(|l| lock(resolver, l, at.key("lock"), of)),
+        motor: motor.filter(Part::is_in),
+        drive,
     }
+}
 
-    fn torque(&mut self, law: Law<'_>, owner: &str) -> JointTorque {
-        let (at, of) = (law.at, law.measures);
-        let elastic = self.elastic(
-            ("elastic", law.elastic),
-            law.stiffness,
-            at,
-            owner,
-            [of.coordinate, of.force, of.stiffness],
-        );
-        let neutral = law
-            .neutral
-            .map(|n| self.number(n, at.key("neutral"), of.coordinate));
-        if law.neutral.is_some() && law.elastic.is_none() && law.stiffness.is_none() {
-            self.problems.add(at.key("neutral").key_problem(
-                "a neutral angle means nothing without an elastic curve",
-                "add `elastic: …` or `stiffness: …`, or remove `neutral`",
-            ));
-        }
-        let hysteresis = self.hysteresis(
-            elastic.as_ref(),
-            Unloading {
-                curve: law.unloading,
-                slope: law.unloading_slope,
-                loading: ("elastic", law.elastic.is_some() || law.stiffness.is_some()),
-                at,
-                owner: owner.replacen(" elastic", " unloading", 1),
-                expected: [of.coordinate, of.force, of.stiffness],
-            },
-        );
-        let friction = self.friction(
-            law.friction,
-            law.friction_speed,
-            at,
-            (of.force, of.rate, of.friction_speed),
-        );
-        let place = at.key("friction_displacement");
-        if law.friction_displacement.is_some() && law.friction.is_none() {
-            self.problems.add(place.key_problem(
-                "a friction displacement means nothing without friction",
-                "add `friction: …`, or remove `friction_displacement`",
-            ));
-        }
-        let bristle = self
-            .coefficient(law.friction_displacement, place, of.coordinate)
-            .filter(|_| friction.is_some())
-            .map(|displacement| Bristle { displacement });
-        let motor = law.motor.map(|motor| {
-            let owner = owner.replacen(" elastic", " motor", 1);
-            self.component(motor, at.key("motor"), &owner, of.force)
-        });
-        let drive = law
-            .drive
-            .and_then(|d| self.drive(d, at.key("drive"), owner, of));
-        JointTorque {
-            neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
-            elastic,
-            hysteresis,
-            damping: self.coefficient(law.damping, at.key("damping"), of.damping),
-            friction,
-            bristle,
-            stop: law.stop.and_then(|s| self.stop(s, at.key("stop"), of)),
-            lock: law.lock.and_then(|l| self.lock(l, at.key("lock"), of)),
-            motor: motor.filter(Part::is_in),
-            drive,
-        }
-    }
+/// What drives a coordinate to one that is given; `None` where it does nothing.
+fn drive(
+    resolver: &mut Resolver<'_>,
+    written: &WrittenDrive,
+    at: At<'_>,
+    owner: &str,
+    of: Measures,
+) -> Option<Drive> {
+    let owner = owner.replacen(" elastic", " drive", 1);
+    let to: FieldComponent = resolver.component(&written.to, at.key("to"), &owner, of.coordinate);
+    let place = at.key("stiffness");
+    let stiffness = resolver.coefficient(Some(&written.stiffness), place, of.stiffness);
+    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+    let place = at.key("limit");
+    let limit = written.limit.as_ref();
+    let limit = limit.map(|limit| resolver.number(limit, place, of.force));
+    (stiffness.is_some() || damping.is_some()).then_some(Drive {
+        to,
+        stiffness: stiffness.unwrap_or(Number::ZERO),
+        damping,
+        limit,
+    })
+}
 
-    /// What drives a coordinate to one that is given; `None` where it does nothing.
-    fn drive(
-        &mut self,
-        written: &WrittenDrive,
-        at: At<'_>,
-        owner: &str,
-        of: Measures,
-    ) -> Option<Drive> {
-        let owner = owner.replacen(" elastic", " drive", 1);
-        let to: FieldComponent = self.component(&written.to, at.key("to"), &owner, of.coordinate);
-        let place = at.key("stiffness");
-        let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
-        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
-        let place = at.key("limit");
-        let limit = written.limit.as_ref();
-        let limit = limit.map(|limit| self.number(limit, place, of.force));
-        (stiffness.is_some() || damping.is_some()).then_some(Drive {
-            to,
-            stiffness: stiffness.unwrap_or(Number::ZERO),
-            damping,
-            limit,
-        })
+/// The ends of a rotation; `None` where they do nothing.
+fn stop(resolver: &Resolver<'_>, written: &WrittenStop, at: At<'_>, of: Measures) -> Option<Stop> {
+    let bound = |quantity: &Option<Quantity>, key| {
+        let quantity = quantity.as_ref()?;
+        Some(resolver.number(quantity, at.key(key), of.coordinate))
+    };
+    let (from, to) = (bound(&written.from, "from"), bound(&written.to, "to"));
+    if from.is_none() && to.is_none() {
+        resolver.problems.add(at.problem(
+            "the stop does not say where the rotation ends",
+            "add `from: …`, `to: …`, or both",
+        ));
     }
+    let place = at.key("stiffness");
+    let stiffness = resolver.coefficient(Some(&written.stiffness), place, of.stiffness);
+    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+    let damping_angle = resolver.fade(
+        (written.damping.as_ref(), damping.is_some()),
+        (written.damping_angle.as_ref(), at.key("damping_angle")),
+        (of.coordinate, of.damping_depth),
+    );
+    (stiffness.is_some() || damping.is_some()).then_some(Stop {
+        from,
+        to,
+        stiffness: stiffness.unwrap_or(Number::ZERO),
+        damping,
+        damping_angle,
+    })
+}
 
-    /// The ends of a rotation; `None` where they do nothing.
-    fn stop(&self, written: &WrittenStop, at: At<'_>, of: Measures) -> Option<Stop> {
-        let bound = |quantity: &Option<Quantity>, key| {
-            let quantity = quantity.as_ref()?;
-            Some(self.number(quantity, at.key(key), of.coordinate))
-        };
-        let (from, to) = (bound(&written.from, "from"), bound(&written.to, "to"));
-        if from.is_none() && to.is_none() {
-            self.problems.add(at.problem(
-                "the stop does not say where the rotation ends",
-                "add `from: …`, `to: …`, or both",
-            ));
-        }
-        let place = at.key("stiffness");
-        let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
-        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
-        let damping_angle = self.fade(
-            (written.damping.as_ref(), damping.is_some()),
-            (written.damping_angle.as_ref(), at.key("damping_angle")),
-            (of.coordinate, of.damping_depth),
-        );
-        (stiffness.is_some() || damping.is_some()).then_some(Stop {
-            from,
-            to,
-            stiffness: stiffness.unwrap_or(Number::ZERO),
-            damping,
-            damping_angle,
-        })
-    }
-
-    /// What holds an angle from a switch on; `None` where it does nothing.
-    fn lock(&self, written: &WrittenLock, at: At<'_>, of: Measures) -> Option<Lock> {
-        let by = self.switch_id(&written.by, at.key("by"));
-        let place = at.key("stiffness");
-        let stiffness = self.coefficient(Some(&written.stiffness), place, of.stiffness);
-        let damping = self.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
-        (stiffness.is_some() || damping.is_some()).then_some(Lock {
-            by: by?,
-            stiffness: stiffness.unwrap_or(Number::ZERO),
-            damping,
-        })
-    }
+/// What holds an angle from a switch on; `None` where it does nothing.
+fn lock(resolver: &Resolver<'_>, written: &WrittenLock, at: At<'_>, of: Measures) -> Option<Lock> {
+    let by = resolver.switch_id(&written.by, at.key("by"));
+    let place = at.key("stiffness");
+    let stiffness = resolver.coefficient(Some(&written.stiffness), place, of.stiffness);
+    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+    (stiffness.is_some() || damping.is_some()).then_some(Lock {
+        by: by?,
+        stiffness: stiffness.unwrap_or(Number::ZERO),
+        damping,
+    })
 }

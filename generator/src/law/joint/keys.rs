@@ -217,7 +217,7 @@ impl Keys for Joint {
     }
 
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        resolver.joint(self, at)
+        super::check::joint(resolver, self, at)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

@@ -4,16 +4,18 @@ use crate::description::curve::{Function, ScaledCurve as WrittenScaled};
 use crate::description::load::{beside, shown};
 use crate::description::place::At;
 use crate::description::point::Point;
-use crate::description::quantity::Quantity;
 use crate::description::shape::Named;
 use crate::description::unit::Dimension as UnitDimension;
 use crate::diagnostic::{Diagnostic, quoted};
+use crate::law::joint::check::freedom_named;
 use crate::law::user::keys::{
-    User as Written, UserFreedom as WrittenFreedom, UserPoint, UserState as WrittenState,
+    User as Written, UserFreedom as WrittenFreedom, UserLine as WrittenLine, UserPoint,
+    UserState as WrittenState,
 };
 use crate::model::resolve::Resolver;
 use crate::model::resolve::name::{Style, identifier};
 use crate::model::resolve::quantity::{ANY, LENGTH, Measure, TIME};
+use crate::model::resolve::run::time;
 use crate::model::resolve::rust::{self, Fault, Place, Wanted};
 use crate::model::{
     Attachment, Body, Dimension, ElementId, FieldComponent, ForceKind, Joint, Number, ScaledCurve,
@@ -165,81 +167,171 @@ impl User {
     }
 }
 
-impl Resolver<'_> {
-    /// The longest step of a user force \[s\].
-    fn scale(&self, written: &Quantity, at: At<'_>) -> f64 {
-        self.time(Some(written), at, f64::INFINITY)
+/// The checked form of a user force.
+pub(crate) fn user(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<User> {
+    let before = resolver.problems.count();
+    let entries = Entries::of(resolver, written, at);
+    if entries.act_on_nothing() {
+        resolver.problems.add(at.key("user").key_problem(
+            format!("the user force {} acts on nothing", quoted(&written.user)),
+            "give it `points`, `bodies`, `lines`, `joints` or `freedoms`",
+        ));
+    }
+    let user = entries.checked(resolver, written, at)?;
+    if resolver.problems.count() > before {
+        return None;
+    }
+    check_user_source(resolver, written, &user, at);
+    if resolver.problems.count() > before {
+        return None;
+    }
+    check_own_file(resolver, &user, at);
+    Some(user)
+}
+
+/// Reports a file with the functions of two user forces.
+fn check_own_file(resolver: &Resolver<'_>, user: &User, at: At<'_>) {
+    let others = resolver
+        .forces
+        .iter()
+        .filter_map(|force| match &force.kind {
+            ForceKind::User(other) => Some(other),
+            _ => None,
+        });
+    if let Some(source) = &user.function.source
+        && let Some(other) = others
+            .filter(|other| other.function.source.as_ref() == Some(source))
+            .find(|other| other.function.name != user.function.name)
+    {
+        resolver.problems.add(at.key("source").problem(
+            format!(
+                "{} has the function {} of another user force",
+                quoted(&source.name),
+                quoted(&other.function.name)
+            ),
+            "give each function a file of its own; it may hold other functions that help it",
+        ));
+    }
+}
+
+/// The entries of one kind: name, what is written, where.
+type Listed<'w, T> = Vec<(&'w str, &'w T, At<'w>)>;
+
+/// The entries of a user force whose names can be used.
+struct Entries<'w> {
+    points: Listed<'w, UserPoint>,
+    bodies: Listed<'w, String>,
+    lines: Listed<'w, WrittenLine>,
+    joints: Listed<'w, String>,
+    freedoms: Listed<'w, WrittenFreedom>,
+    states: Listed<'w, WrittenState>,
+    parameters: Listed<'w, Function>,
+    curves: Listed<'w, Function>,
+}
+
+impl<'w> Entries<'w> {
+    /// Those of a user force. The names of parameters and of curves are apart from all others.
+    fn of(resolver: &Resolver<'_>, written: &'w Written, at: At<'w>) -> Self {
+        let mut taken = Vec::new();
+        let mut apart = [Vec::new(), Vec::new()];
+        let place = |key| at.key(key);
+        Entries {
+            points: ports(
+                resolver,
+                &written.points,
+                place("points"),
+                "a point",
+                &mut taken,
+            ),
+            bodies: ports(
+                resolver,
+                &written.bodies,
+                place("bodies"),
+                "a body",
+                &mut taken,
+            ),
+            lines: ports(
+                resolver,
+                &written.lines,
+                place("lines"),
+                "a line",
+                &mut taken,
+            ),
+            joints: ports(
+                resolver,
+                &written.joints,
+                place("joints"),
+                "a joint",
+                &mut taken,
+            ),
+            freedoms: ports(
+                resolver,
+                &written.freedoms,
+                place("freedoms"),
+                "a freedom",
+                &mut taken,
+            ),
+            states: ports(
+                resolver,
+                &written.states,
+                place("states"),
+                "a state",
+                &mut taken,
+            ),
+            parameters: ports(
+                resolver,
+                &written.parameters,
+                place("parameters"),
+                "a parameter",
+                &mut apart[0],
+            ),
+            curves: ports(
+                resolver,
+                &written.curves,
+                place("curves"),
+                "a curve",
+                &mut apart[1],
+            ),
+        }
     }
 
-    /// Resolves a user force.
-    pub fn user(&mut self, written: &Written, at: At<'_>) -> Option<ForceKind> {
-        let before = self.problems.count();
-        let name = &written.user;
-        let mut taken = Vec::new();
-        let points = self.ports(&written.points, at.key("points"), "a point", &mut taken);
-        let bodies = self.ports(&written.bodies, at.key("bodies"), "a body", &mut taken);
-        let lines = self.ports(&written.lines, at.key("lines"), "a line", &mut taken);
-        let joints = self.ports(&written.joints, at.key("joints"), "a joint", &mut taken);
-        let at_freedoms = at.key("freedoms");
-        let freedoms = self.ports(&written.freedoms, at_freedoms, "a freedom", &mut taken);
-        let states = self.ports(&written.states, at.key("states"), "a state", &mut taken);
-        let at_parameters = at.key("parameters");
-        let parameters = self.ports(
-            &written.parameters,
-            at_parameters,
-            "a parameter",
-            &mut vec![],
-        );
-        let curves = self.ports(&written.curves, at.key("curves"), "a curve", &mut vec![]);
-        let jointless = joints.is_empty() && freedoms.is_empty();
-        if points.is_empty() && bodies.is_empty() && lines.is_empty() && jointless {
-            self.problems.add(at.key("user").key_problem(
-                format!("the user force {} acts on nothing", quoted(name)),
-                "give it `points`, `bodies`, `lines`, `joints` or `freedoms`",
-            ));
-        }
+    fn act_on_nothing(&self) -> bool {
+        self.points.is_empty()
+            && self.bodies.is_empty()
+            && self.lines.is_empty()
+            && self.joints.is_empty()
+            && self.freedoms.is_empty()
+    }
 
-        let points = self.each(points, |this, point, at| this.user_point(point, at));
-        let bodies = self.each(bodies, |this, path, at| this.acted_on(path, at));
-        let joints = self.each(joints, |this, path, at| this.acted_on(path, at));
-        let freedoms = self.each(freedoms, |this, freedom, at| this.user_freedom(freedom, at));
-        let lines = self.each(lines, |this, line, at| {
-            let from = this.end(&line.from, at.key("from"));
-            let to = this.end(&line.to, at.key("to"));
-            let (from, to) = (from?, to?);
-            if from.on == to.on {
-                this.problems.add(at.key("to").problem(
-                    "both ends of this line are on the same body",
-                    "a line runs between two bodies; `frame` is the absolute frame",
-                ));
-            }
-            Some(UserLine { from, to })
+    /// The user force with the entries that are right; `None` where its function is wrong.
+    fn checked(self, resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<User> {
+        let name = &written.user;
+        let points = each(self.points, |_, point, at| user_point(resolver, point, at));
+        let bodies = each(self.bodies, |_, path, at| acted_on(resolver, path, at));
+        let joints = each(self.joints, |_, path, at| acted_on(resolver, path, at));
+        let freedoms = each(self.freedoms, |_, freedom, at| {
+            user_freedom(resolver, freedom, at)
         });
-        let states = self.each(states, |this, state, at| this.user_state(state, at));
-        let parameters = self.each_named(parameters, |this, key, function, at| {
-            this.user_parameter(function, at, &format!("user {name} {key}"))
+        let lines = each(self.lines, |_, line, at| user_line(resolver, line, at));
+        let states = each(self.states, |_, state, at| user_state(resolver, state, at));
+        let parameters = each(self.parameters, |key, function, at| {
+            user_parameter(resolver, function, at, &format!("user {name} {key}"))
         });
-        let curves = self.each_named(curves, |this, key, function, at| {
+        let curves = each(self.curves, |key, function, at| {
             let owner = format!("user {name} {key}");
-            Some(this.function(function, at, &owner, ANY, ANY))
+            Some(resolver.function(function, at, &owner, ANY, ANY))
         });
-        let (name, source) = self.user_function(written, at)?;
-        let scale = (written.scale.as_ref()).map(|scale| self.scale(scale, at.key("scale")));
-        if self.problems.count() > before {
-            return None;
-        }
-        let user = User {
+        let (function, source) = user_function(resolver, written, at)?;
+        let scale = written.scale.as_ref();
+        let scale = scale.map(|_| time(resolver, scale, at.key("scale"), f64::INFINITY));
+        Some(User {
             function: UserFunction {
-                name,
+                name: function,
                 source,
                 parameters,
                 curves,
             },
-            dimension: if self.planar {
-                Dimension::Plane
-            } else {
-                Dimension::Space
-            },
+            dimension: resolver.dimension(),
             scale,
             points,
             bodies,
@@ -247,313 +339,315 @@ impl Resolver<'_> {
             joints,
             freedoms,
             states,
-        };
-        self.check_user_source(written, &user, at);
-        if self.problems.count() > before {
-            return None;
-        }
-        let others = self.forces.iter().filter_map(|force| match &force.kind {
-            ForceKind::User(other) => Some(other),
-            _ => None,
-        });
-        if let Some(source) = &user.function.source
-            && let Some(other) = others
-                .filter(|other| other.function.source.as_ref() == Some(source))
-                .find(|other| other.function.name != user.function.name)
-        {
-            self.problems.add(at.key("source").problem(
-                format!(
-                    "{} has the function {} of another user force",
-                    quoted(&source.name),
-                    quoted(&other.function.name)
-                ),
-                "give each function a file of its own; it may hold other functions that help it",
-            ));
-        }
-        Some(ForceKind::User(Box::new(user)))
-    }
-
-    /// The entries of one kind whose names can be used, with their places.
-    fn ports<'w, T>(
-        &self,
-        written: &'w Option<Named<T>>,
-        at: At<'w>,
-        what: &str,
-        taken: &mut Vec<&'w str>,
-    ) -> Vec<(&'w str, &'w T, At<'w>)> {
-        let entries: &[(String, T)] = written.as_ref().map_or(&[], |named| &named.0);
-        if entries.len() > MAX_PORTS {
-            self.problems.add(at.key_problem(
-                format!("a user force has at most {MAX_PORTS} entries of one kind"),
-                "divide it into several forces",
-            ));
-            return Vec::new();
-        }
-        let mut ports = Vec::new();
-        for (name, value) in entries {
-            let here = at.key(name);
-            let place = here.on_key();
-            let what = format!("{what} of a user force");
-            let unique = || self.check_unique(name, "entries", taken.iter().copied(), place);
-            if self.check_name(name, &what, Style::Either, place) && unique() {
-                ports.push((name.as_str(), value, here));
-            }
-            taken.push(name);
-        }
-        ports
-    }
-
-    fn each<T, U>(
-        &mut self,
-        ports: Vec<(&str, &T, At<'_>)>,
-        mut resolve: impl FnMut(&mut Self, &T, At<'_>) -> Option<U>,
-    ) -> Vec<Port<U>> {
-        self.each_named(ports, |this, _, value, at| resolve(this, value, at))
-    }
-
-    fn each_named<T, U>(
-        &mut self,
-        ports: Vec<(&str, &T, At<'_>)>,
-        mut resolve: impl FnMut(&mut Self, &str, &T, At<'_>) -> Option<U>,
-    ) -> Vec<Port<U>> {
-        let mut resolved = Vec::with_capacity(ports.len());
-        for (name, value, at) in ports {
-            if let Some(value) = resolve(self, name, value, at) {
-                resolved.push(Port {
-                    name: name.to_owned(),
-                    value,
-                });
-            }
-        }
-        resolved
-    }
-
-    fn user_point(&self, written: &UserPoint, at: At<'_>) -> Option<Attachment> {
-        let on = self.body(&written.on, at.key("on"))?;
-        let position = match (&written.at, on) {
-            (point, Body::Element(id)) => self.point(point, id, at.key("at")),
-            (Point::At(point), _) => self.vector(point, at.key("at"), LENGTH),
-            (Point::Cg, _) => {
-                self.problems.add(at.key("at").problem(
-                    format!("{} has no centre of gravity", quoted(&written.on)),
-                    "give coordinates",
-                ));
-                return None;
-            }
-        };
-        Some(Attachment { on, at: position })
-    }
-
-    /// An element: the absolute frame neither turns nor has a joint.
-    fn acted_on(&self, path: &str, at: At<'_>) -> Option<ElementId> {
-        if path == "frame" {
-            self.problems.add(at.problem(
-                "a moment on the absolute frame moves nothing",
-                "name an element, as `system/element`",
-            ));
-            return None;
-        }
-        self.element_id(path, at)
-    }
-
-    /// A freedom of a joint with coordinates of its own.
-    fn user_freedom(&self, written: &WrittenFreedom, at: At<'_>) -> Option<UserFreedom> {
-        let element = self.element_id(&written.joint, at.key("joint"))?;
-        let joint = &self.systems[element.system].elements[element.element].joint;
-        let Joint::Freedoms(freedoms) = joint else {
-            self.problems.add(at.key("joint").problem(
-                format!(
-                    "{} is on a joint without coordinates of its own",
-                    quoted(&written.joint)
-                ),
-                "name it under `joints`, or give the element a `joint:`",
-            ));
-            return None;
-        };
-        let name = written.freedom.as_deref();
-        let freedom = self.freedom_named(name, &written.joint, freedoms, at)?;
-        Some(UserFreedom {
-            element,
-            freedom,
-            turns: freedoms[freedom].kind.turns(),
         })
     }
+}
 
-    fn user_state(&self, written: &WrittenState, at: At<'_>) -> Option<UserState> {
-        let place = at.key("initial");
-        let (initial, measure) = self.measured(&written.initial, place)?;
-        let dimension = match measure {
-            Measure::Known(dimension) => dimension,
-            _ => UnitDimension::ONE,
-        };
-        Some(UserState {
-            initial,
-            unit: dimension.name(),
-            rate_unit: (dimension / TIME.dimension).name(),
-        })
+/// The entries of one kind whose names can be used, with their places.
+fn ports<'w, T>(
+    resolver: &Resolver<'_>,
+    written: &'w Option<Named<T>>,
+    at: At<'w>,
+    what: &str,
+    taken: &mut Vec<&'w str>,
+) -> Listed<'w, T> {
+    let entries: &[(String, T)] = written.as_ref().map_or(&[], |named| &named.0);
+    if entries.len() > MAX_PORTS {
+        resolver.problems.add(at.key_problem(
+            format!("a user force has at most {MAX_PORTS} entries of one kind"),
+            "divide it into several forces",
+        ));
+        return Vec::new();
     }
-
-    fn user_parameter(
-        &mut self,
-        written: &Function,
-        at: At<'_>,
-        owner: &str,
-    ) -> Option<UserParameter> {
-        let before = self.problems.count();
-        let value = self.component(written, at, owner, ANY);
-        if self.problems.count() > before {
-            return None;
+    let mut ports = Vec::new();
+    for (name, value) in entries {
+        let here = at.key(name);
+        let place = here.on_key();
+        let what = format!("{what} of a user force");
+        let unique = || resolver.check_unique(name, "entries", taken.iter().copied(), place);
+        if resolver.check_name(name, &what, Style::Either, place) && unique() {
+            ports.push((name.as_str(), value, here));
         }
-        let measure = match (&value, written) {
-            (FieldComponent::Constant(_), Function::Quantity(quantity)) => {
-                self.measured(quantity, at)?.1
-            }
-            (FieldComponent::Constant(_), _) => Measure::Unknown,
-            (FieldComponent::Curve(curve), written) => {
-                let times = match written {
-                    Function::Scaled(WrittenScaled {
-                        times: Some(times), ..
-                    }) => self.measured(times, at.key("times"))?.1,
-                    _ => Measure::Bare,
-                };
-                let ordinate = self.curves.get(curve.curve)?.as_ref()?.measures[1];
-                match (ordinate, times) {
-                    (Measure::Known(a), Measure::Known(b)) => Measure::Known(a * b),
-                    (known, Measure::Bare) => known,
-                    (Measure::Bare, known) => known,
-                    _ => Measure::Unknown,
-                }
-            }
-        };
-        let unit = match measure {
-            Measure::Known(dimension) => dimension.to_string(),
-            _ => String::new(),
-        };
-        Some(UserParameter { value, unit })
+        taken.push(name);
     }
+    ports
+}
 
-    /// The function's name and its source, or its path.
-    fn user_function(&self, written: &Written, at: At<'_>) -> Option<(String, Option<UserSource>)> {
-        let default = identifier(&written.user);
-        let function = written.function.as_deref().unwrap_or(&default).trim();
-        let place = at.key("function");
-        let Some(file) = &written.source else {
-            return self
-                .user_path(function, written, at)
-                .map(|path| (path, None));
-        };
-        if function.contains("::") {
-            self.problems.add(place.problem(
-                format!(
-                    "{} is a path, but the function stands in {}",
-                    quoted(function),
-                    quoted(file)
-                ),
-                "give the name of the function alone, or remove `source`",
-            ));
-            return None;
-        }
-        if syn::parse_str::<syn::Ident>(function).is_err() || function == "gen" {
-            self.problems.add(place.problem(
-                format!("{} cannot be the name of a function", quoted(function)),
-                "write it as in the Rust file, such as `air_drag`",
-            ));
-            return None;
-        }
-        let path = beside(&at.source.name, file);
-        let model = self.loaded.paths.first()?;
-        let directory = model.parent().unwrap_or(Path::new(""));
-        // the same from wherever the model is read
-        let source = UserSource {
-            name: shown(&relative(&path, directory)),
-            // a text that could not be read is reported where it was; one that is to be written is not missed
-            text: self.loaded.sources.get(&path).cloned().unwrap_or_default(),
-        };
-        Some((function.to_owned(), Some(source)))
-    }
-
-    /// A path that can be called from wherever the module is.
-    fn user_path(&self, function: &str, written: &Written, at: At<'_>) -> Option<String> {
-        let place = match written.function {
-            Some(_) => at.key("function"),
-            None => at.key("user"),
-        };
-        if !function.contains("::") {
-            self.problems.add(place.problem(
-                format!("the user force {} has no source", quoted(&written.user)),
-                "add `source: FILE.rs`; a function of your crate is named by its path, such as `function: crate::aero::drag`",
-            ));
-            return None;
-        }
-        let words: Vec<&str> = function.split("::").collect();
-        let first = words.first().copied().unwrap_or_default();
-        let sound = words.iter().enumerate().all(|(index, word)| {
-            syn::parse_str::<syn::Ident>(word).is_ok() || index == 0 && *word == "crate"
-        });
-        if !sound || ["self", "super", "Self"].contains(&first) {
-            self.problems.add(place.problem(
-                format!("{} is not the path of a function", quoted(function)),
-                "begin with `crate::` or the name of a crate, such as `crate::aero::drag`",
-            ));
-            return None;
-        }
-        Some(function.to_owned())
-    }
-
-    /// Reports what is wrong with the file of a function.
-    fn check_user_source(&self, written: &Written, user: &User, at: At<'_>) {
-        let Some(file) = &written.source else { return };
-        let path = beside(&at.source.name, file);
-        let Some(text) = self.loaded.sources.get(&path) else {
-            return;
-        };
-        fn names<T>(ports: &[Port<T>]) -> Vec<&str> {
-            ports.iter().map(|port| port.name.as_str()).collect()
-        }
-        let entries = [
-            ("points", names(&user.points)),
-            ("bodies", names(&user.bodies)),
-            ("lines", names(&user.lines)),
-            ("joints", names(&user.joints)),
-            ("freedoms", names(&user.freedoms)),
-            ("parameters", names(&user.function.parameters)),
-            ("curves", names(&user.function.curves)),
-            ("states", names(&user.states)),
-        ];
-        let identifiers = |names: &Vec<&str>| names.iter().map(|name| identifier(name)).collect();
-        let file = shown(&path);
-        let wanted = Wanted {
-            file: &file,
-            force: &written.user,
-            function: &user.function.name,
-            names: &entries
-                .each_ref()
-                .map(|(kind, names)| (*kind, identifiers(names))),
-        };
-        for fault in rust::faults(text, &wanted) {
-            let Fault {
-                place,
-                message,
-                help,
-            } = fault;
-            let entry = |kind, index: usize| {
-                let (_, names) = entries.iter().find(|(known, _)| *known == kind)?;
-                Some(at.key(kind).key(names.get(index)?))
-            };
-            self.problems.add(match place {
-                Place::File(line, column, length) => {
-                    Diagnostic::at(&file, text, (line, column, length), message, help)
-                }
-                Place::Function if written.function.is_some() => {
-                    at.key("function").problem(message, help)
-                }
-                Place::Function => at.key("source").problem(message, help),
-                Place::Name(kind, index) => {
-                    let at = entry(kind, index).unwrap_or(at);
-                    at.key_problem(message, help)
-                }
+/// The checked forms of the entries that are right.
+fn each<T, U>(
+    listed: Listed<'_, T>,
+    mut check: impl FnMut(&str, &T, At<'_>) -> Option<U>,
+) -> Vec<Port<U>> {
+    let mut checked = Vec::with_capacity(listed.len());
+    for (name, value, at) in listed {
+        if let Some(value) = check(name, value, at) {
+            checked.push(Port {
+                name: name.to_owned(),
+                value,
             });
         }
+    }
+    checked
+}
+
+/// A point at which the function acts.
+fn user_point(resolver: &Resolver<'_>, written: &UserPoint, at: At<'_>) -> Option<Attachment> {
+    let on = resolver.body(&written.on, at.key("on"))?;
+    let position = match (&written.at, on) {
+        (point, Body::Element(id)) => resolver.point(point, id, at.key("at")),
+        (Point::At(point), _) => resolver.vector(point, at.key("at"), LENGTH),
+        (Point::Cg, _) => {
+            resolver.problems.add(at.key("at").problem(
+                format!("{} has no centre of gravity", quoted(&written.on)),
+                "give coordinates",
+            ));
+            return None;
+        }
+    };
+    Some(Attachment { on, at: position })
+}
+
+/// A line: it runs between two bodies.
+fn user_line(resolver: &Resolver<'_>, written: &WrittenLine, at: At<'_>) -> Option<UserLine> {
+    let from = resolver.end(&written.from, at.key("from"));
+    let to = resolver.end(&written.to, at.key("to"));
+    let (from, to) = (from?, to?);
+    if from.on == to.on {
+        resolver.problems.add(at.key("to").problem(
+            "both ends of this line are on the same body",
+            "a line runs between two bodies; `frame` is the absolute frame",
+        ));
+    }
+    Some(UserLine { from, to })
+}
+
+/// An element: the absolute frame neither turns nor has a joint.
+fn acted_on(resolver: &Resolver<'_>, path: &str, at: At<'_>) -> Option<ElementId> {
+    if path == "frame" {
+        resolver.problems.add(at.problem(
+            "a moment on the absolute frame moves nothing",
+            "name an element, as `system/element`",
+        ));
+        return None;
+    }
+    resolver.element_id(path, at)
+}
+
+/// A freedom of a joint with coordinates of its own.
+fn user_freedom(
+    resolver: &Resolver<'_>,
+    written: &WrittenFreedom,
+    at: At<'_>,
+) -> Option<UserFreedom> {
+    let element = resolver.element_id(&written.joint, at.key("joint"))?;
+    let joint = &resolver.systems[element.system].elements[element.element].joint;
+    let Joint::Freedoms(freedoms) = joint else {
+        resolver.problems.add(at.key("joint").problem(
+            format!(
+                "{} is on a joint without coordinates of its own",
+                quoted(&written.joint)
+            ),
+            "name it under `joints`, or give the element a `joint:`",
+        ));
+        return None;
+    };
+    let name = written.freedom.as_deref();
+    let freedom = freedom_named(resolver, name, &written.joint, freedoms, at)?;
+    Some(UserFreedom {
+        element,
+        freedom,
+        turns: freedoms[freedom].kind.turns(),
+    })
+}
+
+/// A state, its units, and those of its rate.
+fn user_state(resolver: &Resolver<'_>, written: &WrittenState, at: At<'_>) -> Option<UserState> {
+    let place = at.key("initial");
+    let (initial, measure) = resolver.measured(&written.initial, place)?;
+    let dimension = match measure {
+        Measure::Known(dimension) => dimension,
+        _ => UnitDimension::ONE,
+    };
+    Some(UserState {
+        initial,
+        unit: dimension.name(),
+        rate_unit: (dimension / TIME.dimension).name(),
+    })
+}
+
+/// A parameter, and its unit where that is known.
+fn user_parameter(
+    resolver: &mut Resolver<'_>,
+    written: &Function,
+    at: At<'_>,
+    owner: &str,
+) -> Option<UserParameter> {
+    let before = resolver.problems.count();
+    let value = resolver.component(written, at, owner, ANY);
+    if resolver.problems.count() > before {
+        return None;
+    }
+    let measure = match (&value, written) {
+        (FieldComponent::Constant(_), Function::Quantity(quantity)) => {
+            resolver.measured(quantity, at)?.1
+        }
+        (FieldComponent::Constant(_), _) => Measure::Unknown,
+        (FieldComponent::Curve(curve), written) => {
+            let times = match written {
+                Function::Scaled(WrittenScaled {
+                    times: Some(times), ..
+                }) => resolver.measured(times, at.key("times"))?.1,
+                _ => Measure::Bare,
+            };
+            let ordinate = resolver.curves.get(curve.curve)?.as_ref()?.measures[1];
+            match (ordinate, times) {
+                (Measure::Known(a), Measure::Known(b)) => Measure::Known(a * b),
+                (known, Measure::Bare) => known,
+                (Measure::Bare, known) => known,
+                _ => Measure::Unknown,
+            }
+        }
+    };
+    let unit = match measure {
+        Measure::Known(dimension) => dimension.to_string(),
+        _ => String::new(),
+    };
+    Some(UserParameter { value, unit })
+}
+
+/// The function's name and its source, or its path.
+fn user_function(
+    resolver: &Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+) -> Option<(String, Option<UserSource>)> {
+    let default = identifier(&written.user);
+    let function = written.function.as_deref().unwrap_or(&default).trim();
+    let place = at.key("function");
+    let Some(file) = &written.source else {
+        return user_path(resolver, function, written, at).map(|path| (path, None));
+    };
+    if function.contains("::") {
+        resolver.problems.add(place.problem(
+            format!(
+                "{} is a path, but the function stands in {}",
+                quoted(function),
+                quoted(file)
+            ),
+            "give the name of the function alone, or remove `source`",
+        ));
+        return None;
+    }
+    if syn::parse_str::<syn::Ident>(function).is_err() || function == "gen" {
+        resolver.problems.add(place.problem(
+            format!("{} cannot be the name of a function", quoted(function)),
+            "write it as in the Rust file, such as `air_drag`",
+        ));
+        return None;
+    }
+    let path = beside(&at.source.name, file);
+    let model = resolver.loaded.paths.first()?;
+    let directory = model.parent().unwrap_or(Path::new(""));
+    // the same from wherever the model is read
+    let source = UserSource {
+        name: shown(&relative(&path, directory)),
+        // a text that could not be read is reported where it was; one that is to be written is not missed
+        text: resolver
+            .loaded
+            .sources
+            .get(&path)
+            .cloned()
+            .unwrap_or_default(),
+    };
+    Some((function.to_owned(), Some(source)))
+}
+
+/// A path that can be called from wherever the module is.
+fn user_path(
+    resolver: &Resolver<'_>,
+    function: &str,
+    written: &Written,
+    at: At<'_>,
+) -> Option<String> {
+    let place = match written.function {
+        Some(_) => at.key("function"),
+        None => at.key("user"),
+    };
+    if !function.contains("::") {
+        resolver.problems.add(place.problem(
+            format!("the user force {} has no source", quoted(&written.user)),
+            "add `source: FILE.rs`; a function of your crate is named by its path, such as `function: crate::aero::drag`",
+        ));
+        return None;
+    }
+    let words: Vec<&str> = function.split("::").collect();
+    let first = words.first().copied().unwrap_or_default();
+    let sound = words.iter().enumerate().all(|(index, word)| {
+        syn::parse_str::<syn::Ident>(word).is_ok() || index == 0 && *word == "crate"
+    });
+    if !sound || ["resolver", "super", "Self"].contains(&first) {
+        resolver.problems.add(place.problem(
+            format!("{} is not the path of a function", quoted(function)),
+            "begin with `crate::` or the name of a crate, such as `crate::aero::drag`",
+        ));
+        return None;
+    }
+    Some(function.to_owned())
+}
+
+/// Reports what is wrong with the file of a function.
+fn check_user_source(resolver: &Resolver<'_>, written: &Written, user: &User, at: At<'_>) {
+    let Some(file) = &written.source else { return };
+    let path = beside(&at.source.name, file);
+    let Some(text) = resolver.loaded.sources.get(&path) else {
+        return;
+    };
+    fn names<T>(ports: &[Port<T>]) -> Vec<&str> {
+        ports.iter().map(|port| port.name.as_str()).collect()
+    }
+    let entries = [
+        ("points", names(&user.points)),
+        ("bodies", names(&user.bodies)),
+        ("lines", names(&user.lines)),
+        ("joints", names(&user.joints)),
+        ("freedoms", names(&user.freedoms)),
+        ("parameters", names(&user.function.parameters)),
+        ("curves", names(&user.function.curves)),
+        ("states", names(&user.states)),
+    ];
+    let identifiers = |names: &Vec<&str>| names.iter().map(|name| identifier(name)).collect();
+    let file = shown(&path);
+    let wanted = Wanted {
+        file: &file,
+        force: &written.user,
+        function: &user.function.name,
+        names: &entries
+            .each_ref()
+            .map(|(kind, names)| (*kind, identifiers(names))),
+    };
+    for fault in rust::faults(text, &wanted) {
+        let Fault {
+            place,
+            message,
+            help,
+        } = fault;
+        let entry = |kind, index: usize| {
+            let (_, names) = entries.iter().find(|(known, _)| *known == kind)?;
+            Some(at.key(kind).key(names.get(index)?))
+        };
+        resolver.problems.add(match place {
+            Place::File(line, column, length) => {
+                Diagnostic::at(&file, text, (line, column, length), message, help)
+            }
+            Place::Function if written.function.is_some() => {
+                at.key("function").problem(message, help)
+            }
+            Place::Function => at.key("source").problem(message, help),
+            Place::Name(kind, index) => {
+                let at = entry(kind, index).unwrap_or(at);
+                at.key_problem(message, help)
+            }
+        });
     }
 }
 

@@ -15,6 +15,7 @@
 
 use super::outputs::{LineMeasures, UserMeasures};
 use crate::dynamics::force::{Loads, Product};
+use crate::dynamics::kinematics::Point;
 use crate::dynamics::numbers::{curve, number};
 use crate::dynamics::time;
 use crate::expression::vector::Vec3;
@@ -24,7 +25,7 @@ use crate::law::joint::JointMeasures;
 use crate::law::joint::force as joint;
 use crate::law::joint::force::Rotation;
 use crate::law::{Equations, Measures, Setting};
-use crate::model::{Body, Dimension, FieldComponent, User, UserFreedom};
+use crate::model::{Body, Dimension, ElementId, FieldComponent, User, UserFreedom, UserLine};
 
 impl Equations for User {
     fn apply<'g>(
@@ -37,24 +38,11 @@ impl Equations for User {
 }
 
 fn apply<'g>(user: &User, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> UserMeasures<'g> {
-    let Setting {
-        graph,
-        model,
-        motion,
-        index: force,
-        name,
-        gate,
-        ..
-    } = setting;
+    let Setting { graph, name, .. } = setting;
     if user.function.name.is_empty() {
         return nothing(graph, user);
     }
-    // vectors have these components, rotations those
-    let (axes, rotations): (&[usize], &[usize]) = match user.dimension {
-        Dimension::Plane => (&[0, 2], &[1]),
-        Dimension::Space => (&[0, 1, 2], &[0, 1, 2]),
-    };
-
+    let axes = Axes::of(user);
     let states: Vec<(usize, Expr<'g>)> = user
         .states
         .iter()
@@ -67,64 +55,220 @@ fn apply<'g>(user: &User, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> Us
 
     let mut arguments = vec![time(graph)];
     arguments.extend(states.iter().map(|(_, value)| *value));
-    let points: Vec<_> = user
-        .points
-        .iter()
-        .map(|port| motion.attachment(graph, &port.value))
-        .collect();
-    for point in &points {
-        for vector in [point.position, point.velocity] {
-            arguments.extend(axes.iter().map(|&i| vector.0[i]));
+    let seen = Seen::of(user, setting, axes, &mut arguments);
+    arguments.extend(function_arguments(user, graph));
+
+    let results = Results::of(user, setting, axes, &seen, &arguments);
+    results.act(user, setting, &seen, loads);
+    for ((index, _), &rate) in states.iter().zip(&results.rates) {
+        loads.states.auxiliaries[*index].next = rate;
+    }
+    UserMeasures {
+        lines: seen.line_measures(&results.tensions),
+        joints: seen.joint_measures(graph, axes, &results.torques),
+        forces: results.forces,
+        moments: results.moments,
+        efforts: results.efforts,
+        states: states
+            .iter()
+            .zip(results.rates)
+            .map(|((_, value), rate)| (*value, rate))
+            .collect(),
+    }
+}
+
+/// The components that the vectors of a function have.
+#[derive(Clone, Copy)]
+struct Axes {
+    /// Of a position, a velocity, a force.
+    vectors: &'static [usize],
+    /// Of an angular velocity, a moment.
+    rotations: &'static [usize],
+}
+
+impl Axes {
+    fn of(user: &User) -> Self {
+        match user.dimension {
+            Dimension::Plane => Axes {
+                vectors: &[0, 2],
+                rotations: &[1],
+            },
+            Dimension::Space => Axes {
+                vectors: &[0, 1, 2],
+                rotations: &[0, 1, 2],
+            },
         }
     }
-    for port in &user.bodies {
-        let body = motion.element(port.value);
-        arguments.extend(match (user.dimension, model.dimension) {
-            (Dimension::Plane, Dimension::Plane) => vec![body.angle],
-            // of a planar motion in space: x of the element is (cos φ, 0, −sin φ)
-            (Dimension::Plane, Dimension::Space) => {
-                let forward = body.rotation.column(0);
-                vec![(-forward.0[2]).atan2(forward.0[0])]
+}
+
+/// What the function looks at and acts on, in the order of the ports. A body is found again by its element.
+struct Seen<'g> {
+    points: Vec<Point<'g>>,
+    lines: Vec<Line<'g>>,
+    joints: Vec<JointMotion<'g>>,
+    /// Coordinate and rate.
+    freedoms: Vec<(Expr<'g>, Expr<'g>)>,
+}
+
+/// A straight line between two points.
+struct Line<'g> {
+    from: Point<'g>,
+    to: Point<'g>,
+    /// The unit vector from one to the other.
+    direction: Vec3<'g>,
+    length: Expr<'g>,
+    rate: Expr<'g>,
+}
+
+/// The relative rotations of a joint.
+struct JointMotion<'g> {
+    /// The body that carries the joint.
+    parent: Body,
+    about: Vec<Rotation<'g>>,
+}
+
+impl<'g> Seen<'g> {
+    /// What the function looks at; adds it to the arguments, kind after kind.
+    fn of(
+        user: &User,
+        setting: Setting<'_, 'g>,
+        axes: Axes,
+        arguments: &mut Vec<Expr<'g>>,
+    ) -> Self {
+        let Setting { graph, motion, .. } = setting;
+        let points: Vec<_> = user
+            .points
+            .iter()
+            .map(|port| motion.attachment(graph, &port.value))
+            .collect();
+        for point in &points {
+            for vector in [point.position, point.velocity] {
+                arguments.extend(axes.vectors.iter().map(|&i| vector.0[i]));
             }
-            (Dimension::Space, _) => body.rotation.0.as_flattened().to_vec(),
-        });
-        arguments.extend(rotations.iter().map(|&i| body.omega.0[i]));
+        }
+        for port in &user.bodies {
+            arguments.extend(orientation(user, setting, port.value));
+            let omega = motion.element(port.value).omega;
+            arguments.extend(axes.rotations.iter().map(|&i| omega.0[i]));
+        }
+        let mut lines = Vec::new();
+        for port in &user.lines {
+            let line = Line::of(&port.value, setting);
+            arguments.extend([line.length, line.rate]);
+            lines.push(line);
+        }
+        let mut joints = Vec::new();
+        for port in &user.joints {
+            let joint = JointMotion::of(port.value, setting, axes);
+            arguments.extend(joint.about.iter().map(|rotation| rotation.angle));
+            arguments.extend(joint.about.iter().map(|rotation| rotation.rate));
+            joints.push(joint);
+        }
+        let freedoms: Vec<_> = (user.freedoms.iter())
+            .map(|port| motion.element(port.value.element).freedoms[port.value.freedom])
+            .collect();
+        arguments.extend(freedoms.iter().flat_map(|(q, rate)| [*q, *rate]));
+        Seen {
+            points,
+            lines,
+            joints,
+            freedoms,
+        }
     }
-    let mut lines = Vec::new();
-    for port in &user.lines {
-        let from = motion.attachment(graph, &port.value.from);
-        let to = motion.attachment(graph, &port.value.to);
+
+    fn line_measures(&self, tensions: &[Expr<'g>]) -> Vec<LineMeasures<'g>> {
+        let measures = |(line, &tension): (&Line<'g>, &Expr<'g>)| LineMeasures {
+            tension,
+            length: line.length,
+            rate: line.rate,
+        };
+        self.lines.iter().zip(tensions).map(measures).collect()
+    }
+
+    fn joint_measures(
+        &self,
+        graph: &'g Graph,
+        axes: Axes,
+        torques: &[Vec<Expr<'g>>],
+    ) -> Vec<[Option<JointMeasures<'g>>; 3]> {
+        let of_joint = |(joint, torques): (&JointMotion<'g>, &Vec<Expr<'g>>)| {
+            let mut measures = [None; 3];
+            for ((&i, rotation), &torque) in axes.rotations.iter().zip(&joint.about).zip(torques) {
+                measures[i] = Some(JointMeasures {
+                    torque,
+                    angle: rotation.angle,
+                    rate: rotation.rate,
+                    permanent_sets: [graph.constant(0.0); 2],
+                });
+            }
+            measures
+        };
+        self.joints.iter().zip(torques).map(of_joint).collect()
+    }
+}
+
+/// The orientation of an element: an angle in the plane, else the nine entries of its rotation, row by row.
+fn orientation<'g>(user: &User, setting: Setting<'_, 'g>, element: ElementId) -> Vec<Expr<'g>> {
+    let body = setting.motion.element(element);
+    match (user.dimension, setting.model.dimension) {
+        (Dimension::Plane, Dimension::Plane) => vec![body.angle],
+        // of a planar motion in space: x of the element is (cos φ, 0, −sin φ)
+        (Dimension::Plane, Dimension::Space) => {
+            let forward = body.rotation.column(0);
+            vec![(-forward.0[2]).atan2(forward.0[0])]
+        }
+        (Dimension::Space, _) => body.rotation.0.as_flattened().to_vec(),
+    }
+}
+
+impl<'g> Line<'g> {
+    fn of(line: &UserLine, setting: Setting<'_, 'g>) -> Self {
+        let Setting { graph, motion, .. } = setting;
+        let from = motion.attachment(graph, &line.from);
+        let to = motion.attachment(graph, &line.to);
         let span = to.position - from.position;
         let length = belt::length(graph, span.squared());
         let direction = length.recip() * span;
         let rate = direction.dot(to.velocity - from.velocity);
-        arguments.extend([length, rate]);
-        lines.push((from, to, direction, length, rate));
+        Line {
+            from,
+            to,
+            direction,
+            length,
+            rate,
+        }
     }
-    let mut joints = Vec::new();
-    for port in &user.joints {
-        let parent = joint::parent(model, port.value);
-        let about: Vec<Rotation<'g>> = rotations
-            .iter()
-            .map(|&i| match model.dimension {
-                Dimension::Plane if i == 1 => joint::in_plane(graph, motion, port.value, parent),
-                Dimension::Plane => Rotation {
-                    angle: graph.constant(0.0),
-                    rate: graph.constant(0.0),
-                    direction: Vec3::zero(graph),
-                    unit: "rad",
-                },
-                Dimension::Space => joint::in_space(graph, motion, port.value, parent, i),
-            })
-            .collect();
-        arguments.extend(about.iter().map(|rotation| rotation.angle));
-        arguments.extend(about.iter().map(|rotation| rotation.rate));
-        joints.push((parent, about));
+}
+
+impl<'g> JointMotion<'g> {
+    fn of(element: ElementId, setting: Setting<'_, 'g>, axes: Axes) -> Self {
+        let Setting {
+            graph,
+            model,
+            motion,
+            ..
+        } = setting;
+        let parent = joint::parent(model, element);
+        let rotation = |&i: &usize| match model.dimension {
+            Dimension::Plane if i == 1 => joint::in_plane(graph, motion, element, parent),
+            Dimension::Plane => Rotation {
+                angle: graph.constant(0.0),
+                rate: graph.constant(0.0),
+                direction: Vec3::zero(graph),
+                unit: "rad",
+            },
+            Dimension::Space => joint::in_space(graph, motion, element, parent, i),
+        };
+        JointMotion {
+            parent,
+            about: axes.rotations.iter().map(rotation).collect(),
+        }
     }
-    let freedoms: Vec<_> = (user.freedoms.iter())
-        .map(|port| motion.element(port.value.element).freedoms[port.value.freedom])
-        .collect();
-    arguments.extend(freedoms.iter().flat_map(|(q, rate)| [*q, *rate]));
+}
+
+/// The arguments that do not depend on the motion: parameters, and what scales the curves.
+fn function_arguments<'g>(user: &User, graph: &'g Graph) -> Vec<Expr<'g>> {
+    let mut arguments = Vec::new();
     for port in &user.function.parameters {
         arguments.push(match &port.value.value {
             FieldComponent::Constant(value) => number(graph, value),
@@ -137,115 +281,121 @@ fn apply<'g>(user: &User, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> Us
             None => [graph.constant(0.0), graph.constant(1.0)],
         });
     }
+    arguments
+}
 
-    let names = user.results();
-    let mut part = 0;
-    let mut next = || {
-        let call = UserCall {
-            force: force as u16,
-            arguments: arguments.len() as u16,
-            part: part as u16,
-            parts: names.len() as u16,
+/// What the function returns, in the order of the ports; but for the rates of states, 0 while the force does not act.
+struct Results<'g> {
+    forces: Vec<Vec3<'g>>,
+    moments: Vec<Vec3<'g>>,
+    tensions: Vec<Expr<'g>>,
+    /// By joint, of its relative rotations.
+    torques: Vec<Vec<Expr<'g>>>,
+    efforts: Vec<Expr<'g>>,
+    /// Of the states.
+    rates: Vec<Expr<'g>>,
+}
+
+impl<'g> Results<'g> {
+    /// The call, part by part.
+    fn of(
+        user: &User,
+        setting: Setting<'_, 'g>,
+        axes: Axes,
+        seen: &Seen<'g>,
+        arguments: &[Expr<'g>],
+    ) -> Self {
+        let Setting {
+            graph, name, gate, ..
+        } = setting;
+        let names = user.results();
+        let mut part = 0;
+        let mut next = || {
+            let call = UserCall {
+                force: setting.index as u16,
+                arguments: arguments.len() as u16,
+                part: part as u16,
+                parts: names.len() as u16,
+            };
+            let value = graph.call(Function::User(call), arguments);
+            if let Some(result) = names.get(part) {
+                graph.name(value, format!("{}_{result}", name.replace('-', "_")));
+            }
+            part += 1;
+            value
         };
-        let value = graph.call(Function::User(call), &arguments);
-        if let Some(result) = names.get(part) {
-            graph.name(value, format!("{}_{result}", name.replace('-', "_")));
-        }
-        part += 1;
-        value
-    };
-    let mut vector = |axes: &[usize]| {
-        let mut vector = Vec3::zero(graph);
-        for &axis in axes {
-            vector.0[axis] = next();
-        }
-        vector
-    };
-    let forces: Vec<_> = points
-        .iter()
-        .map(|_| gate.of_vector(vector(axes)))
-        .collect();
-    let moments: Vec<_> = user
-        .bodies
-        .iter()
-        .map(|_| gate.of_vector(vector(rotations)))
-        .collect();
-    let tensions: Vec<_> = lines.iter().map(|_| gate.of(next())).collect();
-    let torques: Vec<Vec<_>> = joints
-        .iter()
-        .map(|(_, about)| about.iter().map(|_| gate.of(next())).collect())
-        .collect();
-    let efforts: Vec<_> = freedoms.iter().map(|_| gate.of(next())).collect();
-    let rates: Vec<_> = states.iter().map(|_| next()).collect();
-
-    let work = |port: &str| match user.ports() {
-        1 => format!("user {name}"),
-        _ => format!("user {name}: {port}"),
-    };
-    for ((port, point), &force) in user.points.iter().zip(&points).zip(&forces) {
-        loads.apply(port.value.on, point.offset, force);
-        if port.value.on != Body::Frame {
-            loads.work(work(&port.name), Product::Vectors(force, point.velocity));
-        }
-    }
-    for (port, &moment) in user.bodies.iter().zip(&moments) {
-        loads.turn(Body::Element(port.value), moment);
-        let omega = motion.element(port.value).omega;
-        loads.work(work(&port.name), Product::Vectors(moment, omega));
-    }
-    let mut line_measures = Vec::new();
-    for ((port, (from, to, direction, length, rate)), &tension) in
-        user.lines.iter().zip(&lines).zip(&tensions)
-    {
-        let pull = tension * *direction;
-        loads.apply(port.value.from.on, from.offset, pull);
-        loads.apply(port.value.to.on, to.offset, -pull);
-        loads.work(work(&port.name), Product::Scalars(-tension, *rate));
-        line_measures.push(LineMeasures {
-            tension,
-            length: *length,
-            rate: *rate,
-        });
-    }
-    let mut joint_measures = Vec::new();
-    for ((port, (parent, about)), torques) in user.joints.iter().zip(&joints).zip(&torques) {
-        let mut measures = [None; 3];
-        let mut moment = Vec3::zero(graph);
-        for ((&i, rotation), &torque) in rotations.iter().zip(about).zip(torques) {
-            moment = moment + torque * rotation.direction;
-            loads.work(work(&port.name), Product::Scalars(torque, rotation.rate));
-            measures[i] = Some(JointMeasures {
-                torque,
-                angle: rotation.angle,
-                rate: rotation.rate,
-                permanent_sets: [graph.constant(0.0); 2],
-            });
-        }
-        loads.turn_joint(port.value, *parent, moment);
-        joint_measures.push(measures);
-    }
-    for ((port, (_, rate)), &effort) in user.freedoms.iter().zip(&freedoms).zip(&efforts) {
-        let UserFreedom {
-            element, freedom, ..
-        } = port.value;
-        let on = &mut loads.wrenches.on_freedoms[element.system][element.element][freedom];
-        *on = *on + effort;
-        loads.work(work(&port.name), Product::Scalars(effort, *rate));
-    }
-    for ((index, _), &rate) in states.iter().zip(&rates) {
-        loads.states.auxiliaries[*index].next = rate;
-    }
-    UserMeasures {
-        forces,
-        moments,
-        lines: line_measures,
-        joints: joint_measures,
-        efforts,
-        states: states
+        let mut vector = |axes: &[usize]| {
+            let mut vector = Vec3::zero(graph);
+            for &axis in axes {
+                vector.0[axis] = next();
+            }
+            gate.of_vector(vector)
+        };
+        let forces = user.points.iter().map(|_| vector(axes.vectors)).collect();
+        let moments = user.bodies.iter().map(|_| vector(axes.rotations)).collect();
+        let tensions = seen.lines.iter().map(|_| gate.of(next())).collect();
+        let torques = seen
+            .joints
             .iter()
-            .zip(rates)
-            .map(|((_, value), rate)| (*value, rate))
-            .collect(),
+            .map(|joint| joint.about.iter().map(|_| gate.of(next())).collect())
+            .collect();
+        Results {
+            forces,
+            moments,
+            tensions,
+            torques,
+            efforts: seen.freedoms.iter().map(|_| gate.of(next())).collect(),
+            rates: user.states.iter().map(|_| next()).collect(),
+        }
+    }
+
+    /// Applies them to the bodies and joints, and adds their powers.
+    fn act(&self, user: &User, setting: Setting<'_, 'g>, seen: &Seen<'g>, loads: &mut Loads<'g>) {
+        let Setting {
+            graph,
+            motion,
+            name,
+            ..
+        } = setting;
+        let work = |port: &str| match user.ports() {
+            1 => format!("user {name}"),
+            _ => format!("user {name}: {port}"),
+        };
+        for ((port, point), &force) in user.points.iter().zip(&seen.points).zip(&self.forces) {
+            loads.apply(port.value.on, point.offset, force);
+            if port.value.on != Body::Frame {
+                loads.work(work(&port.name), Product::Vectors(force, point.velocity));
+            }
+        }
+        for (port, &moment) in user.bodies.iter().zip(&self.moments) {
+            loads.turn(Body::Element(port.value), moment);
+            let omega = motion.element(port.value).omega;
+            loads.work(work(&port.name), Product::Vectors(moment, omega));
+        }
+        for ((port, line), &tension) in user.lines.iter().zip(&seen.lines).zip(&self.tensions) {
+            let pull = tension * line.direction;
+            loads.apply(port.value.from.on, line.from.offset, pull);
+            loads.apply(port.value.to.on, line.to.offset, -pull);
+            loads.work(work(&port.name), Product::Scalars(-tension, line.rate));
+        }
+        for ((port, joint), torques) in user.joints.iter().zip(&seen.joints).zip(&self.torques) {
+            let mut moment = Vec3::zero(graph);
+            for (rotation, &torque) in joint.about.iter().zip(torques) {
+                moment = moment + torque * rotation.direction;
+                loads.work(work(&port.name), Product::Scalars(torque, rotation.rate));
+            }
+            loads.turn_joint(port.value, joint.parent, moment);
+        }
+        for ((port, (_, rate)), &effort) in
+            user.freedoms.iter().zip(&seen.freedoms).zip(&self.efforts)
+        {
+            let UserFreedom {
+                element, freedom, ..
+            } = port.value;
+            let on = &mut loads.wrenches.on_freedoms[element.system][element.element][freedom];
+            *on = *on + effort;
+            loads.work(work(&port.name), Product::Scalars(effort, *rate));
+        }
     }
 }
 

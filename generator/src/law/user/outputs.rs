@@ -113,169 +113,168 @@ impl Outputs for User {
         force: usize,
         at: At<'_>,
     ) -> Option<(Quantity, &'static str)> {
-        resolver.of_user(self, written, force, at)
+        of_user(resolver, self, written, force, at)
     }
 }
 
-impl Resolver<'_> {
-    /// What an output asks of a user force, and its unit.
-    pub fn of_user(
-        &self,
-        user: &User,
-        written: &Written,
-        force: usize,
-        at: At<'_>,
-    ) -> Option<(Quantity, &'static str)> {
-        self.without(at, &["segment", "ring"], "anything but a belt");
-        self.without(at, &["on", "relative_to"], "a user force");
-        fn names<T>(ports: &[Port<T>]) -> Vec<&str> {
-            ports.iter().map(|port| port.name.as_str()).collect()
-        }
-        let kinds: [(&str, Vec<&str>, &Table); 6] = [
-            ("a point", names(&user.points), &OF_POINT),
-            ("a body", names(&user.bodies), &OF_BODY),
-            ("a line", names(&user.lines), &OF_LINE),
-            ("a joint", names(&user.joints), &OF_JOINT),
-            ("a freedom", names(&user.freedoms), &OF_FREEDOM),
-            ("a state", names(&user.states), &OF_STATE),
-        ];
-        let all = || kinds.iter().flat_map(|(_, names, _)| names).copied();
-
-        let words = written.of.split_whitespace().last().unwrap_or_default();
-        let (what, index) = match words.split_once('/') {
-            Some((_, port)) => {
-                let found = kinds.iter().find_map(|(kind, names, table)| {
-                    let index = names.iter().position(|name| *name == port)?;
-                    Some((kind, index, table))
-                });
-                let Some((kind, index, table)) = found else {
-                    self.problems.add(at.key("of").problem(
-                        format!("the user force has no {}", quoted(port)),
-                        suggestion(port, all().collect::<Vec<_>>(), "it has no ports"),
-                    ));
-                    return None;
-                };
-                let (what, _) = self.look_up(written, table, kind, at)?;
-                (what, index)
-            }
-            None => self.only_port(written, &kinds, at)?,
-        };
-        self.without(at, &["at"], "a user force");
-        let (what, unit) = self.user_quantity(written, user, what, index, at)?;
-        let what = OfForce::User(what);
-        Some((Quantity::OfForce { force, what }, unit))
+/// What an output asks of a user force, and its unit.
+fn of_user(
+    resolver: &Resolver<'_>,
+    user: &User,
+    written: &Written,
+    force: usize,
+    at: At<'_>,
+) -> Option<(Quantity, &'static str)> {
+    resolver.without(at, &["segment", "ring"], "anything but a belt");
+    resolver.without(at, &["on", "relative_to"], "a user force");
+    fn names<T>(ports: &[Port<T>]) -> Vec<&str> {
+        ports.iter().map(|port| port.name.as_str()).collect()
     }
+    let kinds: [(&str, Vec<&str>, &Table); 6] = [
+        ("a point", names(&user.points), &OF_POINT),
+        ("a body", names(&user.bodies), &OF_BODY),
+        ("a line", names(&user.lines), &OF_LINE),
+        ("a joint", names(&user.joints), &OF_JOINT),
+        ("a freedom", names(&user.freedoms), &OF_FREEDOM),
+        ("a state", names(&user.states), &OF_STATE),
+    ];
+    let all = || kinds.iter().flat_map(|(_, names, _)| names).copied();
 
-    /// The only port that has what is asked for.
-    fn only_port(
-        &self,
-        written: &Written,
-        kinds: &[(&str, Vec<&str>, &Table)],
-        at: At<'_>,
-    ) -> Option<(Asked, usize)> {
-        let mut found = Vec::new();
-        let mut possible: Vec<&str> = Vec::new();
-        for (_, names, table) in kinds.iter().filter(|(_, names, _)| !names.is_empty()) {
-            possible.extend(table.iter().map(|(what, ..)| *what));
-            if let Some((_, _, what)) = table.iter().find(|(what, ..)| *what == written.what) {
-                let ports = names.iter().enumerate();
-                found.extend(ports.map(|(index, name)| (*what, index, *name)));
-            }
-        }
-        possible.sort_unstable();
-        possible.dedup();
-        match found[..] {
-            [(what, index, _)] => Some((what, index)),
-            [] => {
-                self.problems.add(at.key("what").problem(
-                    format!("this user force has no {}", quoted(&written.what)),
-                    suggestion(&written.what, possible, "it has nothing to show"),
+    let words = written.of.split_whitespace().last().unwrap_or_default();
+    let (what, index) = match words.split_once('/') {
+        Some((_, port)) => {
+            let found = kinds.iter().find_map(|(kind, names, table)| {
+                let index = names.iter().position(|name| *name == port)?;
+                Some((kind, index, table))
+            });
+            let Some((kind, index, table)) = found else {
+                resolver.problems.add(at.key("of").problem(
+                    format!("the user force has no {}", quoted(port)),
+                    suggestion(port, all().collect::<Vec<_>>(), "it has no ports"),
                 ));
-                None
-            }
-            [(_, _, first), ..] => {
-                let names: Vec<String> = found.iter().map(|(.., name)| quoted(name)).collect();
-                self.problems.add(at.key("of").problem(
-                    format!(
-                        "{} may be that of {}",
-                        quoted(&written.what),
-                        names.join(", ")
-                    ),
-                    format!("say which: `of: {}/{first}`", written.of.trim()),
-                ));
-                None
-            }
+                return None;
+            };
+            let (what, _) = resolver.look_up(written, table, kind, at)?;
+            (what, index)
         }
-    }
+        None => only_port(resolver, written, &kinds, at)?,
+    };
+    resolver.without(at, &["at"], "a user force");
+    let (what, unit) = user_quantity(resolver, written, user, what, index, at)?;
+    let what = OfForce::User(what);
+    Some((Quantity::OfForce { force, what }, unit))
+}
 
-    fn user_quantity(
-        &self,
-        written: &Written,
-        user: &User,
-        asked: Asked,
-        index: usize,
-        at: At<'_>,
-    ) -> Option<(UserQuantity, &'static str)> {
-        if !matches!(asked, Asked::Force | Asked::Moment) {
-            self.without(at, &["component", "axes"], "a scalar");
+/// The only port that has what is asked for.
+fn only_port(
+    resolver: &Resolver<'_>,
+    written: &Written,
+    kinds: &[(&str, Vec<&str>, &Table)],
+    at: At<'_>,
+) -> Option<(Asked, usize)> {
+    let mut found = Vec::new();
+    let mut possible: Vec<&str> = Vec::new();
+    for (_, names, table) in kinds.iter().filter(|(_, names, _)| !names.is_empty()) {
+        possible.extend(table.iter().map(|(what, ..)| *what));
+        if let Some((_, _, what)) = table.iter().find(|(what, ..)| *what == written.what) {
+            let ports = names.iter().enumerate();
+            found.extend(ports.map(|(index, name)| (*what, index, *name)));
         }
-        if !matches!(asked, Asked::Torque | Asked::Angle | Asked::AngleRate) {
-            self.without(at, &["about"], "anything but a joint");
-        }
-        Some(match asked {
-            Asked::Force => {
-                let component = self.component_of_vector(written, at)?;
-                let on = user.points.get(index)?.value.on;
-                let axes = self.axes(written, Some(on), Body::Frame, at)?;
-                (
-                    UserQuantity::Force(index, Projection { component, axes }),
-                    "N",
-                )
-            }
-            Asked::Moment => {
-                let component = self.component_of_rotation(written, false, at)?;
-                let on = Body::Element(user.bodies.get(index)?.value);
-                let axes = self.axes(written, Some(on), Body::Frame, at)?;
-                (
-                    UserQuantity::Moment(index, Projection { component, axes }),
-                    "N*m",
-                )
-            }
-            Asked::Tension => (UserQuantity::Tension(index), "N"),
-            Asked::Length => (UserQuantity::Length(index), "m"),
-            Asked::LengthRate => (UserQuantity::LengthRate(index), "m/s"),
-            Asked::Torque | Asked::Angle | Asked::AngleRate => {
-                let about = self.about(written, at)?;
-                if about > 2 {
-                    self.problems.add(at.key("about").problem(
-                        "a user force acts about the three relative rotations",
-                        "write `x`, `y` or `z`",
-                    ));
-                    return None;
-                }
-                match asked {
-                    Asked::Torque => (UserQuantity::Torque(index, about), "N*m"),
-                    Asked::Angle => (UserQuantity::Angle(index, about), "rad"),
-                    _ => (UserQuantity::AngleRate(index, about), "rad/s"),
-                }
-            }
-            Asked::Effort => {
-                let unit = match user.freedoms.get(index)?.value.turns {
-                    true => "N*m",
-                    false => "N",
-                };
-                (UserQuantity::Effort(index), unit)
-            }
-            Asked::State => (
-                UserQuantity::State(index),
-                user.states.get(index)?.value.unit,
-            ),
-            Asked::StateRate => {
-                let unit = user.states.get(index)?.value.rate_unit;
-                (UserQuantity::StateRate(index), unit)
-            }
-        })
     }
+    possible.sort_unstable();
+    possible.dedup();
+    match found[..] {
+        [(what, index, _)] => Some((what, index)),
+        [] => {
+            resolver.problems.add(at.key("what").problem(
+                format!("this user force has no {}", quoted(&written.what)),
+                suggestion(&written.what, possible, "it has nothing to show"),
+            ));
+            None
+        }
+        [(_, _, first), ..] => {
+            let names: Vec<String> = found.iter().map(|(.., name)| quoted(name)).collect();
+            resolver.problems.add(at.key("of").problem(
+                format!(
+                    "{} may be that of {}",
+                    quoted(&written.what),
+                    names.join(", ")
+                ),
+                format!("say which: `of: {}/{first}`", written.of.trim()),
+            ));
+            None
+        }
+    }
+}
+
+/// The quantity of the port with this index, and its unit.
+fn user_quantity(
+    resolver: &Resolver<'_>,
+    written: &Written,
+    user: &User,
+    asked: Asked,
+    index: usize,
+    at: At<'_>,
+) -> Option<(UserQuantity, &'static str)> {
+    if !matches!(asked, Asked::Force | Asked::Moment) {
+        resolver.without(at, &["component", "axes"], "a scalar");
+    }
+    if !matches!(asked, Asked::Torque | Asked::Angle | Asked::AngleRate) {
+        resolver.without(at, &["about"], "anything but a joint");
+    }
+    Some(match asked {
+        Asked::Force => {
+            let component = resolver.component_of_vector(written, at)?;
+            let on = user.points.get(index)?.value.on;
+            let axes = resolver.axes(written, Some(on), Body::Frame, at)?;
+            (
+                UserQuantity::Force(index, Projection { component, axes }),
+                "N",
+            )
+        }
+        Asked::Moment => {
+            let component = resolver.component_of_rotation(written, false, at)?;
+            let on = Body::Element(user.bodies.get(index)?.value);
+            let axes = resolver.axes(written, Some(on), Body::Frame, at)?;
+            (
+                UserQuantity::Moment(index, Projection { component, axes }),
+                "N*m",
+            )
+        }
+        Asked::Tension => (UserQuantity::Tension(index), "N"),
+        Asked::Length => (UserQuantity::Length(index), "m"),
+        Asked::LengthRate => (UserQuantity::LengthRate(index), "m/s"),
+        Asked::Torque | Asked::Angle | Asked::AngleRate => {
+            let about = resolver.about(written, at)?;
+            if about > 2 {
+                resolver.problems.add(at.key("about").problem(
+                    "a user force acts about the three relative rotations",
+                    "write `x`, `y` or `z`",
+                ));
+                return None;
+            }
+            match asked {
+                Asked::Torque => (UserQuantity::Torque(index, about), "N*m"),
+                Asked::Angle => (UserQuantity::Angle(index, about), "rad"),
+                _ => (UserQuantity::AngleRate(index, about), "rad/s"),
+            }
+        }
+        Asked::Effort => {
+            let unit = match user.freedoms.get(index)?.value.turns {
+                true => "N*m",
+                false => "N",
+            };
+            (UserQuantity::Effort(index), unit)
+        }
+        Asked::State => (
+            UserQuantity::State(index),
+            user.states.get(index)?.value.unit,
+        ),
+        Asked::StateRate => {
+            let unit = user.states.get(index)?.value.rate_unit;
+            (UserQuantity::StateRate(index), unit)
+        }
+    })
 }
 
 /// What can be asked of a user force: by port.

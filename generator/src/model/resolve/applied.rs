@@ -1,67 +1,72 @@
-//! Forces as written to checked ones, and what several laws have: friction, damping that fades in.
+//! Forces as written to checked ones, and what several laws have: friction and its bristles, damping that fades in.
 //!
 //! A coefficient that is 0 and a curve that is 0 everywhere are as if they had not been written.
 
 use super::Resolver;
 use super::name::Style;
 use super::quantity::Expected;
+use super::switch::active;
 use crate::description::place::At;
 use crate::description::quantity::Quantity as WrittenQuantity;
 use crate::diagnostic::quoted;
 use crate::law::{Header, Registered, Written};
-use crate::model::{Force, Friction, Number};
+use crate::model::{Bristle, Force, Friction, Number};
+
+/// Enters a force: its checked form, or that it is left out.
+pub(super) fn force(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) {
+    let Header {
+        name,
+        called,
+        enabled,
+        since,
+        until,
+    } = written.header();
+    let law = written.law();
+    let active = active(resolver, since, until, at);
+    let called = called
+        .is_none_or(|(key, name)| resolver.check_name(name, law.title, Style::Either, at.key(key)));
+    if called {
+        check_twice(resolver, &name, law, at.key(law.key));
+    }
+    let resolved = written.check(resolver, at);
+    let off = enabled == Some(false);
+    if off || resolved.is_none() {
+        resolver.disabled.push((law.key, name.clone()));
+    }
+    if let Some(kind) = resolved {
+        let force = Force { name, kind, active };
+        let curve = |index: usize| resolver.curves.get(index)?.as_ref().map(|m| &m.curve);
+        resolver.judge(force.requirements(resolver.dimension(), &curve), at);
+        let list = if off {
+            &mut resolver.off
+        } else {
+            &mut resolver.forces
+        };
+        list.push(force);
+    }
+}
+
+/// Reports a force of a name that another of the same law has.
+fn check_twice(resolver: &Resolver<'_>, name: &str, law: &Registered, place: At<'_>) {
+    let same = resolver.forces.iter().filter(|f| f.kind.key() == law.key);
+    let off = resolver.disabled.iter().filter(|(key, _)| *key == law.key);
+    let mut earlier = same
+        .map(|f| f.name.as_str())
+        .chain(off.map(|(_, name)| name.as_str()));
+    let all = law.called();
+    match law.twice {
+        Some(help) if earlier.any(|other| other == name) => {
+            let message = format!("there are two {all}s {}", quoted(name));
+            resolver.problems.add(place.problem(message, help));
+        }
+        Some(_) => {}
+        None => {
+            resolver.check_unique(name, &format!("{all}s"), earlier, place);
+        }
+    }
+}
 
 impl Resolver<'_> {
-    /// Resolves a force.
-    pub fn force(&mut self, written: &Written, at: At<'_>) {
-        let Header {
-            name,
-            called,
-            enabled,
-            since,
-            until,
-        } = written.header();
-        let law = written.law();
-        let active = self.active(since, until, at);
-        let called = called
-            .is_none_or(|(key, name)| self.check_name(name, law.title, Style::Either, at.key(key)));
-        if called {
-            self.check_twice(&name, law, at.key(law.key));
-        }
-        let resolved = written.check(self, at);
-        let off = enabled == Some(false);
-        if off || resolved.is_none() {
-            self.disabled.push((law.key, name.clone()));
-        }
-        if let Some(kind) = resolved {
-            let force = Force { name, kind, active };
-            let curve = |index: usize| self.curves.get(index)?.as_ref().map(|m| &m.curve);
-            self.judge(force.requirements(self.dimension(), &curve), at);
-            let list = if off { &mut self.off } else { &mut self.forces };
-            list.push(force);
-        }
-    }
-
-    /// Reports a force of a name that another of the same law has.
-    fn check_twice(&self, name: &str, law: &Registered, place: At<'_>) {
-        let same = self.forces.iter().filter(|f| f.kind.key() == law.key);
-        let off = self.disabled.iter().filter(|(key, _)| *key == law.key);
-        let mut earlier = same
-            .map(|f| f.name.as_str())
-            .chain(off.map(|(_, name)| name.as_str()));
-        let all = law.called();
-        match law.twice {
-            Some(help) if earlier.any(|other| other == name) => {
-                let message = format!("there are two {all}s {}", quoted(name));
-                self.problems.add(place.problem(message, help));
-            }
-            Some(_) => {}
-            None => {
-                self.check_unique(name, &format!("{all}s"), earlier, place);
-            }
-        }
-    }
-
     /// Coulomb friction; `None` where its limit is 0 or left out.
     pub fn friction(
         &self,
@@ -85,6 +90,28 @@ impl Resolver<'_> {
         };
         let limit = self.coefficient(limit, at.key("friction"), of_limit)?;
         Some(Friction { limit, tolerance })
+    }
+
+    /// The bristles by which friction holds; `None` where there is no friction or no displacement.
+    ///
+    /// `limit` as written, and whether there is friction; the displacement, and what it is.
+    pub fn bristle(
+        &self,
+        (limit, rubs): (Option<&WrittenQuantity>, bool),
+        displacement: Option<&WrittenQuantity>,
+        at: At<'_>,
+        expected: Expected,
+    ) -> Option<Bristle> {
+        let place = at.key("friction_displacement");
+        if displacement.is_some() && limit.is_none() {
+            self.problems.add(place.key_problem(
+                "a friction displacement means nothing without friction",
+                "add `friction: …`, or remove `friction_displacement`",
+            ));
+        }
+        self.coefficient(displacement, place, expected)
+            .filter(|_| rubs)
+            .map(|displacement| Bristle { displacement })
     }
 
     /// The abscissa up to which damping fades in; `None` where it is 0 or nothing is damped.

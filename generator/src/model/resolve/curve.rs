@@ -186,6 +186,35 @@ impl Resolver<'_> {
             ));
         }
         let place = at.key("points");
+        let points = self.listed_points(listed, place, measures, factors)?;
+        if points.len() < 2 {
+            self.problems.add(place.problem(
+                format!(
+                    "a curve has at least two points, but this has {}",
+                    points.len()
+                ),
+                "a constant is a curve through two points of the same ordinate",
+            ));
+        }
+        let shown = |index: usize| match listed[index].first() {
+            Some(Quantity::Number(x)) => x.to_string(),
+            Some(Quantity::Text(text)) => text.clone(),
+            _ => String::new(),
+        };
+        self.check_points(&points, &shown, &|index, message, help| {
+            place.item(index).problem(message, help)
+        });
+        Some(points)
+    }
+
+    /// The points of a list, in SI; `measures` become known from those with units, `factors` scale those without.
+    fn listed_points(
+        &self,
+        listed: &[Vec<Quantity>],
+        place: At<'_>,
+        measures: &mut [Measure; 2],
+        factors: [f64; 2],
+    ) -> Option<Vec<[f64; 2]>> {
         let mut points = Vec::with_capacity(listed.len());
         for (index, point) in listed.iter().enumerate() {
             let here = place.item(index);
@@ -222,23 +251,6 @@ impl Resolver<'_> {
             }
             points.push(entry);
         }
-        if points.len() < 2 {
-            self.problems.add(place.problem(
-                format!(
-                    "a curve has at least two points, but this has {}",
-                    points.len()
-                ),
-                "a constant is a curve through two points of the same ordinate",
-            ));
-        }
-        let shown = |index: usize| match listed[index].first() {
-            Some(Quantity::Number(x)) => x.to_string(),
-            Some(Quantity::Text(text)) => text.clone(),
-            _ => String::new(),
-        };
-        self.check_points(&points, &shown, &|index, message, help| {
-            place.item(index).problem(message, help)
-        });
         Some(points)
     }
 

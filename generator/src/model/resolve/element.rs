@@ -6,273 +6,286 @@ use crate::description::element::Element as Written;
 use crate::description::place::At;
 use crate::description::quantity::OneOrThree;
 use crate::diagnostic::{quoted, suggestion};
+use crate::joint::{couple, joint_of};
 use crate::model::{Element, Number};
 use crate::rotation::{bryant_angles, principal};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
-impl Resolver<'_> {
-    /// The elements of a system, parents first, otherwise in the order of the text.
-    pub fn tree(&self, system: &str, written: &[Written], list: At<'_>) -> Vec<Element> {
-        if written.is_empty() {
-            self.problems.add(list.problem(
-                format!("the system {} has no elements", quoted(system)),
-                "add at least one: `- { name: body, mass: 1 kg, cg: …, inertia: … }`",
-            ));
-            return Vec::new();
-        }
-        let mut index: HashMap<&str, usize> = HashMap::new();
-        let mut identifiers: HashMap<String, usize> = HashMap::new();
-        for (i, element) in written.iter().enumerate() {
-            let place = list.item(i).key("name");
-            self.check_name(&element.name, "an element", Style::Either, place);
-            let identifier = super::name::identifier(&element.name);
-            match identifiers.get(&identifier) {
-                Some(&earlier) => {
-                    self.check_unique(
-                        &element.name,
-                        "elements",
-                        [written[earlier].name.as_str()],
-                        place,
-                    );
-                }
-                None => {
-                    identifiers.insert(identifier, i);
-                    index.insert(&element.name, i);
-                }
+/// The elements of a system, parents first, otherwise in the order of the text.
+pub(super) fn tree(
+    resolver: &Resolver<'_>,
+    system: &str,
+    written: &[Written],
+    list: At<'_>,
+) -> Vec<Element> {
+    if written.is_empty() {
+        resolver.problems.add(list.problem(
+            format!("the system {} has no elements", quoted(system)),
+            "add at least one: `- { name: body, mass: 1 kg, cg: …, inertia: … }`",
+        ));
+        return Vec::new();
+    }
+    let mut index: HashMap<&str, usize> = HashMap::new();
+    let mut identifiers: HashMap<String, usize> = HashMap::new();
+    for (i, element) in written.iter().enumerate() {
+        let place = list.item(i).key("name");
+        resolver.check_name(&element.name, "an element", Style::Either, place);
+        let identifier = super::name::identifier(&element.name);
+        match identifiers.get(&identifier) {
+            Some(&earlier) => {
+                resolver.check_unique(
+                    &element.name,
+                    "elements",
+                    [written[earlier].name.as_str()],
+                    place,
+                );
+            }
+            None => {
+                identifiers.insert(identifier, i);
+                index.insert(&element.name, i);
             }
         }
-        let parents = self.parents(system, written, &index, list);
-        let order = self.parents_first(written, &parents, list);
-        let mut place = vec![None; written.len()];
-        for (new, &old) in order.iter().enumerate() {
-            place[old] = Some(new);
-        }
-        let mut elements: Vec<Element> = order
-            .iter()
-            .map(|&i| {
-                let parent = parents[i].and_then(|p| place[p]);
-                self.element(system, &written[i], parent, list.item(i))
-            })
-            .collect();
-        let joints: Vec<_> = (order.iter())
-            .map(|&i| (written[i].joint.as_ref(), list.item(i).key("joint")))
-            .collect();
-        self.couple(system, &joints, &mut elements);
-        elements
     }
+    let parents = parents(resolver, system, written, &index, list);
+    let order = parents_first(resolver, written, &parents, list);
+    let mut place = vec![None; written.len()];
+    for (new, &old) in order.iter().enumerate() {
+        place[old] = Some(new);
+    }
+    let mut elements: Vec<Element> = order
+        .iter()
+        .map(|&i| {
+            let parent = parents[i].and_then(|p| place[p]);
+            element(resolver, system, &written[i], parent, list.item(i))
+        })
+        .collect();
+    let joints: Vec<_> = (order.iter())
+        .map(|&i| (written[i].joint.as_ref(), list.item(i).key("joint")))
+        .collect();
+    couple(resolver, system, &joints, &mut elements);
+    elements
+}
 
-    /// Index of the parent of each element, as written. Parents that do not exist and second roots are reported.
-    fn parents(
-        &self,
-        system: &str,
-        written: &[Written],
-        index: &HashMap<&str, usize>,
-        list: At<'_>,
-    ) -> Vec<Option<usize>> {
-        let mut root: Option<&str> = None;
-        let mut parents = Vec::with_capacity(written.len());
-        for (i, element) in written.iter().enumerate() {
-            let here = list.item(i);
-            let Some(on) = &element.on else {
-                if let Some(first) = root {
-                    self.problems.add(here.key("name").problem(
-                        format!(
-                            "the system {} has two roots: neither {} nor {} is on another element",
-                            quoted(system),
-                            quoted(first),
-                            quoted(&element.name)
-                        ),
-                        format!("say which element carries {} (`on: …, at: …`), or make it a system of its own", quoted(&element.name)),
-                    ));
-                }
-                root = root.or(Some(&element.name));
-                if element.at.is_some() {
-                    self.problems.add(here.key("at").key_problem(
-                        format!(
-                            "{} has a joint `at` but is not `on` another element",
-                            quoted(&element.name)
-                        ),
-                        "add `on:`; a root is placed by the system's `start: { position: … }`",
-                    ));
-                }
-                parents.push(None);
-                continue;
-            };
-            let parent = index.get(on.as_str()).copied();
-            if parent.is_none() {
-                let others = written
-                    .iter()
-                    .map(|e| e.name.as_str())
-                    .filter(|n| *n != element.name);
-                self.problems.add(here.key("on").problem(
+/// Index of the parent of each element, as written. Parents that do not exist and second roots are reported.
+fn parents(
+    resolver: &Resolver<'_>,
+    system: &str,
+    written: &[Written],
+    index: &HashMap<&str, usize>,
+    list: At<'_>,
+) -> Vec<Option<usize>> {
+    let mut root: Option<&str> = None;
+    let mut parents = Vec::with_capacity(written.len());
+    for (i, element) in written.iter().enumerate() {
+        let here = list.item(i);
+        let Some(on) = &element.on else {
+            if let Some(first) = root {
+                resolver.problems.add(here.key("name").problem(
                     format!(
-                        "the parent {} of element {} does not exist",
-                        quoted(on),
+                        "the system {} has two roots: neither {} nor {} is on another element",
+                        quoted(system),
+                        quoted(first),
                         quoted(&element.name)
                     ),
-                    suggestion(
-                        on,
-                        others.collect::<Vec<_>>(),
-                        "leave `on` out for the root of a system",
-                    ),
+                    format!("say which element carries {} (`on: …, at: …`), or make it a system of its own", quoted(&element.name)),
                 ));
             }
-            if element.at.is_none() {
-                self.problems.add(here.key("on").key_problem(
+            root = root.or(Some(&element.name));
+            if element.at.is_some() {
+                resolver.problems.add(here.key("at").key_problem(
                     format!(
-                        "the joint of element {} on {} has no place",
-                        quoted(&element.name),
-                        quoted(on)
+                        "{} has a joint `at` but is not `on` another element",
+                        quoted(&element.name)
                     ),
-                    format!(
-                        "add `at: {}`, the joint in the frame of {}",
-                        if self.planar { "[x, z]" } else { "[x, y, z]" },
-                        quoted(on)
-                    ),
+                    "add `on:`; a root is placed by the system's `start: { position: … }`",
                 ));
             }
-            parents.push(parent);
+            parents.push(None);
+            continue;
+        };
+        let parent = index.get(on.as_str()).copied();
+        if parent.is_none() {
+            let others = written
+                .iter()
+                .map(|e| e.name.as_str())
+                .filter(|n| *n != element.name);
+            resolver.problems.add(here.key("on").problem(
+                format!(
+                    "the parent {} of element {} does not exist",
+                    quoted(on),
+                    quoted(&element.name)
+                ),
+                suggestion(
+                    on,
+                    others.collect::<Vec<_>>(),
+                    "leave `on` out for the root of a system",
+                ),
+            ));
         }
-        parents
+        if element.at.is_none() {
+            resolver.problems.add(here.key("on").key_problem(
+                format!(
+                    "the joint of element {} on {} has no place",
+                    quoted(&element.name),
+                    quoted(on)
+                ),
+                format!(
+                    "add `at: {}`, the joint in the frame of {}",
+                    if resolver.planar {
+                        "[x, z]"
+                    } else {
+                        "[x, y, z]"
+                    },
+                    quoted(on)
+                ),
+            ));
+        }
+        parents.push(parent);
     }
+    parents
+}
 
-    /// An order in which every parent stands before its children: of those that may come next, the first as written.
-    fn parents_first(
-        &self,
-        written: &[Written],
-        parents: &[Option<usize>],
-        list: At<'_>,
-    ) -> Vec<usize> {
-        let mut children = vec![Vec::new(); parents.len()];
-        let mut ready = BinaryHeap::new();
-        for (i, parent) in parents.iter().enumerate() {
-            match parent {
-                Some(parent) => children[*parent].push(i),
-                None => ready.push(Reverse(i)),
-            }
+/// An order in which every parent stands before its children: of those that may come next, the first as written.
+fn parents_first(
+    resolver: &Resolver<'_>,
+    written: &[Written],
+    parents: &[Option<usize>],
+    list: At<'_>,
+) -> Vec<usize> {
+    let mut children = vec![Vec::new(); parents.len()];
+    let mut ready = BinaryHeap::new();
+    for (i, parent) in parents.iter().enumerate() {
+        match parent {
+            Some(parent) => children[*parent].push(i),
+            None => ready.push(Reverse(i)),
         }
-        let mut order = Vec::with_capacity(parents.len());
-        let mut placed = vec![false; parents.len()];
-        while let Some(Reverse(i)) = ready.pop() {
-            order.push(i);
+    }
+    let mut order = Vec::with_capacity(parents.len());
+    let mut placed = vec![false; parents.len()];
+    while let Some(Reverse(i)) = ready.pop() {
+        order.push(i);
+        placed[i] = true;
+        ready.extend(children[i].iter().map(|&c| Reverse(c)));
+    }
+    // what is left hangs on a cycle; walk down to each and report it once
+    for start in 0..parents.len() {
+        let mut trail = Vec::new();
+        let mut at = start;
+        while !placed[at] && !trail.contains(&at) {
+            trail.push(at);
+            let Some(parent) = parents[at] else { break };
+            at = parent;
+        }
+        if let Some(first) = trail.iter().position(|&i| i == at).filter(|_| !placed[at]) {
+            let mut cycle: Vec<&str> = trail[first..]
+                .iter()
+                .map(|&i| written[i].name.as_str())
+                .collect();
+            cycle.push(cycle[0]);
+            let shown = if cycle.len() > 12 {
+                [&cycle[..6], &["…"], &cycle[cycle.len() - 5..]].concat()
+            } else {
+                cycle
+            };
+            resolver.problems.add(list.item(at).key("on").problem(
+                format!(
+                    "elements carry each other in a circle: {}",
+                    shown.join(" on ")
+                ),
+                "leave `on` and `at` out for the element that is the root",
+            ));
+        }
+        for i in trail {
             placed[i] = true;
-            ready.extend(children[i].iter().map(|&c| Reverse(c)));
         }
-        // what is left hangs on a cycle; walk down to each and report it once
-        for start in 0..parents.len() {
-            let mut trail = Vec::new();
-            let mut at = start;
-            while !placed[at] && !trail.contains(&at) {
-                trail.push(at);
-                let Some(parent) = parents[at] else { break };
-                at = parent;
-            }
-            if let Some(first) = trail.iter().position(|&i| i == at).filter(|_| !placed[at]) {
-                let mut cycle: Vec<&str> = trail[first..]
-                    .iter()
-                    .map(|&i| written[i].name.as_str())
-                    .collect();
-                cycle.push(cycle[0]);
-                let shown = if cycle.len() > 12 {
-                    [&cycle[..6], &["…"], &cycle[cycle.len() - 5..]].concat()
-                } else {
-                    cycle
-                };
-                self.problems.add(list.item(at).key("on").problem(
-                    format!(
-                        "elements carry each other in a circle: {}",
-                        shown.join(" on ")
-                    ),
-                    "leave `on` and `at` out for the element that is the root",
-                ));
-            }
-            for i in trail {
-                placed[i] = true;
-            }
-        }
-        order
     }
+    order
+}
 
-    fn element(
-        &self,
-        system: &str,
-        written: &Written,
-        parent: Option<usize>,
-        here: At<'_>,
-    ) -> Element {
-        let mass = self.number(&written.mass, here.key("mass"), MASS);
-        let tensor = self.tensor(&written.inertia, here.key("inertia"));
-        let inertia = match &tensor {
-            Some((moments, _)) => moments.clone(),
-            None => self.rotation(&written.inertia, here.key("inertia"), INERTIA),
-        };
-        let axes = match &written.axes {
-            None => tensor.map_or(NOWHERE, |(_, axes)| axes),
-            Some(_) if tensor.is_some() => {
-                self.problems.add(here.key("axes").key_problem(
-                    "six numbers of `inertia` have their principal axes in them",
-                    "remove the key `axes`, or give three principal moments",
-                ));
-                NOWHERE
-            }
-            Some(_) if self.planar => {
-                self.problems.add(here.key("axes").key_problem(
-                    "principal axes have no meaning in the plane",
-                    "remove the key `axes`; `inertia` is the moment about the y axis",
-                ));
-                NOWHERE
-            }
-            Some(axes) => self.vector(axes, here.key("axes"), ANGLE),
-        };
-        let element = Element {
-            name: written.name.clone(),
-            parent,
-            at: match (&written.at, &written.on) {
-                (Some(at), Some(_)) => self.vector(at, here.key("at"), LENGTH),
-                _ => NOWHERE,
-            },
-            joint: self.joint_of(written.joint.as_ref(), here.key("joint")),
-            mass,
-            cg: self.vector(&written.cg, here.key("cg"), LENGTH),
-            inertia,
-            axes,
-            angles: NOWHERE,
-            angular_velocity: NOWHERE,
-        };
-        let owner = format!("{system}/{}", written.name);
-        self.judge(element.requirements(&owner, self.dimension()), here);
-        element
-    }
+/// The checked form of an element; zeros stand for what is wrong.
+fn element(
+    resolver: &Resolver<'_>,
+    system: &str,
+    written: &Written,
+    parent: Option<usize>,
+    here: At<'_>,
+) -> Element {
+    let mass = resolver.number(&written.mass, here.key("mass"), MASS);
+    let tensor = tensor(resolver, &written.inertia, here.key("inertia"));
+    let inertia = match &tensor {
+        Some((moments, _)) => moments.clone(),
+        None => resolver.rotation(&written.inertia, here.key("inertia"), INERTIA),
+    };
+    let axes = match &written.axes {
+        None => tensor.map_or(NOWHERE, |(_, axes)| axes),
+        Some(_) if tensor.is_some() => {
+            resolver.problems.add(here.key("axes").key_problem(
+                "six numbers of `inertia` have their principal axes in them",
+                "remove the key `axes`, or give three principal moments",
+            ));
+            NOWHERE
+        }
+        Some(_) if resolver.planar => {
+            resolver.problems.add(here.key("axes").key_problem(
+                "principal axes have no meaning in the plane",
+                "remove the key `axes`; `inertia` is the moment about the y axis",
+            ));
+            NOWHERE
+        }
+        Some(axes) => resolver.vector(axes, here.key("axes"), ANGLE),
+    };
+    let element = Element {
+        name: written.name.clone(),
+        parent,
+        at: match (&written.at, &written.on) {
+            (Some(at), Some(_)) => resolver.vector(at, here.key("at"), LENGTH),
+            _ => NOWHERE,
+        },
+        joint: joint_of(resolver, written.joint.as_ref(), here.key("joint")),
+        mass,
+        cg: resolver.vector(&written.cg, here.key("cg"), LENGTH),
+        inertia,
+        axes,
+        angles: NOWHERE,
+        angular_velocity: NOWHERE,
+    };
+    let owner = format!("{system}/{}", written.name);
+    resolver.judge(element.requirements(&owner, resolver.dimension()), here);
+    element
+}
 
-    /// Principal moments and Bryant angles of the principal axes of a tensor of six numbers, in space; `None` where
-    /// `inertia` is no list of six.
-    fn tensor(&self, written: &OneOrThree, here: At<'_>) -> Option<([Number; 3], [Number; 3])> {
-        let OneOrThree::List(list) = written else {
-            return None;
-        };
-        if self.planar || list.len() != 6 {
-            return None;
-        }
-        let mut entries = [0.0; 6];
-        for (index, entry) in entries.iter_mut().enumerate() {
-            let place = here.item(index);
-            match self.number(&list[index], place, INERTIA).constant() {
-                Some(constant) => *entry = constant,
-                None => self.problems.add(place.problem(
-                    "a tensor of six numbers cannot depend on parameters",
-                    "give three principal moments and `axes`, which can",
-                )),
-            }
-        }
-        let [xx, yy, zz, xy, xz, yz] = entries;
-        let (moments, axes) = principal(&[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-        // a rod has a moment of 0, and its tensor one of 1e-17
-        let largest = moments.iter().copied().fold(0.0, f64::max);
-        let clean = moments.map(|m| if m.abs() <= 1e-15 * largest { 0.0 } else { m });
-        Some((
-            clean.map(Number::from),
-            bryant_angles(&axes).map(Number::from),
-        ))
+/// Principal moments and Bryant angles of the principal axes of a tensor of six numbers, in space; `None` where
+/// `inertia` is no list of six.
+fn tensor(
+    resolver: &Resolver<'_>,
+    written: &OneOrThree,
+    here: At<'_>,
+) -> Option<([Number; 3], [Number; 3])> {
+    let OneOrThree::List(list) = written else {
+        return None;
+    };
+    if resolver.planar || list.len() != 6 {
+        return None;
     }
+    let mut entries = [0.0; 6];
+    for (index, entry) in entries.iter_mut().enumerate() {
+        let place = here.item(index);
+        match resolver.number(&list[index], place, INERTIA).constant() {
+            Some(constant) => *entry = constant,
+            None => resolver.problems.add(place.problem(
+                "a tensor of six numbers cannot depend on parameters",
+                "give three principal moments and `axes`, which can",
+            )),
+        }
+    }
+    let [xx, yy, zz, xy, xz, yz] = entries;
+    let (moments, axes) = principal(&[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+    // a rod has a moment of 0, and its tensor one of 1e-17
+    let largest = moments.iter().copied().fold(0.0, f64::max);
+    let clean = moments.map(|m| if m.abs() <= 1e-15 * largest { 0.0 } else { m });
+    Some((
+        clean.map(Number::from),
+        bryant_angles(&axes).map(Number::from),
+    ))
 }

@@ -58,7 +58,7 @@ impl Resolver<'_> {
         let loading = loading?;
         if self.problems.count() > before
             || (written.curve.is_none() && slope.is_none())
-            || curve.as_ref().is_some_and(|u| self.are_one(u, loading))
+            || curve.as_ref().is_some_and(|u| are_one(self, u, loading))
         {
             return None;
         }
@@ -83,13 +83,11 @@ impl Resolver<'_> {
     }
 }
 
-impl Resolver<'_> {
-    /// Whether two curves are one, however they are written.
-    fn are_one(&self, a: &ScaledCurve, b: &ScaledCurve) -> bool {
-        let shape = |curve: &ScaledCurve| {
-            let (curve, _) = self.curve_of(curve)?;
-            Some((&curve.points, curve.interpolate, curve.extrapolate))
-        };
-        a.times == b.times && a.stretch == b.stretch && shape(a) == shape(b)
-    }
+/// Whether two curves are one, however they are written.
+fn are_one(resolver: &Resolver<'_>, a: &ScaledCurve, b: &ScaledCurve) -> bool {
+    let shape = |curve: &ScaledCurve| {
+        let (curve, _) = resolver.curve_of(curve)?;
+        Some((&curve.points, curve.interpolate, curve.extrapolate))
+    };
+    a.times == b.times && a.stretch == b.stretch && shape(a) == shape(b)
 }

@@ -11,7 +11,7 @@ use super::kinematics::{
 use super::regularity::{ROUNDING, general_angles};
 use crate::joint::placement::{self, Column, placed};
 use crate::joint::{ball, free};
-use crate::model::{Joint, Number, Reference, System};
+use crate::model::{Element, Joint, Number, Reference, System};
 
 /// Matrix of wrenches and motions, linear components first.
 type Spatial = [[f64; 6]; 6];
@@ -44,21 +44,12 @@ pub fn is_redundant(system: &System, idle: &Idle, planar: bool, parameters: &[f6
 pub fn idle(system: &System, planar: bool, parameters: &[f64]) -> Option<Idle> {
     let frames = general_position(system, planar, parameters);
     let elements = &system.elements;
-    let mut articulated: Vec<Spatial> = Vec::with_capacity(elements.len());
-    for (element, (a, _)) in elements.iter().zip(&frames) {
-        let mass = element.mass.value(parameters);
-        let c = cross(apply(a, values(&element.cg, parameters)));
-        let moments = values(&element.inertia, parameters);
-        let axes = product(a, &rotation(values(&element.axes, parameters)));
-        let principal = [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j { moments[i] } else { 0.0 }));
-        let own = product(&product(&axes, &principal), &transpose(&axes));
-        let about_origin = plus(&own, &times(&product(&c, &c), -mass));
-        articulated.push(blocks(
-            &times(&IDENTITY, mass),
-            &times(&c, mass),
-            &about_origin,
-        ));
-    }
+    let mut articulated: Vec<Spatial> = (elements.iter().zip(&frames))
+        .map(|(element, (a, _))| {
+            let (mass, c, about_origin) = inertia(element, a, parameters);
+            blocks(&times(&IDENTITY, mass), &times(&c, mass), &about_origin)
+        })
+        .collect();
     if system.is_coupled() {
         return idle_of_matrix(system, &frames, &articulated, planar, parameters);
     }
@@ -125,6 +116,18 @@ pub fn idle(system: &System, planar: bool, parameters: &[f64]) -> Option<Idle> {
     None
 }
 
+/// Of an element with these axes: its mass, the cross-product matrix of its centre of gravity, and its inertia about its joint.
+pub(super) fn inertia(element: &Element, a: &Matrix, parameters: &[f64]) -> (f64, Matrix, Matrix) {
+    let mass = element.mass.value(parameters);
+    let c = cross(apply(a, values(&element.cg, parameters)));
+    let moments = values(&element.inertia, parameters);
+    let axes = product(a, &rotation(values(&element.axes, parameters)));
+    let principal = [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j { moments[i] } else { 0.0 }));
+    let own = product(&product(&axes, &principal), &transpose(&axes));
+    let about_origin = plus(&own, &times(&product(&c, &c), -mass));
+    (mass, c, about_origin)
+}
+
 /// Inertia of rotors on the freedoms of an element.
 fn armatures(system: &System, k: usize, parameters: &[f64]) -> Vec<f64> {
     let freedoms = system.elements[k].joint.freedoms().iter();
@@ -140,74 +143,8 @@ fn idle_of_matrix(
     planar: bool,
     parameters: &[f64],
 ) -> Option<Idle> {
-    // of each velocity its element and freedom; the reference joint has none
-    let mut rows: Vec<Option<(usize, usize)>> = Vec::new();
-    let directions = match system.reference {
-        Reference::Free => free::directions(planar),
-        _ => &[],
-    };
-    rows.extend(directions.iter().map(|_| None));
-    for (k, element) in system.elements.iter().enumerate() {
-        match &element.joint {
-            Joint::Ball => {
-                let axes = ball::axes(planar).len();
-                rows.extend((0..axes).map(|j| Some((k, j))));
-            }
-            Joint::Freedoms(freedoms) => {
-                let own = freedoms.iter().enumerate().filter(|(_, f)| f.is_own());
-                rows.extend(own.map(|(j, _)| Some((k, j))));
-            }
-        }
-    }
-    let row = |k, j| rows.iter().position(|row| *row == Some((k, j)));
-    let mut s = vec![vec![0.0; rows.len()]; rows.len()];
-    let mut motions: Vec<Vec<Column>> = Vec::new();
-    for (k, element) in system.elements.iter().enumerate() {
-        let mut motion: Vec<Column> = match element.parent {
-            None => {
-                let mut motion = vec![[0.0; 6]; rows.len()];
-                for (column, &direction) in motion.iter_mut().zip(directions) {
-                    column[direction] = 1.0;
-                }
-                motion
-            }
-            Some(parent) => {
-                let u = sum(frames[k].1, frames[parent].1.map(|x| -x));
-                let turns = element.joint.turns_with_carrier();
-                let carried = motions[parent].iter().map(|&[x, y, z, a, b, c]| {
-                    let v = sum([x, y, z], apply(&cross([a, b, c]), u));
-                    let omega = if turns { [a, b, c] } else { [0.0; 3] };
-                    [v[0], v[1], v[2], omega[0], omega[1], omega[2]]
-                });
-                carried.collect()
-            }
-        };
-        let own = columns(system, k, frames, planar, parameters);
-        let armatures = armatures(system, k, parameters);
-        for (j, column) in own.iter().enumerate() {
-            let follows = element
-                .joint
-                .freedoms()
-                .get(j)
-                .and_then(|f| f.follows.as_ref());
-            let (at, ratio) = match follows {
-                None => (row(k, j), 1.0),
-                Some(f) => (row(f.element, f.freedom), f.ratio.value(parameters)),
-            };
-            let Some(at) = at else { continue };
-            for (to, from) in motion[at].iter_mut().zip(column) {
-                *to += ratio * from;
-            }
-            s[at][at] += ratio * ratio * armatures.get(j).copied().unwrap_or(0.0);
-        }
-        for i in 0..rows.len() {
-            let needed = times6(&inertias[k], &motion[i]);
-            for j in 0..rows.len() {
-                s[i][j] += dot(&motion[j], &needed);
-            }
-        }
-        motions.push(motion);
-    }
+    let rows = velocities(system, planar);
+    let mut s = mass_matrix(system, &rows, frames, inertias, planar, parameters);
     let whole: Vec<f64> = (0..rows.len()).map(|i| s[i][i]).collect();
     for i in (0..rows.len()).rev() {
         let pivot = s[i][i];
@@ -232,6 +169,94 @@ fn idle_of_matrix(
         }
     }
     None
+}
+
+/// Of a velocity, its element and freedom; the reference joint has none.
+type Row = Option<(usize, usize)>;
+
+/// The directions in which the reference joint moves.
+fn reference_directions(system: &System, planar: bool) -> &'static [usize] {
+    match system.reference {
+        Reference::Free => free::directions(planar),
+        _ => &[],
+    }
+}
+
+/// The velocities of a system, those of the reference joint first.
+fn velocities(system: &System, planar: bool) -> Vec<Row> {
+    let mut rows: Vec<Row> = Vec::new();
+    rows.extend(reference_directions(system, planar).iter().map(|_| None));
+    for (k, element) in system.elements.iter().enumerate() {
+        match &element.joint {
+            Joint::Ball => {
+                let axes = ball::axes(planar).len();
+                rows.extend((0..axes).map(|j| Some((k, j))));
+            }
+            Joint::Freedoms(freedoms) => {
+                let own = freedoms.iter().enumerate().filter(|(_, f)| f.is_own());
+                rows.extend(own.map(|(j, _)| Some((k, j))));
+            }
+        }
+    }
+    rows
+}
+
+/// S = Σ JᵀIJ
+fn mass_matrix(
+    system: &System,
+    rows: &[Row],
+    frames: &[(Matrix, Vector)],
+    inertias: &[Spatial],
+    planar: bool,
+    parameters: &[f64],
+) -> Vec<Vec<f64>> {
+    let row = |k, j| rows.iter().position(|row| *row == Some((k, j)));
+    let mut s = vec![vec![0.0; rows.len()]; rows.len()];
+    let mut motions: Vec<Vec<Column>> = Vec::new();
+    for (k, element) in system.elements.iter().enumerate() {
+        let mut motion: Vec<Column> = match element.parent {
+            None => {
+                let mut motion = vec![[0.0; 6]; rows.len()];
+                let directions = reference_directions(system, planar);
+                for (column, &direction) in motion.iter_mut().zip(directions) {
+                    column[direction] = 1.0;
+                }
+                motion
+            }
+            Some(parent) => {
+                let u = sum(frames[k].1, frames[parent].1.map(|x| -x));
+                let turns = element.joint.turns_with_carrier();
+                let carried = motions[parent].iter().map(|&[x, y, z, a, b, c]| {
+                    let v = sum([x, y, z], apply(&cross([a, b, c]), u));
+                    let omega = if turns { [a, b, c] } else { [0.0; 3] };
+                    [v[0], v[1], v[2], omega[0], omega[1], omega[2]]
+                });
+                carried.collect()
+            }
+        };
+        let own = columns(system, k, frames, planar, parameters);
+        let armatures = armatures(system, k, parameters);
+        for (j, column) in own.iter().enumerate() {
+            let freedom = element.joint.freedoms().get(j);
+            let (at, ratio) = match freedom.and_then(|f| f.follows.as_ref()) {
+                None => (row(k, j), 1.0),
+                Some(f) => (row(f.element, f.freedom), f.ratio.value(parameters)),
+            };
+            let Some(at) = at else { continue };
+            for (to, from) in motion[at].iter_mut().zip(column) {
+                *to += ratio * from;
+            }
+            s[at][at] += ratio * ratio * armatures.get(j).copied().unwrap_or(0.0);
+        }
+        for i in 0..rows.len() {
+            let needed = times6(&inertias[k], &motion[i]);
+            for j in 0..rows.len() {
+                s[i][j] += dot(&motion[j], &needed);
+            }
+        }
+        motions.push(motion);
+    }
+    s
 }
 
 /// Rotation and origin of every element where nothing is special.

@@ -19,7 +19,7 @@ pub(crate) mod output;
 mod parameter;
 pub(crate) mod quantity;
 pub(crate) mod regularity;
-mod run;
+pub(crate) mod run;
 pub(crate) mod rust;
 mod switch;
 mod system;
@@ -27,10 +27,11 @@ mod translation;
 mod vehicle;
 
 use super::{
-    Body, Coordinates, Criteria, Dimension, ElementId, Force, Model, Number, Output, Parameter,
-    Switch, System, Vehicle,
+    Attachment, Body, Coordinates, Criteria, Dimension, ElementId, Force, Model, Number, Output,
+    Parameter, Switch, System, Vehicle,
 };
-use crate::description::load::{Loaded, load_with, read_file, read_model, shown};
+use crate::description::force::Attachment as WrittenEnd;
+use crate::description::load::{Header, Loaded, load_with, read_file, read_model, shown};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::shape::Problems;
@@ -40,8 +41,11 @@ use crate::description::{
     load::Coordinates as WrittenCoordinates, load::Dimension as WrittenDimension,
 };
 use crate::diagnostic::{Diagnostics, quoted, suggestion};
+use crate::law::belt::check::check_belts;
+use crate::law::contact::check::surface;
 use name::Style;
 use quantity::LENGTH;
+use regularity::check_regularity;
 use std::collections::{BTreeMap, HashMap};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -119,7 +123,10 @@ fn resolve_with(
     Ok((model, loaded))
 }
 
-/// What is resolved so far.
+/// What is resolved so far, and what is wrong.
+///
+/// Functions that check a part of a description look up here what the part names, add what is wrong to `problems`, and return the
+/// checked form. Only the steps of [`Resolver::model`] enter it; curves that are written in place are entered where they are met.
 pub struct Resolver<'a> {
     pub(crate) problems: &'a Problems,
     pub(crate) planar: bool,
@@ -189,73 +196,32 @@ impl<'a> Resolver<'a> {
 
     /// The whole model; `None` where nothing sensible can be made of it.
     pub(crate) fn model(mut self, loaded: &Loaded) -> Option<Resolved> {
-        let main = loaded.files.last()?;
-        let top = main.source.at();
+        let top = loaded.files.last()?.source.at();
         let header = &loaded.header;
-        self.check_name(&header.model, "a model", Style::Kebab, top.key("model"));
-        if self.planar && header.coordinates.is_some() {
-            self.problems.add(top.key("coordinates").key_problem(
-                "in the plane there is one angle per element and no choice of coordinates",
-                "remove the key `coordinates`",
-            ));
-        }
-        let title = header.title.clone().unwrap_or_default();
-        if title.chars().any(char::is_control) || title.chars().count() > 200 {
-            self.problems.add(top.key("title").problem(
-                "the title is not one line of at most 200 characters",
-                "shorten it; comments (`# …`) hold what is longer",
-            ));
-        }
-        for file in &loaded.files {
-            let at = file.source.at().key("parameters");
-            for (name, written) in file.contents.parameters.iter().flat_map(|p| &p.0) {
-                self.parameter_entry(name, &written.0, at.key(name));
-            }
-        }
-        for file in &loaded.files {
-            let at = file.source.at().key("curves");
-            for (name, written) in file.contents.curves.iter().flat_map(|c| &c.0) {
-                self.named_curve(name, written, at);
-            }
-        }
-        for file in &loaded.files {
-            let at = file.source.at().key("vehicles");
-            for (index, written) in file.contents.vehicles.iter().flatten().enumerate() {
-                self.vehicle(written, at.item(index));
-            }
-        }
-        self.all_systems(loaded);
-        self.switch_names(loaded);
-        for file in &loaded.files {
-            let at = file.source.at().key("surfaces");
-            for (name, written) in file.contents.surfaces.iter().flat_map(|s| &s.0) {
-                self.surface(name, written, at.key(name));
-            }
-        }
-        for file in &loaded.files {
-            let at = file.source.at().key("forces");
-            for (index, written) in file.contents.forces.iter().flatten().enumerate() {
-                self.force(written, at.item(index));
-            }
-        }
-        self.all_switches(loaded);
+        self.check_header(header, top);
+        self.enter_numbers(loaded);
+        self.enter_vehicles(loaded);
+        system::systems(&mut self, loaded);
+        self.switch_names = switch::switch_names(&self, loaded);
+        self.enter_forces(loaded);
+        self.switches = switch::switches(&self, loaded);
         let sound = self.problems.count() == 0;
-        let mut places = Vec::new();
-        for file in &loaded.files {
-            let at = file.source.at().key("outputs");
-            for (index, written) in file.contents.outputs.iter().flatten().enumerate() {
-                self.output(written, at.item(index), &mut places);
-            }
-        }
-        let criteria = self.criteria(header.criteria.as_ref(), top.key("criteria"), &mut places);
-        let run = self.run(header.run.as_ref(), top.key("run"));
+        let mut headings = Vec::new();
+        self.enter_outputs(loaded, &mut headings);
+        let criteria = criteria::criteria(
+            &mut self,
+            header.criteria.as_ref(),
+            top.key("criteria"),
+            &mut headings,
+        );
+        let run = run::run(&self, header.run.as_ref(), top.key("run"));
         if sound {
-            self.check_regularity(loaded);
-            self.check_belts(loaded);
+            check_regularity(&self, loaded);
+            check_belts(&self, loaded);
         }
         let mut model = Model {
             name: header.model.clone(),
-            title,
+            title: header.title.clone().unwrap_or_default(),
             dimension: self.dimension(),
             coordinates: match header.coordinates {
                 Some(WrittenCoordinates::Bryant) => Coordinates::Bryant,
@@ -283,6 +249,114 @@ impl<'a> Resolver<'a> {
             written,
             criteria,
         })
+    }
+
+    fn check_header(&self, header: &Header, top: At<'_>) {
+        self.check_name(&header.model, "a model", Style::Kebab, top.key("model"));
+        if self.planar && header.coordinates.is_some() {
+            self.problems.add(top.key("coordinates").key_problem(
+                "in the plane there is one angle per element and no choice of coordinates",
+                "remove the key `coordinates`",
+            ));
+        }
+        let title = header.title.as_deref().unwrap_or_default();
+        if title.chars().any(char::is_control) || title.chars().count() > 200 {
+            self.problems.add(top.key("title").problem(
+                "the title is not one line of at most 200 characters",
+                "shorten it; comments (`# …`) hold what is longer",
+            ));
+        }
+    }
+
+    /// Enters parameters and named curves.
+    fn enter_numbers(&mut self, loaded: &Loaded) {
+        for file in &loaded.files {
+            let at = file.source.at().key("parameters");
+            for (name, written) in file.contents.parameters.iter().flat_map(|p| &p.0) {
+                match parameter::parameter(self, name, &written.0, at.key(name)) {
+                    Some((parameter, measure)) => {
+                        self.defaults.push(parameter.default);
+                        self.parameters.push(parameter);
+                        self.measures.push(measure);
+                    }
+                    None => self.failed_parameters.push(name.to_owned()),
+                }
+            }
+        }
+        for file in &loaded.files {
+            let at = file.source.at().key("curves");
+            for (name, written) in file.contents.curves.iter().flat_map(|c| &c.0) {
+                self.named_curve(name, written, at);
+            }
+        }
+    }
+
+    fn enter_vehicles(&mut self, loaded: &Loaded) {
+        for file in &loaded.files {
+            let at = file.source.at().key("vehicles");
+            for (index, written) in file.contents.vehicles.iter().flatten().enumerate() {
+                let vehicle = vehicle::vehicle(self, written, at.item(index));
+                self.vehicles.extend(vehicle);
+            }
+        }
+    }
+
+    /// Enters a system, and the paths of its elements.
+    fn enter_system(&mut self, system: System) {
+        for (element, e) in system.elements.iter().enumerate() {
+            let path = format!("{}/{}", system.name, e.name);
+            let id = ElementId {
+                system: self.systems.len(),
+                element,
+            };
+            self.elements.insert(path.clone(), id);
+            self.paths.push(path);
+        }
+        self.systems.push(system);
+    }
+
+    /// Enters the forces, after a look at all surfaces, also those that no contact names.
+    fn enter_forces(&mut self, loaded: &Loaded) {
+        for file in &loaded.files {
+            let at = file.source.at().key("surfaces");
+            for (name, written) in file.contents.surfaces.iter().flat_map(|s| &s.0) {
+                surface(self, name, written, at.key(name));
+            }
+        }
+        for file in &loaded.files {
+            let at = file.source.at().key("forces");
+            for (index, written) in file.contents.forces.iter().flatten().enumerate() {
+                applied::force(self, written, at.item(index));
+            }
+        }
+    }
+
+    /// Enters the outputs; `headings` become those of all, also of outputs that are switched off.
+    fn enter_outputs(&mut self, loaded: &Loaded, headings: &mut Vec<String>) {
+        for file in &loaded.files {
+            let at = file.source.at().key("outputs");
+            for (index, written) in file.contents.outputs.iter().flatten().enumerate() {
+                let output = output::output(self, written, at.item(index), headings);
+                self.outputs.extend(output);
+            }
+        }
+    }
+
+    /// The switch of a name; reported where there is none.
+    pub(crate) fn switch_id(&self, name: &str, at: At<'_>) -> Option<usize> {
+        let found = self.switch_names.iter().position(|n| n == name);
+        if found.is_none() {
+            let names = self.switch_names.iter().map(String::as_str);
+            self.problems.add(at.problem(
+                format!("there is no switch {}", quoted(name)),
+                suggestion(
+                    name,
+                    names,
+                    "declare it: `switches: [{ switch: crash, when: { time: 10 ms } }]`",
+                ),
+            ));
+        }
+        found
     }
 
     /// The element of a path `system/element`; reported where there is none.
@@ -341,6 +415,13 @@ impl<'a> Resolver<'a> {
             return None;
         }
         self.element_id(path, at).map(Body::Element)
+    }
+
+    /// A point on a body.
+    pub(crate) fn end(&self, written: &WrittenEnd, at: At<'_>) -> Option<Attachment> {
+        let position = self.vector(&written.at, at.key("at"), LENGTH);
+        self.body(&written.on, at.key("on"))
+            .map(|on| Attachment { on, at: position })
     }
 
     /// A point of an element in its local frame.

@@ -1,11 +1,13 @@
 //! Outputs: what of which, and the unit of the column.
 
 use super::quantity::LENGTH;
+use super::vehicle::vehicle_named;
 use super::{NOWHERE, Resolver};
 use crate::description::output::{Axis, Component as WrittenComponent, Output as Written};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
+use crate::law::joint::check::freedom_named;
 use crate::law::{Asked, LAWS, Registered};
 use crate::model::{
     Body, Component, ElementId, FreedomQuantity, JointLoadQuantity, Number, Output, PointQuantity,
@@ -91,70 +93,117 @@ enum Subject {
     Switch(usize),
 }
 
+/// The checked form of an output; `None` where it is wrong or switched off. `headings` are those seen so far, also of outputs that are switched off.
+pub(super) fn output(
+    resolver: &Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+    headings: &mut Vec<String>,
+) -> Option<Output> {
+    heading(resolver, &written.name, at.key("name"), headings);
+    let off = written.enabled == Some(false);
+    let code = written.code.clone();
+    if let Some(code) = &code {
+        let filter = written.filter.map(|class| class.said().1);
+        check_code(resolver, code, filter, at.key("code"));
+    }
+    let quantity = resolver.quantity(written, at, off);
+    let (quantity, unit) = quantity.filter(|_| !off)?;
+    if written.filter.is_some() && quantity.is_resultant() {
+        resolver.problems.add(at.key("filter").problem(
+            "a resultant is not filtered: sensors measure components, and their filtered values make the resultant",
+            "give `component: [x, y, z]`, or leave the filter to `criteria`, which filter components first",
+        ));
+    }
+    Some(Output {
+        name: written.name.clone(),
+        quantity,
+        unit: unit.to_owned(),
+        code,
+        filter: written.filter.map(|class| class.said().0),
+    })
+}
+
+/// Reports a channel code that is none, that another output has, or that says another filter than the output has.
+fn check_code(resolver: &Resolver<'_>, code: &str, filter: Option<u16>, at: At<'_>) {
+    let is_code = code.len() == 16
+        && code
+            .bytes()
+            .all(|byte| byte.is_ascii_uppercase() || byte.is_ascii_digit());
+    if !is_code {
+        resolver.problems.add(at.problem(
+            format!("{} is no channel code", quoted(code)),
+            "a channel code of ISO-MME has 16 capital letters and digits, such as 11HEADCG00H3ACXA; of several components it has ? as its 15th character",
+        ));
+    }
+    let said = match code.chars().last() {
+        Some('A') => Some(1000),
+        Some('B') => Some(600),
+        Some('C') => Some(180),
+        Some('D') => Some(60),
+        _ => None,
+    };
+    if let Some(filter) = filter.filter(|filter| is_code && said != Some(*filter)) {
+        resolver.problems.add(at.problem(
+            format!("the last character of the channel code {code} does not say the filter of the output, CFC{filter}"),
+            "end the code with A for CFC1000, B for CFC600, C for CFC180, D for CFC60",
+        ));
+    }
+    let other = resolver
+        .outputs
+        .iter()
+        .find(|other| other.code.as_deref() == Some(code));
+    if let Some(other) = other {
+        resolver.problems.add(at.problem(
+            format!("the output {} has the channel code {code}, too", quoted(&other.name)),
+            "give each output a code of its own; of two sides one has LE and the other RI as its seventh and eighth characters",
+        ));
+    }
+}
+
+/// Reports a heading that cannot be one, or is too much like another; adds it to them.
+fn heading(resolver: &Resolver<'_>, name: &str, at: At<'_>, headings: &mut Vec<String>) {
+    let plain = |name: &str| {
+        name.to_lowercase()
+            .replace(|c: char| !c.is_alphanumeric(), "_")
+    };
+    if name.trim().is_empty()
+        || name.chars().count() > MAX_HEADING
+        || name.chars().any(char::is_control)
+    {
+        resolver.problems.add(at.problem(
+            format!(
+                "the heading {} is empty, too long or not one line",
+                quoted(name)
+            ),
+            format!("a heading has 1 to {MAX_HEADING} characters"),
+        ));
+    }
+    if name.trim() == "time" {
+        resolver.problems.add(at.problem(
+            "an output cannot be called \"time\": that is the first column of the table",
+            "give it another name",
+        ));
+    }
+    if let Some(other) = headings.iter().find(|h| plain(h) == plain(name)) {
+        resolver.problems.add(at.problem(
+            if other == name {
+                format!("there are two outputs called {}", quoted(name))
+            } else {
+                format!(
+                    "the outputs {} and {} differ in capitals and signs only",
+                    quoted(other),
+                    quoted(name)
+                )
+            },
+            "give one of them another name: headings of the table, files of plots and words on the command line tell names by their \
+             letters and digits",
+        ));
+    }
+    headings.push(name.to_owned());
+}
+
 impl Resolver<'_> {
-    /// Resolves an output; `headings` are those seen so far, also of outputs that are switched off.
-    pub fn output(&mut self, written: &Written, at: At<'_>, headings: &mut Vec<String>) {
-        self.heading(&written.name, at.key("name"), headings);
-        let off = written.enabled == Some(false);
-        let code = written.code.clone();
-        if let Some(code) = &code {
-            let filter = written.filter.map(|class| class.said().1);
-            self.check_code(code, filter, at.key("code"));
-        }
-        if let (Some((quantity, unit)), false) = (self.quantity(written, at, off), off) {
-            if written.filter.is_some() && quantity.is_resultant() {
-                self.problems.add(at.key("filter").problem(
-                    "a resultant is not filtered: sensors measure components, and their filtered values make the resultant",
-                    "give `component: [x, y, z]`, or leave the filter to `criteria`, which filter components first",
-                ));
-            }
-            self.outputs.push(Output {
-                name: written.name.clone(),
-                quantity,
-                unit: unit.to_owned(),
-                code,
-                filter: written.filter.map(|class| class.said().0),
-            });
-        }
-    }
-
-    /// Reports a channel code that is none, that another output has, or that says another filter than the output has.
-    fn check_code(&self, code: &str, filter: Option<u16>, at: At<'_>) {
-        let is_code = code.len() == 16
-            && code
-                .bytes()
-                .all(|byte| byte.is_ascii_uppercase() || byte.is_ascii_digit());
-        if !is_code {
-            self.problems.add(at.problem(
-                format!("{} is no channel code", quoted(code)),
-                "a channel code of ISO-MME has 16 capital letters and digits, such as 11HEADCG00H3ACXA; of several components it has ? as its 15th character",
-            ));
-        }
-        let said = match code.chars().last() {
-            Some('A') => Some(1000),
-            Some('B') => Some(600),
-            Some('C') => Some(180),
-            Some('D') => Some(60),
-            _ => None,
-        };
-        if let Some(filter) = filter.filter(|filter| is_code && said != Some(*filter)) {
-            self.problems.add(at.problem(
-                format!("the last character of the channel code {code} does not say the filter of the output, CFC{filter}"),
-                "end the code with A for CFC1000, B for CFC600, C for CFC180, D for CFC60",
-            ));
-        }
-        let other = self
-            .outputs
-            .iter()
-            .find(|other| other.code.as_deref() == Some(code));
-        if let Some(other) = other {
-            self.problems.add(at.problem(
-                format!("the output {} has the channel code {code}, too", quoted(&other.name)),
-                "give each output a code of its own; of two sides one has LE and the other RI as its seventh and eighth characters",
-            ));
-        }
-    }
-
     /// What an output asks for, and its unit. Of one that is `off`, a force may be off too.
     pub fn quantity(
         &self,
@@ -206,81 +255,22 @@ impl Resolver<'_> {
         }
     }
 
-    fn heading(&self, name: &str, at: At<'_>, headings: &mut Vec<String>) {
-        let plain = |name: &str| {
-            name.to_lowercase()
-                .replace(|c: char| !c.is_alphanumeric(), "_")
-        };
-        if name.trim().is_empty()
-            || name.chars().count() > MAX_HEADING
-            || name.chars().any(char::is_control)
-        {
-            self.problems.add(at.problem(
-                format!(
-                    "the heading {} is empty, too long or not one line",
-                    quoted(name)
-                ),
-                format!("a heading has 1 to {MAX_HEADING} characters"),
-            ));
-        }
-        if name.trim() == "time" {
-            self.problems.add(at.problem(
-                "an output cannot be called \"time\": that is the first column of the table",
-                "give it another name",
-            ));
-        }
-        if let Some(other) = headings.iter().find(|h| plain(h) == plain(name)) {
-            self.problems.add(at.problem(
-                if other == name {
-                    format!("there are two outputs called {}", quoted(name))
-                } else {
-                    format!(
-                        "the outputs {} and {} differ in capitals and signs only",
-                        quoted(other),
-                        quoted(name)
-                    )
-                },
-                "give one of them another name: headings of the table, files of plots and words on the command line tell names by their \
-                 letters and digits",
-            ));
-        }
-        headings.push(name.to_owned());
-    }
-
     /// What `of` names; reported where that is nothing. Of an output that is `off`, a force may be off too.
     fn subject(&self, written: &Written, at: At<'_>, off: bool) -> Option<Subject> {
         let (of, at) = (written.of.as_str(), at.key("of"));
         let words: Vec<&str> = of.split_whitespace().collect();
         match words[..] {
             ["system", name] => self.system_named(name, at).map(Subject::System),
-            ["vehicle", name] => self.vehicle_named(name, at).map(Subject::Vehicle),
+            ["vehicle", name] => vehicle_named(self, name, at).map(Subject::Vehicle),
             ["switch", name] => self.switch_id(name, at).map(Subject::Switch),
             [name] if self.vehicles.iter().any(|v| v.name == name) => {
-                self.vehicle_named(name, at).map(Subject::Vehicle)
+                vehicle_named(self, name, at).map(Subject::Vehicle)
             }
             [path] if path.contains('/') => self.element_id(path, at).map(Subject::Element),
             [name] => match self.systems.iter().position(|s| s.name == name) {
                 Some(system) => Some(Subject::System(system)),
                 None => {
-                    let mut forces = self.forces.iter().filter(|f| f.name == name);
-                    let force = forces.find(|f| observable().any(|law| law.key == f.kind.key()));
-                    let element = self
-                        .paths
-                        .iter()
-                        .find(|p| p.rsplit('/').next() == Some(name));
-                    let help = match (force, element) {
-                        (Some(force), _) => format!(
-                            "did you mean {}?",
-                            quoted(&format!("{} {name}", force.kind.key()))
-                        ),
-                        (_, Some(path)) => format!(
-                            "elements are named with their system; did you mean {}?",
-                            quoted(path)
-                        ),
-                        _ => OF_HELP.to_owned(),
-                    };
-                    self.problems
-                        .add(at.problem(format!("there is nothing called {}", quoted(name)), help));
+                    self.nothing_called(name, at);
                     None
                 }
             },
@@ -290,60 +280,94 @@ impl Resolver<'_> {
             ["joint", name] if OF_ANY_JOINT.iter().any(|(what, ..)| *what == written.what) => {
                 self.element_id(name, at).map(Subject::Joint)
             }
-            [kind, name] => {
-                let Some(law) = observable().find(|law| law.key == kind) else {
-                    let message = match LAWS.iter().find(|law| law.key == kind) {
-                        Some(law) => format!("{} is given and has no outputs", law.title),
-                        None => format!("there is no output of {}", quoted(of)),
-                    };
-                    let laws = observable().map(|law| law.key);
-                    let near = nearest(kind, laws.chain(["system", "switch", "vehicle"]));
-                    let help = match near {
-                        Some(near) => format!("did you mean \"{near} {name}\"?"),
-                        None => OF_HELP.to_owned(),
-                    };
-                    self.problems.add(at.problem(message, help));
-                    return None;
-                };
-                let called = law.called();
-                let name = match name.split_once('/') {
-                    Some((name, _)) if law.has_ports => name,
-                    _ => name,
-                };
-                let found = self
-                    .forces
-                    .iter()
-                    .position(|f| f.kind.key() == kind && f.name == name);
-                if found.is_none() {
-                    if self
-                        .disabled
-                        .iter()
-                        .any(|(k, n)| *k == law.key && n == name)
-                    {
-                        // a force that is wrong is left out too, but then that is reported
-                        if !off && self.problems.count() == 0 {
-                            self.problems.add(at.problem(
-                                format!("the {called} {} is switched off", quoted(name)),
-                                "give the output `enabled: false` too, or switch the force on",
-                            ));
-                        }
-                    } else {
-                        let names = self.forces.iter().filter(|f| f.kind.key() == kind);
-                        let names: Vec<&str> = names.map(|f| f.name.as_str()).collect();
-                        self.problems.add(at.problem(
-                            format!("there is no {called} {} among the forces", quoted(name)),
-                            suggestion(name, names, &format!("add a force `{kind}: {name}`")),
-                        ));
-                    }
-                }
-                found.map(Subject::Force)
-            }
+            [kind, name] => self
+                .force_named([kind, name], of, at, off)
+                .map(Subject::Force),
             _ => {
                 self.problems
                     .add(at.problem(format!("{} names nothing", quoted(of)), OF_HELP));
                 None
             }
         }
+    }
+
+    /// Reports a name alone that is that of no system, vehicle or element.
+    fn nothing_called(&self, name: &str, at: At<'_>) {
+        let mut forces = self.forces.iter().filter(|f| f.name == name);
+        let force = forces.find(|f| observable().any(|law| law.key == f.kind.key()));
+        let element = self
+            .paths
+            .iter()
+            .find(|p| p.rsplit('/').next() == Some(name));
+        let help = match (force, element) {
+            (Some(force), _) => format!(
+                "did you mean {}?",
+                quoted(&format!("{} {name}", force.kind.key()))
+            ),
+            (_, Some(path)) => format!(
+                "elements are named with their system; did you mean {}?",
+                quoted(path)
+            ),
+            _ => OF_HELP.to_owned(),
+        };
+        self.problems
+            .add(at.problem(format!("there is nothing called {}", quoted(name)), help));
+    }
+
+    /// The force that `of` names, by its kind and name.
+    fn force_named(
+        &self,
+        [kind, name]: [&str; 2],
+        of: &str,
+        at: At<'_>,
+        off: bool,
+    ) -> Option<usize> {
+        let Some(law) = observable().find(|law| law.key == kind) else {
+            let message = match LAWS.iter().find(|law| law.key == kind) {
+                Some(law) => format!("{} is given and has no outputs", law.title),
+                None => format!("there is no output of {}", quoted(of)),
+            };
+            let laws = observable().map(|law| law.key);
+            let near = nearest(kind, laws.chain(["system", "switch", "vehicle"]));
+            let help = match near {
+                Some(near) => format!("did you mean \"{near} {name}\"?"),
+                None => OF_HELP.to_owned(),
+            };
+            self.problems.add(at.problem(message, help));
+            return None;
+        };
+        let called = law.called();
+        let name = match name.split_once('/') {
+            Some((name, _)) if law.has_ports => name,
+            _ => name,
+        };
+        let found = self
+            .forces
+            .iter()
+            .position(|f| f.kind.key() == kind && f.name == name);
+        if found.is_none() {
+            if self
+                .disabled
+                .iter()
+                .any(|(k, n)| *k == law.key && n == name)
+            {
+                // a force that is wrong is left out too, but then that is reported
+                if !off && self.problems.count() == 0 {
+                    self.problems.add(at.problem(
+                        format!("the {called} {} is switched off", quoted(name)),
+                        "give the output `enabled: false` too, or switch the force on",
+                    ));
+                }
+            } else {
+                let names = self.forces.iter().filter(|f| f.kind.key() == kind);
+                let names: Vec<&str> = names.map(|f| f.name.as_str()).collect();
+                self.problems.add(at.problem(
+                    format!("there is no {called} {} among the forces", quoted(name)),
+                    suggestion(name, names, &format!("add a force `{kind}: {name}`")),
+                ));
+            }
+        }
+        found
     }
 
     fn system_named(&self, name: &str, at: At<'_>) -> Option<usize> {
@@ -512,7 +536,7 @@ impl Resolver<'_> {
         let joint = &self.systems[element.system].elements[element.element].joint;
         let freedoms = joint.freedoms();
         let name = written.freedom.as_deref();
-        let freedom = self.freedom_named(name, &self.path(element), freedoms, at)?;
+        let freedom = freedom_named(self, name, &self.path(element), freedoms, at)?;
         let table = &OF_FREEDOM[usize::from(!freedoms[freedom].kind.turns())];
         let (what, unit) = self.look_up(written, table, "this freedom", at)?;
         let quantity = Quantity::Freedom {

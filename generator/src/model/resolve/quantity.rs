@@ -345,9 +345,26 @@ impl Resolver<'_> {
         }
     }
 
+    /// A number that depends on no parameter.
+    pub(crate) fn constant(
+        &self,
+        quantity: &Quantity,
+        at: At<'_>,
+        what: &str,
+    ) -> Option<(f64, Measure)> {
+        let (number, measure) = self.measured(quantity, at)?;
+        if number.constant().is_none() {
+            self.problems.add(at.problem(
+                format!("{what} depends on a parameter"),
+                "give a number; expressions of parameters may stand where the parameter is used",
+            ));
+        }
+        Some((number.constant()?, measure))
+    }
+
     /// Folds an expression and finds its dimension.
     fn expression(&self, e: &Expression, at: At<'_>) -> Option<(Number, Measure)> {
-        use Measure::{Bare, Known, Unknown};
+        use Measure::{Bare, Known};
         Some(match &e.kind {
             Kind::Number(value) => (Number::Constant(*value), Bare),
             Kind::Quantity(value, unit) => {
@@ -361,28 +378,7 @@ impl Resolver<'_> {
             Kind::Binary(operator, left, right) => {
                 let (a, b) = (self.expression(left, at), self.expression(right, at));
                 let ((a, of_a), (b, of_b)) = (a?, b?);
-                let measure = match (operator, of_a, of_b) {
-                    (Operator::Add | Operator::Subtract, Known(x), Known(y)) if x != y => {
-                        self.problems.add(at.text_problem(
-                            e.offset,
-                            e.length,
-                            format!("a sum of {} and {}", describe(x), describe(y)),
-                            "both sides of + and - have the same dimension",
-                        ));
-                        return None;
-                    }
-                    (Operator::Add | Operator::Subtract, Known(x), _) => Known(x),
-                    (Operator::Add | Operator::Subtract, _, Known(y)) => Known(y),
-                    (Operator::Multiply, Known(x), Known(y)) => Known(x * y),
-                    (Operator::Multiply, Known(x), Bare) | (Operator::Multiply, Bare, Known(x)) => {
-                        Known(x)
-                    }
-                    (Operator::Divide, Known(x), Known(y)) => Known(x / y),
-                    (Operator::Divide, Known(x), Bare) => Known(x),
-                    (Operator::Divide, Bare, Known(y)) => Known(Dimension::ONE / y),
-                    (_, Bare, Bare) => Bare,
-                    _ => Unknown,
-                };
+                let measure = self.measure_of(*operator, of_a, of_b, e, at)?;
                 let number = match operator {
                     Operator::Add => Number::sum(a, b),
                     Operator::Subtract => Number::difference(a, b),
@@ -429,6 +425,38 @@ impl Resolver<'_> {
                 };
                 (number, Bare)
             }
+        })
+    }
+
+    /// What a sum, a product or a quotient is; `e` is all of it.
+    fn measure_of(
+        &self,
+        operator: Operator,
+        of_a: Measure,
+        of_b: Measure,
+        e: &Expression,
+        at: At<'_>,
+    ) -> Option<Measure> {
+        use Measure::{Bare, Known, Unknown};
+        Some(match (operator, of_a, of_b) {
+            (Operator::Add | Operator::Subtract, Known(x), Known(y)) if x != y => {
+                self.problems.add(at.text_problem(
+                    e.offset,
+                    e.length,
+                    format!("a sum of {} and {}", describe(x), describe(y)),
+                    "both sides of + and - have the same dimension",
+                ));
+                return None;
+            }
+            (Operator::Add | Operator::Subtract, Known(x), _) => Known(x),
+            (Operator::Add | Operator::Subtract, _, Known(y)) => Known(y),
+            (Operator::Multiply, Known(x), Known(y)) => Known(x * y),
+            (Operator::Multiply, Known(x), Bare) | (Operator::Multiply, Bare, Known(x)) => Known(x),
+            (Operator::Divide, Known(x), Known(y)) => Known(x / y),
+            (Operator::Divide, Known(x), Bare) => Known(x),
+            (Operator::Divide, Bare, Known(y)) => Known(Dimension::ONE / y),
+            (_, Bare, Bare) => Bare,
+            _ => Unknown,
         })
     }
 }

@@ -28,7 +28,7 @@ use super::Resolver;
 use super::kinematics::{
     IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
 };
-use super::mobility::{Idle, idle, is_redundant};
+use super::mobility::{Idle, idle, inertia, is_redundant};
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
@@ -66,105 +66,103 @@ enum Motion {
     SlightReference { inertia: f64, beside: f64 },
 }
 
-impl Resolver<'_> {
-    /// Reports the elements that can move without inertia.
-    pub fn check_regularity(&self, loaded: &Loaded) {
-        for system in &self.systems {
-            if let Some(singular) = singular(system, self.planar, &self.defaults) {
-                let name = &system.elements[singular.element].name;
-                let redundant = match &singular.motion {
-                    Motion::Idle(idle) => is_redundant(system, idle, self.planar, &self.defaults),
-                    _ => false,
-                };
-                let (message, help) = self.explain(&system.name, name, singular.motion, redundant);
-                let at = place(loaded, &system.name, name);
-                self.problems.add(at.problem(message, help));
-            }
+/// Reports the elements that can move without inertia.
+pub(super) fn check_regularity(resolver: &Resolver<'_>, loaded: &Loaded) {
+    for system in &resolver.systems {
+        if let Some(singular) = singular(system, resolver.planar, &resolver.defaults) {
+            let name = &system.elements[singular.element].name;
+            let redundant = match &singular.motion {
+                Motion::Idle(idle) => {
+                    is_redundant(system, idle, resolver.planar, &resolver.defaults)
+                }
+                _ => false,
+            };
+            let (message, help) = explain(resolver, &system.name, name, singular.motion, redundant);
+            let at = place(loaded, &system.name, name);
+            resolver.problems.add(at.problem(message, help));
         }
     }
+}
 
-    /// What is wrong, and what helps. `redundant` says that a freedom does what others of its joint do.
-    fn explain(
-        &self,
-        system: &str,
-        element: &str,
-        motion: Motion,
-        redundant: bool,
-    ) -> (String, String) {
-        let (system, element) = (quoted(system), quoted(element));
-        let planar = self.planar;
-        let about = |axis: Vector| match planar {
-            true => String::new(),
-            false => format!(" the axis {} of its frame", shown(axis)),
-        };
-        match motion {
-            Motion::Turn { axis, free: true } => (
-                format!(
-                    "the system {system} can move without any inertia: its root {element} turns about{} its centre of gravity",
-                    match planar {
-                        true => String::new(),
-                        false => format!("{} through", about(axis)),
-                    }
-                ),
-                "where the reference joint is free the root needs moments of inertia that are not zero: give `inertia` a positive value".into(),
+/// What is wrong, and what helps. `redundant` says that a freedom does what others of its joint do.
+fn explain(
+    resolver: &Resolver<'_>,
+    system: &str,
+    element: &str,
+    motion: Motion,
+    redundant: bool,
+) -> (String, String) {
+    let (system, element) = (quoted(system), quoted(element));
+    let planar = resolver.planar;
+    let about = |axis: Vector| match planar {
+        true => String::new(),
+        false => format!(" the axis {} of its frame", shown(axis)),
+    };
+    match motion {
+        Motion::Turn { axis, free: true } => (
+            format!(
+                "the system {system} can move without any inertia: its root {element} turns about{} its centre of gravity",
+                match planar {
+                    true => String::new(),
+                    false => format!("{} through", about(axis)),
+                }
             ),
-            Motion::Turn { free: false, .. } if planar => (
-                format!("element {element} can turn about its joint without any inertia"),
-                "give it a positive `inertia`, or a `cg` away from the joint".into(),
+            "where the reference joint is free the root needs moments of inertia that are not zero: give `inertia` a positive value".into(),
+        ),
+        Motion::Turn { free: false, .. } if planar => (
+            format!("element {element} can turn about its joint without any inertia"),
+            "give it a positive `inertia`, or a `cg` away from the joint".into(),
+        ),
+        Motion::Turn { axis, free: false } => (
+            format!(
+                "element {element} can turn about{} through its joint without any inertia",
+                about(axis)
             ),
-            Motion::Turn { axis, free: false } => (
-                format!(
-                    "element {element} can turn about{} through its joint without any inertia",
-                    about(axis)
-                ),
-                "all its mass and what it carries lies on that axis: give positive moments of inertia".into(),
+            "all its mass and what it carries lies on that axis: give positive moments of inertia".into(),
+        ),
+        Motion::Idle(idle) => explain_idle(&system, &element, idle, redundant),
+        Motion::Slight {
+            axis,
+            inertia,
+            beside,
+        } => (
+            format!(
+                "element {element} can turn about{} its joint with an inertia of {inertia:.1e} kg*m^2 beside {beside:.1e} kg*m^2, so little that rounding hides it",
+                match planar {
+                    true => String::new(),
+                    false => format!("{} through", about(axis)),
+                }
             ),
-            Motion::Idle(Idle {
-                freedom,
-                left,
-                reference,
-                ..
-            }) => {
-                let which = match (freedom, reference) {
-                    (Some(freedom), _) => format!("the freedom {} of element {element}", quoted(&freedom)),
-                    (None, true) => format!("the reference joint of the system {system}"),
-                    (None, false) => format!("element {element} on its joint"),
-                };
-                let left = match left {
-                    0.0 => "nothing of it is left".to_owned(),
-                    left => format!("a share of {left:.0e} of it is left"),
-                };
-                (
-                    format!("{which} can move without any inertia: {left} when what it carries, and what is before it in the joint, move freely"),
-                    match reference {
-                        false if redundant => "the other freedoms of this joint move the element in all ways that this one does, whatever its mass: remove one of them, or give it another axis".into(),
-                        true => "the root moves in its own joint as the reference joint does: write `reference: fixed`, or another `joint` of the root".into(),
-                        false => "give what it carries mass or moments of inertia there, or remove a freedom whose axis another one has".into(),
-                    },
-                )
-            }
-            Motion::Slight {
-                axis,
-                inertia,
-                beside,
-            } => (
-                format!(
-                    "element {element} can turn about{} its joint with an inertia of {inertia:.1e} kg*m^2 beside {beside:.1e} kg*m^2, so little that rounding hides it",
-                    match planar {
-                        true => String::new(),
-                        false => format!("{} through", about(axis)),
-                    }
-                ),
-                "a part of less than 1e-13 is lost in double precision: give it a larger `inertia`, or leave the element out".into(),
+            "a part of less than 1e-13 is lost in double precision: give it a larger `inertia`, or leave the element out".into(),
+        ),
+        Motion::SlightReference { inertia, beside } => (
+            format!(
+                "the reference joint of the system {system} can move with an inertia of {inertia:.1e} kg beside {beside:.1e} kg, so little that rounding hides it"
             ),
-            Motion::SlightReference { inertia, beside } => (
-                format!(
-                    "the reference joint of the system {system} can move with an inertia of {inertia:.1e} kg beside {beside:.1e} kg, so little that rounding hides it"
-                ),
-                "a part of less than 1e-13 is lost in double precision: make a heavier element the root, or give this one more `mass` or `inertia`".into(),
-            ),
-        }
+            "a part of less than 1e-13 is lost in double precision: make a heavier element the root, or give this one more `mass` or `inertia`".into(),
+        ),
     }
+}
+
+/// The same of a freedom without inertia; `system` and `element` are in quotation marks.
+fn explain_idle(system: &str, element: &str, idle: Idle, redundant: bool) -> (String, String) {
+    let which = match (idle.freedom, idle.reference) {
+        (Some(freedom), _) => format!("the freedom {} of element {element}", quoted(&freedom)),
+        (None, true) => format!("the reference joint of the system {system}"),
+        (None, false) => format!("element {element} on its joint"),
+    };
+    let left = match idle.left {
+        0.0 => "nothing of it is left".to_owned(),
+        left => format!("a share of {left:.0e} of it is left"),
+    };
+    (
+        format!("{which} can move without any inertia: {left} when what it carries, and what is before it in the joint, move freely"),
+        match idle.reference {
+            false if redundant => "the other freedoms of this joint move the element in all ways that this one does, whatever its mass: remove one of them, or give it another axis".into(),
+            true => "the root moves in its own joint as the reference joint does: write `reference: fixed`, or another `joint` of the root".into(),
+            false => "give what it carries mass or moments of inertia there, or remove a freedom whose axis another one has".into(),
+        },
+    )
 }
 
 impl Model {
@@ -356,15 +354,7 @@ fn slight(
     for k in (0..n).rev() {
         let element = &system.elements[k];
         let a = &attitudes[k];
-        let mass = element.mass.value(parameters);
-        let c = cross(apply(a, values(&element.cg, parameters)));
-        let moments = values(&element.inertia, parameters);
-        let axes = product(a, &rotation(values(&element.axes, parameters)));
-        let principal = [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j { moments[i] } else { 0.0 }));
-        let own = plus(
-            &product(&product(&axes, &principal), &transpose(&axes)),
-            &times(&product(&c, &c), -mass),
-        );
+        let (mass, c, own) = inertia(element, a, parameters);
         let j = plus(&own, &turning[k]);
         let h = plus(&times(&c, mass), &moment[k]);
         scale[k] += trace(&own);

@@ -14,56 +14,64 @@ const EVERY: f64 = 0.01;
 /// Most samples of a run.
 const MAX_SAMPLES: f64 = 1e6;
 
-impl Resolver<'_> {
-    /// The run; the defaults where nothing is said, or what is said is wrong.
-    pub fn run(&self, written: Option<&Written>, at: At<'_>) -> Run {
-        let before = self.problems.count();
-        let (duration, every) = match written {
-            Some(run) => (
-                self.time(run.duration.as_ref(), at.key("duration"), DURATION),
-                self.time(run.every.as_ref(), at.key("every"), EVERY),
+/// The run; the defaults where nothing is said, or what is said is wrong.
+pub(super) fn run(resolver: &Resolver<'_>, written: Option<&Written>, at: At<'_>) -> Run {
+    let before = resolver.problems.count();
+    let (duration, every) = match written {
+        Some(run) => (
+            time(
+                resolver,
+                run.duration.as_ref(),
+                at.key("duration"),
+                DURATION,
             ),
-            None => (DURATION, EVERY),
-        };
-        if self.problems.count() == before {
-            if every > duration {
-                self.problems.add(at.key("every").problem(
-                    format!(
-                        "the time between samples, {every} s, is longer than the run, {duration} s"
-                    ),
-                    "give a shorter time; a run of 150 ms sampled every 2 ms has 76 samples",
-                ));
-            } else if duration / every > MAX_SAMPLES {
-                self.problems.add(at.key("every").problem(
-                    format!("the run has {:.1e} samples", duration / every),
-                    format!("at most {MAX_SAMPLES:e} samples are taken: give a longer `every` or a shorter `duration`"),
-                ));
-            }
+            time(resolver, run.every.as_ref(), at.key("every"), EVERY),
+        ),
+        None => (DURATION, EVERY),
+    };
+    if resolver.problems.count() == before {
+        if every > duration {
+            resolver.problems.add(at.key("every").problem(
+                format!(
+                    "the time between samples, {every} s, is longer than the run, {duration} s"
+                ),
+                "give a shorter time; a run of 150 ms sampled every 2 ms has 76 samples",
+            ));
+        } else if duration / every > MAX_SAMPLES {
+            resolver.problems.add(at.key("every").problem(
+                format!("the run has {:.1e} samples", duration / every),
+                format!("at most {MAX_SAMPLES:e} samples are taken: give a longer `every` or a shorter `duration`"),
+            ));
         }
-        Run { duration, every }
     }
+    Run { duration, every }
+}
 
-    /// A time, positive \[s\]; `default` where none is given.
-    pub(crate) fn time(&self, quantity: Option<&Quantity>, at: At<'_>, default: f64) -> f64 {
-        let Some(quantity) = quantity else {
-            return default;
-        };
-        let Some((time, measure)) = self.constant(quantity, at, "the time of a run") else {
-            return default;
-        };
-        if let Measure::Known(dimension) = measure
-            && dimension != TIME.dimension
-        {
-            self.problems.add(at.problem(
-                format!("a time is needed here, but this is {}", describe(dimension)),
-                "give a time such as `150 ms`",
-            ));
-        } else if time <= 0.0 {
-            self.problems.add(at.problem(
-                format!("the time {time} s is not positive"),
-                "give a time such as `150 ms`",
-            ));
-        }
-        time
+/// A time, positive \[s\]; `default` where none is given.
+pub(crate) fn time(
+    resolver: &Resolver<'_>,
+    quantity: Option<&Quantity>,
+    at: At<'_>,
+    default: f64,
+) -> f64 {
+    let Some(quantity) = quantity else {
+        return default;
+    };
+    let Some((time, measure)) = resolver.constant(quantity, at, "the time of a run") else {
+        return default;
+    };
+    if let Measure::Known(dimension) = measure
+        && dimension != TIME.dimension
+    {
+        resolver.problems.add(at.problem(
+            format!("a time is needed here, but this is {}", describe(dimension)),
+            "give a time such as `150 ms`",
+        ));
+    } else if time <= 0.0 {
+        resolver.problems.add(at.problem(
+            format!("the time {time} s is not positive"),
+            "give a time such as `150 ms`",
+        ));
     }
+    time
 }

@@ -11,7 +11,6 @@ use crate::description::place::At;
 use crate::description::short::Each;
 use crate::description::switch::{Switch as Written, Trigger as WrittenTrigger};
 use crate::description::unit::Dimension;
-use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Active, Switch, Trigger};
 
 /// The keys by which a trigger names a quantity.
@@ -30,143 +29,135 @@ const OF_QUANTITY: [&str; 12] = [
     "below",
 ];
 
-impl Resolver<'_> {
-    /// Enters the names of all switches.
-    pub fn switch_names(&mut self, loaded: &Loaded) {
-        for file in &loaded.files {
-            let at = file.source.at().key("switches");
-            for (index, written) in file.contents.switches.iter().flatten().enumerate() {
-                let place = at.item(index).key("switch");
-                if self.check_name(&written.switch, "a switch", Style::Either, place) {
-                    let names = self.switch_names.iter().map(String::as_str);
-                    self.check_unique(&written.switch, "switches", names, place);
-                }
-                self.switch_names.push(written.switch.clone());
+/// The names of all switches.
+pub(super) fn switch_names(resolver: &Resolver<'_>, loaded: &Loaded) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for file in &loaded.files {
+        let at = file.source.at().key("switches");
+        for (index, written) in file.contents.switches.iter().flatten().enumerate() {
+            let place = at.item(index).key("switch");
+            if resolver.check_name(&written.switch, "a switch", Style::Either, place) {
+                let names = all.iter().map(String::as_str);
+                resolver.check_unique(&written.switch, "switches", names, place);
             }
+            all.push(written.switch.clone());
         }
     }
+    all
+}
 
-    /// Resolves what makes the switches fire.
-    pub fn all_switches(&mut self, loaded: &Loaded) {
-        for file in &loaded.files {
-            let at = file.source.at().key("switches");
-            for (index, written) in file.contents.switches.iter().flatten().enumerate() {
-                let switch = self.switch(written, at.item(index));
-                self.switches.push(switch);
-            }
+/// The checked forms of all switches; `None` for one that is wrong.
+pub(super) fn switches(resolver: &Resolver<'_>, loaded: &Loaded) -> Vec<Option<Switch>> {
+    let mut all = Vec::new();
+    for file in &loaded.files {
+        let at = file.source.at().key("switches");
+        for (index, written) in file.contents.switches.iter().flatten().enumerate() {
+            all.push(switch(resolver, written, at.item(index)));
         }
     }
+    all
+}
 
-    /// The switch of a name; reported where there is none.
-    pub fn switch_id(&self, name: &str, at: At<'_>) -> Option<usize> {
-        let found = self.switch_names.iter().position(|n| n == name);
-        if found.is_none() {
-            let names = self.switch_names.iter().map(String::as_str);
-            self.problems.add(at.problem(
-                format!("there is no switch {}", quoted(name)),
-                suggestion(
-                    name,
-                    names,
-                    "declare it: `switches: [{ switch: crash, when: { time: 10 ms } }]`",
-                ),
+/// When a force acts.
+pub(super) fn active(
+    resolver: &Resolver<'_>,
+    since: Option<&str>,
+    until: Option<&str>,
+    at: At<'_>,
+) -> Active {
+    let of = |name: Option<&str>, key| resolver.switch_id(name?, at.key(key));
+    let active = Active {
+        since: of(since, "since"),
+        until: of(until, "until"),
+    };
+    if active.since.is_some() && active.since == active.until {
+        resolver.problems.add(at.key("until").problem(
+            "the force begins and ends with the same switch, and so never acts",
+            "name another switch, remove one of the two keys, or write `enabled: false`",
+        ));
+    }
+    active
+}
+
+/// The checked form of a switch.
+fn switch(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Switch> {
+    let after = resolver.coefficient(written.after.as_ref(), at.key("after"), TIME);
+    let switch = Switch {
+        name: written.switch.clone(),
+        trigger: trigger(resolver, &written.when, at.key("when"))?,
+        after,
+    };
+    resolver.judge(switch.requirements(), at);
+    Some(switch)
+}
+
+/// What makes a switch fire: a time, or a quantity and its threshold.
+fn trigger(resolver: &Resolver<'_>, written: &WrittenTrigger, at: At<'_>) -> Option<Trigger> {
+    const HELP: &str = "write `{ time: 10 ms }`, or `{ of: man/head, what: displacement, component: x, above: 0.1 }` with a quantity as in an output";
+    if let Some(time) = &written.time {
+        for key in OF_QUANTITY {
+            if at.node.get(key).is_some() {
+                resolver.problems.add(at.key(key).key_problem(
+                    format!("the key \"{key}\" means nothing beside `time`"),
+                    "a switch fires at a time or by a quantity; keep one of them",
+                ));
+            }
+        }
+        return Some(Trigger::Time(resolver.number(time, at.key("time"), TIME)));
+    }
+    let (Some(of), Some(what)) = (&written.of, &written.what) else {
+        resolver
+            .problems
+            .add(at.problem("it is not said what makes the switch fire", HELP));
+        return None;
+    };
+    let looked = Looked {
+        name: String::new(),
+        enabled: None,
+        of: Each(of.clone()),
+        what: what.clone(),
+        at: written.at.clone(),
+        component: written.component.map(Each),
+        axes: written.axes.clone(),
+        relative_to: written.relative_to.clone(),
+        on: written.on.clone(),
+        segment: written.segment,
+        ring: written.ring.clone(),
+        about: written.about,
+        freedom: written.freedom.clone(),
+        code: None,
+        filter: None,
+        mirror: None,
+    };
+    let quantity = resolver.quantity(&looked, at, false);
+    let (key, threshold) = match (&written.above, &written.below) {
+        (Some(above), None) => ("above", above),
+        (None, Some(below)) => ("below", below),
+        (Some(_), Some(_)) => {
+            resolver.problems.add(at.key("below").key_problem(
+                "the switch has two thresholds",
+                "keep one of `above` and `below`; a second switch may have the other",
             ));
-        }
-        found
-    }
-
-    /// When a force acts.
-    pub fn active(&self, since: Option<&str>, until: Option<&str>, at: At<'_>) -> Active {
-        let of = |name: Option<&str>, key| self.switch_id(name?, at.key(key));
-        let active = Active {
-            since: of(since, "since"),
-            until: of(until, "until"),
-        };
-        if active.since.is_some() && active.since == active.until {
-            self.problems.add(at.key("until").problem(
-                "the force begins and ends with the same switch, and so never acts",
-                "name another switch, remove one of the two keys, or write `enabled: false`",
-            ));
-        }
-        active
-    }
-
-    fn switch(&self, written: &Written, at: At<'_>) -> Option<Switch> {
-        let after = self.coefficient(written.after.as_ref(), at.key("after"), TIME);
-        let switch = Switch {
-            name: written.switch.clone(),
-            trigger: self.trigger(&written.when, at.key("when"))?,
-            after,
-        };
-        self.judge(switch.requirements(), at);
-        Some(switch)
-    }
-
-    fn trigger(&self, written: &WrittenTrigger, at: At<'_>) -> Option<Trigger> {
-        const HELP: &str = "write `{ time: 10 ms }`, or `{ of: man/head, what: displacement, component: x, above: 0.1 }` with a quantity as in an output";
-        if let Some(time) = &written.time {
-            for key in OF_QUANTITY {
-                if at.node.get(key).is_some() {
-                    self.problems.add(at.key(key).key_problem(
-                        format!("the key \"{key}\" means nothing beside `time`"),
-                        "a switch fires at a time or by a quantity; keep one of them",
-                    ));
-                }
-            }
-            return Some(Trigger::Time(self.number(time, at.key("time"), TIME)));
-        }
-        let (Some(of), Some(what)) = (&written.of, &written.what) else {
-            self.problems
-                .add(at.problem("it is not said what makes the switch fire", HELP));
             return None;
-        };
-        let looked = Looked {
-            name: String::new(),
-            enabled: None,
-            of: Each(of.clone()),
-            what: what.clone(),
-            at: written.at.clone(),
-            component: written.component.map(Each),
-            axes: written.axes.clone(),
-            relative_to: written.relative_to.clone(),
-            on: written.on.clone(),
-            segment: written.segment,
-            ring: written.ring.clone(),
-            about: written.about,
-            freedom: written.freedom.clone(),
-            code: None,
-            filter: None,
-            mirror: None,
-        };
-        let quantity = self.quantity(&looked, at, false);
-        let (key, threshold) = match (&written.above, &written.below) {
-            (Some(above), None) => ("above", above),
-            (None, Some(below)) => ("below", below),
-            (Some(_), Some(_)) => {
-                self.problems.add(at.key("below").key_problem(
-                    "the switch has two thresholds",
-                    "keep one of `above` and `below`; a second switch may have the other",
-                ));
-                return None;
-            }
-            (None, None) => {
-                self.problems.add(at.problem(
-                    "the switch has no threshold",
-                    "add `above: …` or `below: …`: it fires when the quantity is larger, or smaller, than that",
-                ));
-                return None;
-            }
-        };
-        let (quantity, unit) = quantity?;
-        let expected = Expected {
-            name: "a threshold",
-            dimension: dimension_of(unit),
-        };
-        let threshold = self.number(threshold, at.key(key), expected);
-        Some(match key {
-            "above" => Trigger::Above(quantity, threshold),
-            _ => Trigger::Below(quantity, threshold),
-        })
-    }
+        }
+        (None, None) => {
+            resolver.problems.add(at.problem(
+                "the switch has no threshold",
+                "add `above: …` or `below: …`: it fires when the quantity is larger, or smaller, than that",
+            ));
+            return None;
+        }
+    };
+    let (quantity, unit) = quantity?;
+    let expected = Expected {
+        name: "a threshold",
+        dimension: dimension_of(unit),
+    };
+    let threshold = resolver.number(threshold, at.key(key), expected);
+    Some(match key {
+        "above" => Trigger::Above(quantity, threshold),
+        _ => Trigger::Below(quantity, threshold),
+    })
 }
 
 /// The dimension of a unit as outputs name it, "" for a pure number.

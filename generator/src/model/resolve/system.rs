@@ -1,7 +1,9 @@
 //! Systems: their elements, what their reference joints do, where they start.
 
+use super::element::tree;
 use super::quantity::{ANGLE, LENGTH, RATE, SPEED};
-use super::translation::Ways;
+use super::translation::{Ways, translation};
+use super::vehicle::{ridden_at_start, vehicle_named};
 use super::{NOWHERE, Resolver, name::Style};
 use crate::description::load::Loaded;
 use crate::description::place::At;
@@ -11,7 +13,8 @@ use crate::description::system::{
     Prescribed, Reference as WrittenReference, Riding, Start, System as Written,
 };
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Element, ElementId, Joint, Number, Reference, System};
+use crate::joint::{freedoms_at_start, start_followers};
+use crate::model::{Element, Joint, Number, Reference, System};
 
 /// A system with all that the files say of it: where it is described, then where that is changed.
 struct Entry<'w> {
@@ -30,277 +33,284 @@ impl<'w> Entry<'w> {
     }
 }
 
-impl Resolver<'_> {
-    /// Resolves the systems of all files.
-    pub fn all_systems(&mut self, loaded: &Loaded) {
-        let mut entries: Vec<Entry> = Vec::new();
-        for file in &loaded.files {
-            let list = file.source.at().key("systems");
-            for (index, written) in file.contents.systems.iter().flatten().enumerate() {
-                self.collect(&mut entries, written, list.item(index));
+/// Enters the systems of all files, with the paths of their elements.
+pub(super) fn systems(resolver: &mut Resolver<'_>, loaded: &Loaded) {
+    let mut entries: Vec<Entry> = Vec::new();
+    for file in &loaded.files {
+        let list = file.source.at().key("systems");
+        for (index, written) in file.contents.systems.iter().flatten().enumerate() {
+            collect(resolver, &mut entries, written, list.item(index));
+        }
+    }
+    let Some(last) = loaded.files.last() else {
+        return;
+    };
+    if entries.is_empty() && resolver.problems.count() == 0 {
+        resolver.problems.add(last.source.at().problem(
+            "the model has no systems",
+            "add `systems:` with at least one element, or include a file that has them",
+        ));
+    }
+    for entry in &entries {
+        let system = system(resolver, entry);
+        resolver.enter_system(system);
+    }
+    resolver.too_many_elements(last.source.at());
+}
+
+/// Adds a system, or what a file says of a system that an included file describes.
+fn collect<'w>(
+    resolver: &Resolver<'_>,
+    entries: &mut Vec<Entry<'w>>,
+    written: &'w Written,
+    at: At<'w>,
+) {
+    let place = at.key("name");
+    let reference = written.reference.as_ref().map(|r| (r, at.key("reference")));
+    let start = written.start.as_ref().map(|s| (s, at.key("start")));
+    if written.elements.is_none() {
+        match entries.iter_mut().find(|e| e.written.name == written.name) {
+            Some(entry) => {
+                entry.reference = reference.or(entry.reference);
+                entry.starts.extend(start);
             }
-        }
-        let Some(last) = loaded.files.last() else {
-            return;
-        };
-        if entries.is_empty() && self.problems.count() == 0 {
-            self.problems.add(last.source.at().problem(
-                "the model has no systems",
-                "add `systems:` with at least one element, or include a file that has them",
-            ));
-        }
-        for entry in &entries {
-            self.system(entry);
-        }
-        self.too_many_elements(last.source.at());
-    }
-
-    /// Adds a system, or what a file says of a system that an included file describes.
-    fn collect<'w>(&self, entries: &mut Vec<Entry<'w>>, written: &'w Written, at: At<'w>) {
-        let place = at.key("name");
-        let reference = written.reference.as_ref().map(|r| (r, at.key("reference")));
-        let start = written.start.as_ref().map(|s| (s, at.key("start")));
-        if written.elements.is_none() {
-            match entries.iter_mut().find(|e| e.written.name == written.name) {
-                Some(entry) => {
-                    entry.reference = reference.or(entry.reference);
-                    entry.starts.extend(start);
-                }
-                None => {
-                    let known = entries.iter().map(|e| e.written.name.as_str());
-                    self.problems.add(place.problem(
-                        format!("the system {} has no elements", quoted(&written.name)),
-                        match crate::diagnostic::nearest(&written.name, known) {
-                            Some(near) => format!("add `elements:`; or did you mean the system {} described before?", quoted(near)),
-                            None => "add `elements:`; only a system that an included file describes may be named without them".to_owned(),
-                        },
-                    ));
-                }
-            }
-            return;
-        }
-        if written.name == "frame" {
-            self.problems.add(place.problem(
-                "\"frame\" is the absolute frame and cannot be the name of a system",
-                "use another name",
-            ));
-        }
-        if self.vehicles.iter().any(|v| v.name == written.name) {
-            self.problems.add(place.problem(
-                format!("{} is a vehicle and a system", quoted(&written.name)),
-                "give one of them another name",
-            ));
-        }
-        let earlier = entries.iter().map(|e| e.written.name.as_str());
-        self.check_name(&written.name, "a system", Style::Either, place);
-        if self.check_unique(&written.name, "systems", earlier, place) {
-            entries.push(Entry {
-                written,
-                at,
-                reference,
-                starts: start.into_iter().collect(),
-            });
-        }
-    }
-
-    fn system(&mut self, entry: &Entry<'_>) {
-        let written = entry.written;
-        let list = entry.at.key("elements");
-        let elements = self.tree(
-            &written.name,
-            written.elements.as_deref().unwrap_or_default(),
-            list,
-        );
-        let index = self.systems.len();
-        for (element, e) in elements.iter().enumerate() {
-            let path = format!("{}/{}", written.name, e.name);
-            self.elements.insert(
-                path.clone(),
-                ElementId {
-                    system: index,
-                    element,
-                },
-            );
-            self.paths.push(path);
-        }
-        let mut system = System {
-            name: written.name.clone(),
-            elements,
-            reference: Reference::Free,
-            position: NOWHERE,
-            velocity: NOWHERE,
-        };
-        for (start, at) in &entry.starts {
-            self.start(&mut system, start, *at);
-        }
-        self.start_followers(&mut system.elements);
-        if let Some((reference, at)) = entry.reference {
-            let moves = system.velocity.iter().any(|v| !v.is_zero());
-            system.reference = match reference {
-                WrittenReference::Free => Reference::Free,
-                WrittenReference::Fixed => {
-                    if moves && let Some(start) = entry.start_with("velocity") {
-                        self.problems.add(start.key("velocity").problem(
-                            format!(
-                                "the reference joint of {} is fixed, but has a velocity",
-                                quoted(&written.name)
-                            ),
-                            "remove the velocity, or write `reference: free`, or a prescribed `acceleration`",
-                        ));
-                    }
-                    Reference::Fixed
-                }
-                WrittenReference::Riding(riding) => self.riding(riding, at, &mut system, entry),
-                WrittenReference::Prescribed(prescribed) => {
-                    let start = entry.start_with("velocity");
-                    self.prescribed(prescribed, at, &mut system, start)
-                }
-            };
-            self.judge(system.requirements(), at);
-        }
-        self.systems.push(system);
-    }
-
-    fn start(&self, system: &mut System, start: &Start, at: At<'_>) {
-        if let Some(position) = &start.position {
-            system.position = self.vector(position, at.key("position"), LENGTH);
-        }
-        if let Some(velocity) = &start.velocity {
-            system.velocity = self.vector(velocity, at.key("velocity"), SPEED);
-        }
-        for (element, value, here) in
-            self.per_element(system, start.angles.as_ref(), at.key("angles"))
-        {
-            if self.is_ball(system, element, here, "joints") {
-                system.elements[element].angles = self.rotation(value, here, ANGLE);
-            }
-        }
-        for (element, value, here) in
-            self.per_element(system, start.rates.as_ref(), at.key("rates"))
-        {
-            if self.is_ball(system, element, here, "joint_rates") {
-                system.elements[element].angular_velocity = self.rotation(value, here, RATE);
-            }
-        }
-        for (key, entries) in [
-            ("joints", &start.joints),
-            ("joint_rates", &start.joint_rates),
-        ] {
-            for (element, value, here) in self.per_element(system, entries.as_ref(), at.key(key)) {
-                let path = format!("{}/{}", system.name, system.elements[element].name);
-                let freedoms = system.elements[element].joint.freedoms_mut();
-                self.freedoms_at_start((&path, freedoms), value, key == "joint_rates", here);
-            }
-        }
-    }
-
-    /// Whether an element has an orientation of its own; else it is reported that it has not.
-    fn is_ball(&self, system: &System, element: usize, at: At<'_>, instead: &str) -> bool {
-        let element = &system.elements[element];
-        let ball = element.joint == Joint::Ball;
-        if !ball {
-            self.problems.add(at.key_problem(
-                format!(
-                    "how {} is turned follows from its carrier and the coordinates of its joint",
-                    quoted(&element.name)
-                ),
-                match element.joint.freedoms().is_empty() {
-                    true => "remove the line: it is welded".to_owned(),
-                    false => format!("write it below `{instead}`, relative to the carrier"),
-                },
-            ));
-        }
-        ball
-    }
-
-    /// Entries whose keys are elements; those that are not are reported.
-    fn per_element<'w>(
-        &self,
-        system: &System,
-        entries: Option<&'w Named<OneOrThree>>,
-        at: At<'w>,
-    ) -> Vec<(usize, &'w OneOrThree, At<'w>)> {
-        let mut found = Vec::new();
-        for (name, value) in entries.iter().flat_map(|n| &n.0) {
-            let here = at.key(name);
-            match system.elements.iter().position(|e| e.name == *name) {
-                Some(element) => found.push((element, value, here)),
-                None => self.problems.add(here.key_problem(
-                    format!(
-                        "the system {} has no element {}",
-                        quoted(&system.name),
-                        quoted(name)
-                    ),
-                    suggestion(
-                        name,
-                        system.elements.iter().map(|e: &Element| e.name.as_str()),
-                        "it has no elements",
-                    ),
-                )),
-            }
-        }
-        found
-    }
-
-    /// A reference joint moved as given; fixed where it never moves.
-    fn prescribed(
-        &mut self,
-        written: &Prescribed,
-        at: At<'_>,
-        system: &mut System,
-        start: Option<At<'_>>,
-    ) -> Reference {
-        let mut ways = Ways {
-            displacement: written.displacement.as_deref(),
-            velocity: written.velocity.as_deref(),
-            acceleration: written.acceleration.as_deref(),
-            stops: written.stops,
-        };
-        if ways.count() == 0 {
-            ways.stops = None;
-            self.problems.add(at.problem(
-                "this does not say how the reference joint moves",
-                "give one of `displacement`, `velocity`, `acceleration`, or write `free` or `fixed`",
-            ));
-        }
-        let owner = format!("reference {}", system.name);
-        let start = start.map(|at| at.key("velocity"));
-        let translation = self.translation(&ways, at, &owner, &mut system.velocity, start);
-        let still = translation.curves.iter().all(Option::is_none)
-            && system.velocity.iter().all(Number::is_zero);
-        if still {
-            Reference::Fixed
-        } else {
-            Reference::Prescribed(translation)
-        }
-    }
-
-    /// A reference joint that moves with a vehicle, which says where it starts and how fast.
-    fn riding(
-        &mut self,
-        written: &Riding,
-        at: At<'_>,
-        system: &mut System,
-        entry: &Entry<'_>,
-    ) -> Reference {
-        for key in ["position", "velocity"] {
-            if let Some(start) = entry.start_with(key) {
-                self.problems.add(start.key(key).key_problem(
-                    format!(
-                        "the reference joint of {} moves with {}, which says its {key}",
-                        quoted(&system.name),
-                        quoted(&written.on)
-                    ),
-                    format!("remove the {key} from the start; `at` of the reference says where on the vehicle it is"),
+            None => {
+                let known = entries.iter().map(|e| e.written.name.as_str());
+                resolver.problems.add(place.problem(
+                    format!("the system {} has no elements", quoted(&written.name)),
+                    match crate::diagnostic::nearest(&written.name, known) {
+                        Some(near) => format!("add `elements:`; or did you mean the system {} described before?", quoted(near)),
+                        None => "add `elements:`; only a system that an included file describes may be named without them".to_owned(),
+                    },
                 ));
             }
         }
-        let point = self.vector(&written.at, at.key("at"), LENGTH);
-        let Some(vehicle) = self.vehicle_named(&written.on, at.key("on")) else {
-            return Reference::Fixed;
-        };
-        system.position = self.ridden_at_start(vehicle, &point);
-        system.velocity = NOWHERE;
-        Reference::Riding { vehicle, at: point }
+        return;
     }
+    if written.name == "frame" {
+        resolver.problems.add(place.problem(
+            "\"frame\" is the absolute frame and cannot be the name of a system",
+            "use another name",
+        ));
+    }
+    if resolver.vehicles.iter().any(|v| v.name == written.name) {
+        resolver.problems.add(place.problem(
+            format!("{} is a vehicle and a system", quoted(&written.name)),
+            "give one of them another name",
+        ));
+    }
+    let earlier = entries.iter().map(|e| e.written.name.as_str());
+    resolver.check_name(&written.name, "a system", Style::Either, place);
+    if resolver.check_unique(&written.name, "systems", earlier, place) {
+        entries.push(Entry {
+            written,
+            at,
+            reference,
+            starts: start.into_iter().collect(),
+        });
+    }
+}
+
+/// The checked form of a system.
+fn system(resolver: &mut Resolver<'_>, entry: &Entry<'_>) -> System {
+    let written = entry.written;
+    let list = entry.at.key("elements");
+    let elements = tree(
+        resolver,
+        &written.name,
+        written.elements.as_deref().unwrap_or_default(),
+        list,
+    );
+    let mut system = System {
+        name: written.name.clone(),
+        elements,
+        reference: Reference::Free,
+        position: NOWHERE,
+        velocity: NOWHERE,
+    };
+    for (start, at) in &entry.starts {
+        begin(resolver, &mut system, start, *at);
+    }
+    start_followers(&mut system.elements);
+    if let Some((reference, at)) = entry.reference {
+        let moves = system.velocity.iter().any(|v| !v.is_zero());
+        system.reference = match reference {
+            WrittenReference::Free => Reference::Free,
+            WrittenReference::Fixed => {
+                if moves && let Some(start) = entry.start_with("velocity") {
+                    resolver.problems.add(start.key("velocity").problem(
+                        format!(
+                            "the reference joint of {} is fixed, but has a velocity",
+                            quoted(&written.name)
+                        ),
+                        "remove the velocity, or write `reference: free`, or a prescribed `acceleration`",
+                    ));
+                }
+                Reference::Fixed
+            }
+            WrittenReference::Riding(written) => riding(resolver, written, at, &mut system, entry),
+            WrittenReference::Prescribed(written) => {
+                let start = entry.start_with("velocity");
+                prescribed(resolver, written, at, &mut system, start)
+            }
+        };
+        resolver.judge(system.requirements(), at);
+    }
+    system
+}
+
+/// Enters where a system starts.
+fn begin(resolver: &Resolver<'_>, system: &mut System, start: &Start, at: At<'_>) {
+    if let Some(position) = &start.position {
+        system.position = resolver.vector(position, at.key("position"), LENGTH);
+    }
+    if let Some(velocity) = &start.velocity {
+        system.velocity = resolver.vector(velocity, at.key("velocity"), SPEED);
+    }
+    for (element, value, here) in
+        per_element(resolver, system, start.angles.as_ref(), at.key("angles"))
+    {
+        if is_ball(resolver, system, element, here, "joints") {
+            system.elements[element].angles = resolver.rotation(value, here, ANGLE);
+        }
+    }
+    for (element, value, here) in
+        per_element(resolver, system, start.rates.as_ref(), at.key("rates"))
+    {
+        if is_ball(resolver, system, element, here, "joint_rates") {
+            system.elements[element].angular_velocity = resolver.rotation(value, here, RATE);
+        }
+    }
+    for (key, entries) in [
+        ("joints", &start.joints),
+        ("joint_rates", &start.joint_rates),
+    ] {
+        for (element, value, here) in per_element(resolver, system, entries.as_ref(), at.key(key)) {
+            let path = format!("{}/{}", system.name, system.elements[element].name);
+            let freedoms = system.elements[element].joint.freedoms_mut();
+            freedoms_at_start(
+                resolver,
+                (&path, freedoms),
+                value,
+                key == "joint_rates",
+                here,
+            );
+        }
+    }
+}
+
+/// Whether an element has an orientation of its own; else it is reported that it has not.
+fn is_ball(
+    resolver: &Resolver<'_>,
+    system: &System,
+    element: usize,
+    at: At<'_>,
+    instead: &str,
+) -> bool {
+    let element = &system.elements[element];
+    let ball = element.joint == Joint::Ball;
+    if !ball {
+        resolver.problems.add(at.key_problem(
+            format!(
+                "how {} is turned follows from its carrier and the coordinates of its joint",
+                quoted(&element.name)
+            ),
+            match element.joint.freedoms().is_empty() {
+                true => "remove the line: it is welded".to_owned(),
+                false => format!("write it below `{instead}`, relative to the carrier"),
+            },
+        ));
+    }
+    ball
+}
+
+/// Entries whose keys are elements; those that are not are reported.
+fn per_element<'w>(
+    resolver: &Resolver<'_>,
+    system: &System,
+    entries: Option<&'w Named<OneOrThree>>,
+    at: At<'w>,
+) -> Vec<(usize, &'w OneOrThree, At<'w>)> {
+    let mut found = Vec::new();
+    for (name, value) in entries.iter().flat_map(|n| &n.0) {
+        let here = at.key(name);
+        match system.elements.iter().position(|e| e.name == *name) {
+            Some(element) => found.push((element, value, here)),
+            None => resolver.problems.add(here.key_problem(
+                format!(
+                    "the system {} has no element {}",
+                    quoted(&system.name),
+                    quoted(name)
+                ),
+                suggestion(
+                    name,
+                    system.elements.iter().map(|e: &Element| e.name.as_str()),
+                    "it has no elements",
+                ),
+            )),
+        }
+    }
+    found
+}
+
+/// A reference joint moved as given; fixed where it never moves.
+fn prescribed(
+    resolver: &mut Resolver<'_>,
+    written: &Prescribed,
+    at: At<'_>,
+    system: &mut System,
+    start: Option<At<'_>>,
+) -> Reference {
+    let mut ways = Ways {
+        displacement: written.displacement.as_deref(),
+        velocity: written.velocity.as_deref(),
+        acceleration: written.acceleration.as_deref(),
+        stops: written.stops,
+    };
+    if ways.count() == 0 {
+        ways.stops = None;
+        resolver.problems.add(at.problem(
+            "this does not say how the reference joint moves",
+            "give one of `displacement`, `velocity`, `acceleration`, or write `free` or `fixed`",
+        ));
+    }
+    let owner = format!("reference {}", system.name);
+    let start = start.map(|at| at.key("velocity"));
+    let translation = translation(resolver, &ways, at, &owner, &mut system.velocity, start);
+    let still = translation.curves.iter().all(Option::is_none)
+        && system.velocity.iter().all(Number::is_zero);
+    if still {
+        Reference::Fixed
+    } else {
+        Reference::Prescribed(translation)
+    }
+}
+
+/// A reference joint that moves with a vehicle, which says where it starts and how fast.
+fn riding(
+    resolver: &mut Resolver<'_>,
+    written: &Riding,
+    at: At<'_>,
+    system: &mut System,
+    entry: &Entry<'_>,
+) -> Reference {
+    for key in ["position", "velocity"] {
+        if let Some(start) = entry.start_with(key) {
+            resolver.problems.add(start.key(key).key_problem(
+                format!(
+                    "the reference joint of {} moves with {}, which says its {key}",
+                    quoted(&system.name),
+                    quoted(&written.on)
+                ),
+                format!("remove the {key} from the start; `at` of the reference says where on the vehicle it is"),
+            ));
+        }
+    }
+    let point = resolver.vector(&written.at, at.key("at"), LENGTH);
+    let Some(vehicle) = vehicle_named(resolver, &written.on, at.key("on")) else {
+        return Reference::Fixed;
+    };
+    system.position = ridden_at_start(resolver, vehicle, &point);
+    system.velocity = NOWHERE;
+    Reference::Riding { vehicle, at: point }
 }

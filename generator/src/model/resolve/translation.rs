@@ -48,178 +48,197 @@ impl Ways<'_> {
     }
 }
 
-impl Resolver<'_> {
-    /// The translation that is written at `at`. `velocity` is that of the start, written at `start` if at all; it becomes
-    /// the part of the velocity that no curve says.
-    pub fn translation(
-        &mut self,
-        ways: &Ways<'_>,
-        at: At<'_>,
-        owner: &str,
-        velocity: &mut [Number; 3],
-        start: Option<At<'_>>,
-    ) -> Translation {
-        let still = Translation {
-            given: Given::Acceleration,
-            curves: [None, None, None],
-            stops: None,
+/// The translation that is written at `at`. `velocity` is that of the start, written at `start` if at all; it becomes
+/// the part of the velocity that no curve says.
+pub(super) fn translation(
+    resolver: &mut Resolver<'_>,
+    ways: &Ways<'_>,
+    at: At<'_>,
+    owner: &str,
+    velocity: &mut [Number; 3],
+    start: Option<At<'_>>,
+) -> Translation {
+    let still = Translation {
+        given: Given::Acceleration,
+        curves: [None, None, None],
+        stops: None,
+    };
+    if ways.acceleration.is_none() && ways.stops.is_some() {
+        resolver.problems.add(at.key("stops").key_problem(
+            "`stops` is said of an acceleration, but none is given here",
+            match ways.count() {
+                0 => "give the `acceleration` that brakes it, or remove `stops`",
+                _ => {
+                    "remove `stops`; a curve that ends at rest stays there with `extrapolate: hold`"
+                }
+            },
+        ));
+    }
+    let Some((key, given, list)) = ways.written() else {
+        return still;
+    };
+    let at = at.key(key);
+    if ways.count() > 1 {
+        resolver.problems.add(at.key_problem(
+            "a motion is given once: by its displacement, its velocity or its acceleration",
+            "keep one of the three keys; the other quantities follow from it",
+        ));
+        return still;
+    }
+    let expected = match given {
+        Given::Displacement => LENGTH,
+        Given::Velocity => SPEED,
+        Given::Acceleration => ACCELERATION,
+    };
+    let before = resolver.problems.count();
+    let components = resolver.components(list, at, owner, expected);
+    if resolver.problems.count() > before {
+        return still;
+    }
+    let mut curves = [None, None, None];
+    for (axis, component) in components.into_iter().enumerate() {
+        let index = if resolver.planar { axis / 2 } else { axis };
+        let here = at.item(index);
+        let begins = match given {
+            Given::Displacement => begin_displaced(resolver, &component, here),
+            Given::Velocity => value_at_start(resolver, &component),
+            Given::Acceleration => None,
         };
-        if ways.acceleration.is_none() && ways.stops.is_some() {
-            self.problems.add(at.key("stops").key_problem(
-                "`stops` is said of an acceleration, but none is given here",
-                match ways.count() {
-                    0 => "give the `acceleration` that brakes it, or remove `stops`",
-                    _ => "remove `stops`; a curve that ends at rest stays there with `extrapolate: hold`",
-                },
-            ));
+        if let (Some(begins), Some(start)) = (begins, start) {
+            check_start(resolver, begins, &velocity[axis], key, start.item(index));
         }
-        let Some((key, given, list)) = ways.written() else {
-            return still;
-        };
-        let at = at.key(key);
-        if ways.count() > 1 {
-            self.problems.add(at.key_problem(
-                "a motion is given once: by its displacement, its velocity or its acceleration",
-                "keep one of the three keys; the other quantities follow from it",
-            ));
-            return still;
-        }
-        let expected = match given {
-            Given::Displacement => LENGTH,
-            Given::Velocity => SPEED,
-            Given::Acceleration => ACCELERATION,
-        };
-        let before = self.problems.count();
-        let components = self.components(list, at, owner, expected);
-        if self.problems.count() > before {
-            return still;
-        }
-        let mut curves = [None, None, None];
-        for (axis, component) in components.into_iter().enumerate() {
-            let index = if self.planar { axis / 2 } else { axis };
-            let here = at.item(index);
-            let begins = match given {
-                Given::Displacement => self.begin_displaced(&component, here),
-                Given::Velocity => self.value_at_start(&component),
-                Given::Acceleration => None,
-            };
-            if let (Some(begins), Some(start)) = (begins, start) {
-                self.check_start(begins, &velocity[axis], key, start.item(index));
+        let owner = format!("{owner} {}", AXES[axis]);
+        curves[axis] = along_axis(resolver, component, given, owner, &mut velocity[axis]);
+    }
+    let accelerated = given == Given::Acceleration && curves.iter().any(Option::is_some);
+    let stops = (ways.stops == Some(true) && accelerated)
+        .then(|| resolver.part_that_is_over(format!("{owner} stops")));
+    Translation {
+        given,
+        curves,
+        stops,
+    }
+}
+
+/// The curve of the motion along an axis, if it has one. `velocity` becomes the part of the velocity that no curve says.
+fn along_axis(
+    resolver: &mut Resolver<'_>,
+    component: FieldComponent,
+    given: Given,
+    owner: String,
+    velocity: &mut Number,
+) -> Option<ScaledCurve> {
+    match (component, given) {
+        (FieldComponent::Curve(curve), _) => {
+            if given != Given::Acceleration {
+                *velocity = Number::ZERO;
             }
-            curves[axis] = match (component, given) {
-                (FieldComponent::Curve(curve), _) => {
-                    if given != Given::Acceleration {
-                        velocity[axis] = Number::ZERO;
-                    }
-                    Some(curve)
-                }
-                (FieldComponent::Constant(speed), Given::Velocity) => {
-                    velocity[axis] = speed;
-                    None
-                }
-                (FieldComponent::Constant(number), Given::Acceleration) if !number.is_zero() => {
-                    Some(self.constant_curve(format!("{owner} {}", AXES[axis]), number))
-                }
-                (FieldComponent::Constant(_), _) => None,
-            };
+            Some(curve)
         }
-        let accelerated = given == Given::Acceleration && curves.iter().any(Option::is_some);
-        let stops = (ways.stops == Some(true) && accelerated)
-            .then(|| self.part_that_is_over(format!("{owner} stops")));
-        Translation {
-            given,
-            curves,
-            stops,
+        (FieldComponent::Constant(speed), Given::Velocity) => {
+            *velocity = speed;
+            None
         }
+        (FieldComponent::Constant(number), Given::Acceleration) if !number.is_zero() => {
+            Some(resolver.constant_curve(owner, number))
+        }
+        (FieldComponent::Constant(_), _) => None,
     }
+}
 
-    /// The velocity with which a displacement begins, if it is one.
-    fn begin_displaced(&self, component: &FieldComponent, at: At<'_>) -> Option<f64> {
-        let curve = match component {
-            FieldComponent::Curve(curve) => curve,
-            FieldComponent::Constant(number) => {
-                if !number.is_zero() {
-                    self.problems.add(at.problem(
-                        "a displacement is measured from the start, but this one is not 0 there",
-                        "put what is constant into the start position",
-                    ));
-                }
-                return Some(0.0);
+/// The velocity with which a displacement begins, if it is one.
+fn begin_displaced(resolver: &Resolver<'_>, component: &FieldComponent, at: At<'_>) -> Option<f64> {
+    let curve = match component {
+        FieldComponent::Curve(curve) => curve,
+        FieldComponent::Constant(number) => {
+            if !number.is_zero() {
+                resolver.problems.add(at.problem(
+                    "a displacement is measured from the start, but this one is not 0 there",
+                    "put what is constant into the start position",
+                ));
             }
-        };
-        if !self.is_smooth(
-            curve,
-            "a displacement",
-            ", or give the velocity instead",
-            at,
-        ) {
-            return None;
+            return Some(0.0);
         }
-        let (points, times) = self.curve_of(curve)?;
-        let size = points.points.iter().fold(0.0f64, |m, p| m.max(p[1].abs()));
-        let first = points.value(0.0);
-        if first.is_nan() {
-            self.problems.add(at.problem(
-                "the displacement has no value at t = 0, where a run starts",
-                "let the curve begin at 0, or extrapolate it otherwise",
-            ));
-            return None;
-        }
-        if first.abs() > SAME * size {
-            self.problems.add(at.problem(
-                format!(
-                    "a displacement is measured from the start, but this one is {} m there",
-                    times * first
-                ),
-                "let the curve be 0 at t = 0, and put what is constant into the start position",
-            ));
-            return None;
-        }
-        let stretch = curve.stretch.value(&self.defaults);
-        Some(times / stretch * points.slope(0.0))
+    };
+    if !is_smooth(
+        resolver,
+        curve,
+        "a displacement",
+        ", or give the velocity instead",
+        at,
+    ) {
+        return None;
     }
-
-    /// Whether a curve has a slope everywhere; reported where not, with what else could be given.
-    pub fn is_smooth(&self, curve: &ScaledCurve, what: &str, instead: &str, at: At<'_>) -> bool {
-        let Some((points, _)) = self.curve_of(curve) else {
-            return false;
-        };
-        let smooth = points.interpolate == Interpolate::Cubic;
-        if !smooth {
-            self.problems.add(at.problem(
-                format!(
-                    "the curve {} runs straight from point to point: as {what} its rate would jump there, and its acceleration be infinite",
-                    quoted(&points.name)
-                ),
-                format!("write `interpolate: cubic` in the curve{instead}"),
-            ));
-        }
-        smooth
+    let (points, times) = resolver.curve_of(curve)?;
+    let size = points.points.iter().fold(0.0f64, |m, p| m.max(p[1].abs()));
+    let first = points.value(0.0);
+    if first.is_nan() {
+        resolver.problems.add(at.problem(
+            "the displacement has no value at t = 0, where a run starts",
+            "let the curve begin at 0, or extrapolate it otherwise",
+        ));
+        return None;
     }
+    if first.abs() > SAME * size {
+        resolver.problems.add(at.problem(
+            format!(
+                "a displacement is measured from the start, but this one is {} m there",
+                times * first
+            ),
+            "let the curve be 0 at t = 0, and put what is constant into the start position",
+        ));
+        return None;
+    }
+    let stretch = curve.stretch.value(&resolver.defaults);
+    Some(times / stretch * points.slope(0.0))
+}
 
-    fn value_at_start(&self, component: &FieldComponent) -> Option<f64> {
-        match component {
-            FieldComponent::Constant(number) => Some(number.value(&self.defaults)),
-            FieldComponent::Curve(curve) => {
-                let (points, times) = self.curve_of(curve)?;
-                Some(times * points.value(0.0))
-            }
+/// Whether a curve has a slope everywhere; reported where not, with what else could be given.
+pub(super) fn is_smooth(
+    resolver: &Resolver<'_>,
+    curve: &ScaledCurve,
+    what: &str,
+    instead: &str,
+    at: At<'_>,
+) -> bool {
+    let Some((points, _)) = resolver.curve_of(curve) else {
+        return false;
+    };
+    let smooth = points.interpolate == Interpolate::Cubic;
+    if !smooth {
+        resolver.problems.add(at.problem(
+            format!(
+                "the curve {} runs straight from point to point: as {what} its rate would jump there, and its acceleration be infinite",
+                quoted(&points.name)
+            ),
+            format!("write `interpolate: cubic` in the curve{instead}"),
+        ));
+    }
+    smooth
+}
+
+fn value_at_start(resolver: &Resolver<'_>, component: &FieldComponent) -> Option<f64> {
+    match component {
+        FieldComponent::Constant(number) => Some(number.value(&resolver.defaults)),
+        FieldComponent::Curve(curve) => {
+            let (points, times) = resolver.curve_of(curve)?;
+            Some(times * points.value(0.0))
         }
     }
+}
 
-    /// Reports a start velocity that is not the one with which the given motion begins.
-    fn check_start(&self, begins: f64, velocity: &Number, key: &str, at: At<'_>) {
-        let value = velocity.value(&self.defaults);
-        let largest = begins.abs().max(value.abs());
-        // a curve without a value at the start is no contradiction
-        if (value - begins).abs() > SAME * largest {
-            self.problems.add(at.problem(
-                format!(
-                    "the motion starts with {value} m/s here, but with {begins} m/s by its {key}{}",
-                    self.by_default(velocity)
-                ),
-                format!("remove the velocity from the start; the {key} says it"),
-            ));
-        }
+/// Reports a start velocity that is not the one with which the given motion begins.
+fn check_start(resolver: &Resolver<'_>, begins: f64, velocity: &Number, key: &str, at: At<'_>) {
+    let value = velocity.value(&resolver.defaults);
+    let largest = begins.abs().max(value.abs());
+    // a curve without a value at the start is no contradiction
+    if (value - begins).abs() > SAME * largest {
+        resolver.problems.add(at.problem(
+            format!(
+                "the motion starts with {value} m/s here, but with {begins} m/s by its {key}{}",
+                resolver.by_default(velocity)
+            ),
+            format!("remove the velocity from the start; the {key} says it"),
+        ));
     }
 }

@@ -2,110 +2,119 @@
 
 use super::name::Style;
 use super::quantity::{ANGLE, LENGTH, SPEED};
-use super::translation::Ways;
+use super::translation::{Ways, is_smooth, translation};
 use super::{AXES, NOWHERE, Resolver};
 use crate::description::place::At;
 use crate::description::vehicle::Vehicle as Written;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{FieldComponent, Number, Vehicle};
 
-impl Resolver<'_> {
-    /// Resolves a vehicle. One that is wrong is entered too, so that its uses are not reported as well.
-    pub fn vehicle(&mut self, written: &Written, at: At<'_>) {
-        let place = at.key("name");
-        let earlier = self.vehicles.iter().map(|v| v.name.as_str());
-        let unique = self.check_unique(&written.name, "vehicles", earlier, place);
-        if written.name == "frame" {
-            self.problems.add(place.problem(
-                "\"frame\" is the absolute frame and cannot be the name of a vehicle",
-                "use another name",
-            ));
+/// The checked form of a vehicle; `None` where there is one of its name. One that is wrong is returned too, so that its uses are
+/// not reported as well.
+pub(super) fn vehicle(
+    resolver: &mut Resolver<'_>,
+    written: &Written,
+    at: At<'_>,
+) -> Option<Vehicle> {
+    let place = at.key("name");
+    let earlier = resolver.vehicles.iter().map(|v| v.name.as_str());
+    let unique = resolver.check_unique(&written.name, "vehicles", earlier, place);
+    if written.name == "frame" {
+        resolver.problems.add(place.problem(
+            "\"frame\" is the absolute frame and cannot be the name of a vehicle",
+            "use another name",
+        ));
+    }
+    resolver.check_name(&written.name, "a vehicle", Style::Either, place);
+    let (mut position, mut velocity, mut start) = (NOWHERE, NOWHERE, None);
+    if let Some(given) = &written.start {
+        let here = at.key("start");
+        if let Some(written) = &given.position {
+            position = resolver.vector(written, here.key("position"), LENGTH);
         }
-        self.check_name(&written.name, "a vehicle", Style::Either, place);
-        let (mut position, mut velocity, mut start) = (NOWHERE, NOWHERE, None);
-        if let Some(given) = &written.start {
-            let here = at.key("start");
-            if let Some(written) = &given.position {
-                position = self.vector(written, here.key("position"), LENGTH);
-            }
-            if let Some(written) = &given.velocity {
-                velocity = self.vector(written, here.key("velocity"), SPEED);
-                start = Some(here.key("velocity"));
-            }
-        }
-        let ways = Ways {
-            displacement: written.displacement.as_deref(),
-            velocity: written.velocity.as_deref(),
-            acceleration: written.acceleration.as_deref(),
-            stops: written.stops,
-        };
-        let owner = format!("vehicle {}", written.name);
-        let translation = self.translation(&ways, at, &owner, &mut velocity, start);
-        let mut angles = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
-        let mut angles_at_start = NOWHERE;
-        if let Some(written) = &written.angles {
-            for (axis, function, here) in self.about_axes(written, at.key("angles"), ANGLE) {
-                let owner = format!("{owner} angle {}", AXES[axis]);
-                let angle = self.component(function, here, &owner, ANGLE);
-                angles_at_start[axis] = self.angle_at_start(&angle, here);
-                angles[axis] = angle;
-            }
-        }
-        if unique {
-            let vehicle = Vehicle {
-                name: written.name.clone(),
-                position,
-                velocity,
-                translation,
-                angles,
-                angles_at_start,
-            };
-            self.judge(vehicle.requirements(), at);
-            self.vehicles.push(vehicle);
+        if let Some(written) = &given.velocity {
+            velocity = resolver.vector(written, here.key("velocity"), SPEED);
+            start = Some(here.key("velocity"));
         }
     }
+    let ways = Ways {
+        displacement: written.displacement.as_deref(),
+        velocity: written.velocity.as_deref(),
+        acceleration: written.acceleration.as_deref(),
+        stops: written.stops,
+    };
+    let owner = format!("vehicle {}", written.name);
+    let translation = translation(resolver, &ways, at, &owner, &mut velocity, start);
+    let mut angles = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
+    let mut angles_at_start = NOWHERE;
+    if let Some(written) = &written.angles {
+        for (axis, function, here) in resolver.about_axes(written, at.key("angles"), ANGLE) {
+            let owner = format!("{owner} angle {}", AXES[axis]);
+            let angle = resolver.component(function, here, &owner, ANGLE);
+            angles_at_start[axis] = angle_at_start(resolver, &angle, here);
+            angles[axis] = angle;
+        }
+    }
+    if !unique {
+        return None;
+    }
+    let vehicle = Vehicle {
+        name: written.name.clone(),
+        position,
+        velocity,
+        translation,
+        angles,
+        angles_at_start,
+    };
+    resolver.judge(vehicle.requirements(), at);
+    Some(vehicle)
+}
 
-    /// An angle at t = 0, of a curve that turns without jumps; 0 where that is reported.
-    fn angle_at_start(&self, angle: &FieldComponent, at: At<'_>) -> Number {
-        let curve = match angle {
-            FieldComponent::Constant(number) => return number.clone(),
-            FieldComponent::Curve(curve) => curve,
-        };
-        if !self.is_smooth(curve, "an angle", "", at) {
-            return Number::ZERO;
-        }
-        let Some((points, _)) = self.curve_of(curve) else {
-            return Number::ZERO;
-        };
-        let value = points.value(0.0);
-        if value.is_nan() {
-            self.problems.add(at.problem(
-                "the angle has no value at t = 0, where a run starts",
-                "let the curve begin at 0, or extrapolate it otherwise",
-            ));
-            return Number::ZERO;
-        }
-        Number::product(curve.times.clone(), value.into())
+/// An angle at t = 0, of a curve that turns without jumps; 0 where that is reported.
+fn angle_at_start(resolver: &Resolver<'_>, angle: &FieldComponent, at: At<'_>) -> Number {
+    let curve = match angle {
+        FieldComponent::Constant(number) => return number.clone(),
+        FieldComponent::Curve(curve) => curve,
+    };
+    if !is_smooth(resolver, curve, "an angle", "", at) {
+        return Number::ZERO;
     }
+    let Some((points, _)) = resolver.curve_of(curve) else {
+        return Number::ZERO;
+    };
+    let value = points.value(0.0);
+    if value.is_nan() {
+        resolver.problems.add(at.problem(
+            "the angle has no value at t = 0, where a run starts",
+            "let the curve begin at 0, or extrapolate it otherwise",
+        ));
+        return Number::ZERO;
+    }
+    Number::product(curve.times.clone(), value.into())
+}
 
-    /// The vehicle of a name; reported where there is none.
-    pub fn vehicle_named(&self, name: &str, at: At<'_>) -> Option<usize> {
-        let found = self.vehicles.iter().position(|v| v.name == name);
-        if found.is_none() {
-            let names = self.vehicles.iter().map(|v| v.name.as_str());
-            let help = suggestion(name, names, "declare it under `vehicles`");
-            self.problems
-                .add(at.problem(format!("there is no vehicle {}", quoted(name)), help));
-        }
-        found
+/// The vehicle of a name; reported where there is none.
+pub(super) fn vehicle_named(resolver: &Resolver<'_>, name: &str, at: At<'_>) -> Option<usize> {
+    let found = resolver.vehicles.iter().position(|v| v.name == name);
+    if found.is_none() {
+        let names = resolver.vehicles.iter().map(|v| v.name.as_str());
+        let help = suggestion(name, names, "declare it under `vehicles`");
+        resolver
+            .problems
+            .add(at.problem(format!("there is no vehicle {}", quoted(name)), help));
     }
+    found
+}
 
-    /// Where a point of a vehicle is at t = 0, absolute frame.
-    pub fn ridden_at_start(&self, vehicle: usize, at: &[Number; 3]) -> [Number; 3] {
-        let vehicle = &self.vehicles[vehicle];
-        let turned = turned(&vehicle.angles_at_start, at);
-        std::array::from_fn(|i| Number::sum(vehicle.position[i].clone(), turned[i].clone()))
-    }
+/// Where a point of a vehicle is at t = 0, absolute frame.
+pub(super) fn ridden_at_start(
+    resolver: &Resolver<'_>,
+    vehicle: usize,
+    at: &[Number; 3],
+) -> [Number; 3] {
+    let vehicle = &resolver.vehicles[vehicle];
+    let turned = turned(&vehicle.angles_at_start, at);
+    std::array::from_fn(|i| Number::sum(vehicle.position[i].clone(), turned[i].clone()))
 }
 
 /// Rx(φ₁) Ry(φ₂) Rz(φ₃) v, from the right.

@@ -56,20 +56,23 @@ impl<'g> Search<'_, 'g> {
         }
     }
 
-    /// The links around k: its parent, its children and further links behind them, with unknowns in place of the
-    /// others.
-    pub fn around<'h>(&self, graph: &'h Graph, k: usize, choice: &Choice) -> Part<'h> {
+    /// The links that k carries.
+    fn children(&self, k: usize) -> impl Iterator<Item = usize> {
         let links = &self.tree.links;
-        let children = |k: usize| (k + 1..links.len()).filter(move |&c| links[c].parent == Some(k));
+        (k + 1..links.len()).filter(move |&c| links[c].parent == Some(k))
+    }
+
+    /// The links around k, in the order of the tree, and the one that carries the others.
+    fn near(&self, k: usize, choice: &Choice) -> (Vec<usize>, usize) {
         let mut chosen = vec![k];
-        chosen.extend(children(k));
+        chosen.extend(self.children(k));
         let mut next = 1;
         while chosen.len() < NEAR && next < chosen.len() {
-            chosen.extend(children(chosen[next]));
+            chosen.extend(self.children(chosen[next]));
             next += 1;
         }
         let mut top = k;
-        while let Some(parent) = links[top].parent
+        while let Some(parent) = self.tree.links[top].parent
             // a link that keeps its axes is turned together with its carrier
             && (top == k || chosen.len() < NEAR || choice.links[parent].aligned)
         {
@@ -77,6 +80,14 @@ impl<'g> Search<'_, 'g> {
             chosen.push(top);
         }
         chosen.sort_unstable();
+        (chosen, top)
+    }
+
+    /// The links around k: its parent, its children and further links behind them, with unknowns in place of the
+    /// others.
+    pub fn around<'h>(&self, graph: &'h Graph, k: usize, choice: &Choice) -> Part<'h> {
+        let links = &self.tree.links;
+        let (chosen, top) = self.near(k, choice);
         // indices above those of all inputs
         let mut unknowns = self.inputs.len() as u32;
         let mut unknown = || {
@@ -102,21 +113,7 @@ impl<'g> Search<'_, 'g> {
         };
         let mut vector = || Vec3([unknown(), unknown(), unknown()]);
         if let Some(carrier) = links[top].parent {
-            part.tree.links.push(Link {
-                element: usize::MAX,
-                row: 0,
-                parent: None,
-                joint: LinkJoint::Ball {
-                    omega: vector(),
-                    bias: Vec3::zero(graph),
-                    columns: identity(graph),
-                },
-                place: Vec3::zero(graph),
-                body: Body::none(graph),
-                rotation: Mat3([vector().0, vector().0, vector().0]),
-                load: Wrench::none(graph),
-                carries: None,
-            });
+            part.tree.links.push(unknown_link(graph, &mut vector));
             part.of.push(None);
             part.tree.free = true;
             part.tree.carrier = Some([vector(), vector(), vector()]);
@@ -138,7 +135,8 @@ impl<'g> Search<'_, 'g> {
                     .parent
                     .and_then(|p| chosen.iter().position(|&c| c == p).map(|at| first + at)),
             };
-            let left_out: Vec<usize> = (children(link).filter(|c| !chosen.contains(c))).collect();
+            let children = self.children(link);
+            let left_out: Vec<usize> = children.filter(|c| !chosen.contains(c)).collect();
             if !left_out.is_empty() {
                 own.carries = Some(match self.aim {
                     Aim::Elimination => unknown_articulated(&mut vector),
@@ -259,4 +257,23 @@ fn unknown_articulated<'h>(vector: &mut impl FnMut() -> Vec3<'h>) -> Carried<'h>
             moment: vector(),
         },
     })
+}
+
+/// The link that stands for all links that carry a part.
+fn unknown_link<'h>(graph: &'h Graph, vector: &mut impl FnMut() -> Vec3<'h>) -> Link<'h> {
+    Link {
+        element: usize::MAX,
+        row: 0,
+        parent: None,
+        joint: LinkJoint::Ball {
+            omega: vector(),
+            bias: Vec3::zero(graph),
+            columns: identity(graph),
+        },
+        place: Vec3::zero(graph),
+        body: Body::none(graph),
+        rotation: Mat3([vector().0, vector().0, vector().0]),
+        load: Wrench::none(graph),
+        carries: None,
+    }
 }

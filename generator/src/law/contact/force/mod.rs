@@ -87,6 +87,8 @@ impl Equations for Contact {
     }
 }
 
+/// Applies a contact: the normal force, what an edge takes from it, friction, what a fading edge pushes with.
+// Long: the parts of the force in the order in which their nodes are made; each needs those before it.
 fn apply<'g>(
     contact: &Contact,
     setting: Setting<'_, 'g>,
@@ -100,15 +102,11 @@ fn apply<'g>(
         ..
     } = setting;
     let dimension = setting.model.dimension;
-    let (touch, extent) = match &contact.against {
-        Against::Plane(plane) => (
-            on_plane(graph, dimension, motion, contact, plane),
-            plane.extent.as_ref(),
-        ),
-        Against::Ellipsoid(second) => (
-            on_ellipsoid(graph, dimension, motion, contact, second),
-            None,
-        ),
+    let extent = contact.against.plane();
+    let extent = extent.and_then(|plane| plane.extent.as_ref());
+    let touch = match &contact.against {
+        Against::Plane(plane) => on_plane(graph, dimension, motion, contact, plane),
+        Against::Ellipsoid(second) => on_ellipsoid(graph, dimension, motion, contact, second),
     };
     let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
     let owner = format!("contact {name}");
@@ -144,13 +142,14 @@ fn apply<'g>(
         format!("{owner}: normal force"),
         Product::Scalars(-pressure, touch.approach),
     );
+    let displacement = contact.bristle.as_ref().map(|b| &b.displacement);
     let rubbing = match &contact.friction {
         Some(law) => friction(
             loads,
             dimension,
             &owner,
             law,
-            contact.bristle.as_ref().map(|b| &b.displacement),
+            displacement,
             pressure,
             &touch,
         ),
@@ -170,18 +169,9 @@ fn apply<'g>(
         },
     );
     if let (Some(weight), false) = (&weight, touch.moving.is_empty()) {
-        let (first, second) = (motion.body(on), motion.body(on_second));
-        let relative = [
-            first.velocity_at(touch.centre) - second.velocity_at(touch.centre_on_second),
-            first.omega - second.omega,
-        ];
         let stored = gate.of(stored);
-        let push = edge::push(loads, &owner, weight, stored, &touch.moving, relative);
-        loads.apply(on, touch.centre, push.force);
-        loads.apply(on_second, touch.centre_on_second, -push.force);
-        loads.turn(on, push.moment);
-        loads.turn(on_second, -push.moment);
-        on_first = force + push.force;
+        let push = push_of_edge(contact, motion, loads, &owner, weight, stored, &touch);
+        on_first = force + push;
         resultant = on_first.squared().sqrt();
     }
     ContactMeasures {
@@ -192,6 +182,30 @@ fn apply<'g>(
         penetration: touch.overlap,
         permanent_set,
     }
+}
+
+/// Applies what a fading edge pushes with, and returns the force on the first body.
+fn push_of_edge<'g>(
+    contact: &Contact,
+    motion: &Motion<'g>,
+    loads: &mut Loads<'g>,
+    owner: &str,
+    weight: &edge::Weight<'g>,
+    stored: Expr<'g>,
+    touch: &Touch<'g>,
+) -> Vec3<'g> {
+    let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
+    let (first, second) = (motion.body(on), motion.body(on_second));
+    let relative = [
+        first.velocity_at(touch.centre) - second.velocity_at(touch.centre_on_second),
+        first.omega - second.omega,
+    ];
+    let push = edge::push(loads, owner, weight, stored, &touch.moving, relative);
+    loads.apply(on, touch.centre, push.force);
+    loads.apply(on_second, touch.centre_on_second, -push.force);
+    loads.turn(on, push.moment);
+    loads.turn(on_second, -push.moment);
+    push.force
 }
 
 /// Tells when a contact begins to act, and of the corners of its curves.
@@ -241,6 +255,7 @@ struct Pressed<'g> {
     permanent_set: Expr<'g>,
 }
 
+/// The normal force, before an edge takes from it.
 fn pressed<'g>(
     graph: &'g Graph,
     loads: &mut Loads<'g>,
