@@ -94,7 +94,7 @@ mod tests {
             velocities: vec![],
             auxiliaries: vec![],
             memory: vec![],
-            guards: vec![],
+            event_functions: vec![],
             kinks: vec![],
             powers: names(&["field sled", "belt chest", "joint man/head: damping"]),
             outputs: vec![],

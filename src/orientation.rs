@@ -135,7 +135,7 @@ mod tests {
             velocities: strings(velocities),
             auxiliaries: vec!["bristle".into()],
             memory: strings(memory),
-            guards: vec![],
+            event_functions: vec![],
             kinks: vec![],
             powers: vec![],
             outputs: vec![],

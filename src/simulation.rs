@@ -7,7 +7,7 @@ use crate::orientation::WithoutCharts;
 use crate::picture::Instant;
 use crate::table::{Column, Table};
 use bryant_runtime::program::{
-    Energy, Finding, Header, History, Job, Observer, Outcome, Reading, RunError, Sink,
+    Energy, Finding, Header, History, Job, Observer, Outcome, Reading, RunError, SampleWriter,
     run_model_observed,
 };
 use bryant_runtime::response::{Answer, reduce};
@@ -54,7 +54,7 @@ pub trait Runs {
     /// Names, units and sizes.
     fn info(&self) -> &'static Info;
     /// Runs a job: [`Engine::run`].
-    fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome;
+    fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>) -> Outcome;
 }
 
 impl Runs for Engine {
@@ -62,8 +62,8 @@ impl Runs for Engine {
         Engine::info(self)
     }
 
-    fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome {
-        Engine::run(self, job, sink, observer)
+    fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>) -> Outcome {
+        Engine::run(self, job, writer, observer)
     }
 }
 
@@ -73,8 +73,8 @@ impl Runs for RustcModel {
         RustcModel::info(self)
     }
 
-    fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome {
-        run_model_observed(self.model(), job, sink, observer)
+    fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>) -> Outcome {
+        run_model_observed(self.model(), job, writer, observer)
     }
 }
 
@@ -271,7 +271,7 @@ mod tests {
             velocities: vec!["a/b.omega".into()],
             auxiliaries: vec![],
             memory: vec![],
-            guards: vec![],
+            event_functions: vec![],
             kinks: vec![],
             powers: vec![],
             outputs: Vec::new(),

@@ -397,8 +397,8 @@ macro_rules! methods {
             outputs(t: T, y: &[T], outputs: &mut [T]);
             normalize(y: &mut [T]);
             renew(t: T, y: &mut [T]);
-            renew_by(t: T, y: &mut [T], guards: &[T]);
-            guards(t: T, y: &[T], guards: &mut [T]);
+            renew_by(t: T, y: &mut [T], event_functions: &[T]);
+            event_functions(t: T, y: &[T], event_functions: &mut [T]);
             kinks(t: T, y: &[T], kinks: &mut [T]);
             onsets(t: T, y: &[T], onsets: &mut [T]);
             curves(t: T, y: &[T], arguments: &mut [T]);

@@ -29,7 +29,7 @@ struct Pointers<T> {
     time: *const T,
     state: *const T,
     accelerations: *const T,
-    guards: *const T,
+    event_functions: *const T,
     parameters: *const T,
     derived: *const T,
     results: *mut T,
@@ -126,7 +126,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
         let slots = |base: Base| self.slots[base as usize] as usize;
         let enough = given.state.len() >= slots(Base::State)
             && given.before.len() >= slots(Base::Accelerations)
-            && given.before.len() >= slots(Base::Guards)
+            && given.before.len() >= slots(Base::EventFunctions)
             && parameters.len() >= slots(Base::Parameters)
             && derived.len() >= slots(Base::Derived)
             && results.len() >= slots(Base::Results);
@@ -140,7 +140,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
             time: &raw const given.time,
             state: given.state.as_ptr(),
             accelerations: given.before.as_ptr(),
-            guards: given.before.as_ptr(),
+            event_functions: given.before.as_ptr(),
             parameters: parameters.as_ptr(),
             derived: derived.as_ptr(),
             results: results.as_mut_ptr(),

@@ -3,7 +3,7 @@
 
 use crate::model::Engine;
 use bryant_runtime::batch::rows::{self, Gradients, NoSuchRegisters, Results, Sampled};
-use bryant_runtime::program::{Job, Observer, Outcome, Sink, run_job_observed};
+use bryant_runtime::program::{Job, Observer, Outcome, SampleWriter, run_job_observed};
 use bryant_runtime::{Adjustable, DoubleDouble, Family};
 
 impl Engine {
@@ -21,8 +21,8 @@ impl Engine {
 
     /// Runs a job: see [`run_job_observed`].
     #[inline(never)]
-    pub fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome {
-        run_job_observed(self, job, sink, observer)
+    pub fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>) -> Outcome {
+        run_job_observed(self, job, writer, observer)
     }
 
     /// Runs rows of parameters \[SI\]: [`rows::rows`].

@@ -60,7 +60,7 @@ fn leaked(facts: &Facts) -> Info {
         units: words(&facts.units),
         auxiliaries: words(&facts.auxiliaries),
         memory: words(&facts.memory),
-        guards: words(&facts.guards),
+        event_functions: words(&facts.event_functions),
         kinks: words(&facts.kinks),
         onsets: words(&facts.onsets),
         corners: facts.corners,

@@ -183,7 +183,7 @@ pub struct Machine<T, E> {
     /// The rates, for methods that start from accelerations.
     rates: RefCell<Vec<T>>,
     /// The event functions, for methods that start from them.
-    guards: RefCell<Vec<T>>,
+    event_functions: RefCell<Vec<T>>,
     /// Results that are processed before they are returned.
     results: RefCell<Vec<T>>,
     /// The results of several methods at once.
@@ -208,7 +208,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
             parameters: defaults.map(|p| T::from_f64(p.default)).collect(),
             derived: vec![T::from_f64(0.0); shared.lists.derived],
             rates: zeros(&[Method::Derivative]),
-            guards: zeros(&[Method::Guards]),
+            event_functions: zeros(&[Method::EventFunctions]),
             results: zeros(&[
                 Method::Renewed,
                 Method::Pivots,
@@ -254,7 +254,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
             Start::State => self.execute.run(method, given, results),
             Start::Accelerations => {
                 let combination = match method {
-                    Method::Guards => Some(Combination::Guards),
+                    Method::EventFunctions => Some(Combination::EventFunctions),
                     Method::Outputs => Some(Combination::Outputs),
                     _ => None,
                 };
@@ -268,10 +268,10 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
                 let before = &rates[q..q + v];
                 self.execute.run(method, Given { before, ..given }, results);
             }
-            Start::Guards => {
-                let mut guards = self.guards.borrow_mut();
-                self.at(Method::Guards, t, y, &mut guards);
-                let before = &guards;
+            Start::EventFunctions => {
+                let mut event_functions = self.event_functions.borrow_mut();
+                self.at(Method::EventFunctions, t, y, &mut event_functions);
+                let before = &event_functions;
                 self.execute.run(method, Given { before, ..given }, results);
             }
         }
@@ -323,20 +323,20 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
             (None, true) => Combination::Arrival,
         };
         let Arrival {
-            guards,
+            event_functions,
             onsets,
             renewed,
             curves,
             account,
         } = arrival;
         let memory = !self.shared.info.memory.is_empty();
-        let nothing = guards.is_empty() && onsets.is_empty() && curves.is_empty() && !memory;
+        let nothing = event_functions.is_empty() && onsets.is_empty() && curves.is_empty() && !memory;
         if nothing && account.is_none() {
             return true;
         }
         self.at_once(combination, at, |method, results| {
             match (method, &mut *account) {
-                (Method::Guards, _) => guards.copy_from_slice(results),
+                (Method::EventFunctions, _) => event_functions.copy_from_slice(results),
                 (Method::Onsets, _) => onsets.copy_from_slice(results),
                 (Method::Renewed, _) if self.shared.info.memory.is_empty() => {}
                 (Method::Renewed, _) => {
@@ -452,10 +452,10 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
         }
     }
 
-    fn renew_by(&self, t: T, y: &mut [T], guards: &[T]) {
+    fn renew_by(&self, t: T, y: &mut [T], event_functions: &[T]) {
         let machine = self.machine();
         let routine = machine.shared.lists.routine(Method::Renewed);
-        if routine.start != Start::Guards {
+        if routine.start != Start::EventFunctions {
             return self.renew(t, y);
         }
         let mut results = machine.results.borrow_mut();
@@ -463,7 +463,7 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
         let given = Given {
             time: t,
             state: y,
-            before: guards,
+            before: event_functions,
         };
         machine.execute.run(Method::Renewed, given, &mut results[..places.len()]);
         for (&place, &value) in places.iter().zip(results.iter()) {
@@ -471,8 +471,8 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
         }
     }
 
-    fn guards(&self, t: T, y: &[T], guards: &mut [T]) {
-        self.machine().at(Method::Guards, t, y, guards);
+    fn event_functions(&self, t: T, y: &[T], event_functions: &mut [T]) {
+        self.machine().at(Method::EventFunctions, t, y, event_functions);
     }
 
     fn kinks(&self, t: T, y: &[T], kinks: &mut [T]) {

@@ -80,7 +80,7 @@ fn printed(lists: &Lists) -> Vec<(&'static str, Method, usize)> {
     let all = [
         ("derivative", Method::Derivative, state),
         ("outputs", Method::Outputs, facts.outputs.len()),
-        ("guards", Method::Guards, facts.guards.len()),
+        ("event_functions", Method::EventFunctions, facts.event_functions.len()),
         ("kinks", Method::Kinks, facts.kinks.len()),
         ("onsets", Method::Onsets, 2 * facts.onsets.len()),
         ("curves", Method::Curves, facts.curves.len()),
@@ -189,7 +189,7 @@ impl ByEngine<'_> {
             match method {
                 Method::Derivative => model.derivative(t, &y, &mut results),
                 Method::Outputs => model.outputs(t, &y, &mut results),
-                Method::Guards => model.guards(t, &y, &mut results),
+                Method::EventFunctions => model.event_functions(t, &y, &mut results),
                 Method::Kinks => model.kinks(t, &y, &mut results),
                 Method::Onsets => model.onsets(t, &y, &mut results),
                 Method::Curves => model.curves(t, &y, &mut results),

@@ -42,7 +42,7 @@ pub struct Equations {
     /// v after a step that was accepted with a state.
     pub renewed_velocities: Vec<NodeId>,
     /// Functions whose change of sign ends a step: where a force law changes its branch.
-    pub guards: Vec<Named>,
+    pub event_functions: Vec<Named>,
     /// Functions whose change of sign is where a force law is not smooth, though no memory depends on it.
     pub kinks: Vec<Named>,
     /// When laws that do not act begin to, and behind them how far the corners of curves are.

@@ -56,7 +56,7 @@
 //   output tip x                                                                                                           4
 
 use bryant_runtime::{
-    Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, Sink, StateKind,
+    Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, OutputWriter, StateKind,
 };
 
 bryant_runtime::use_nalgebra!(SMatrix, SVector);
@@ -72,8 +72,8 @@ pub const VELOCITIES: usize = 2;
 /// Number of outputs.
 pub const OUTPUTS: usize = 3;
 
-/// Number of guards.
-pub const GUARDS: usize = 0;
+/// Number of event functions.
+pub const EVENT_FUNCTIONS: usize = 0;
 
 /// Number of kinks.
 pub const KINKS: usize = 0;
@@ -229,7 +229,7 @@ impl<T: Real> Mechanism<T> {
         _t: T,
         q: &[T; COORDINATES],
         v: &[T; VELOCITIES],
-        sink: &mut impl Sink<T>,
+        writer: &mut impl OutputWriter<T>,
     ) {
         let num = T::from_f64;
 
@@ -268,11 +268,11 @@ impl<T: Real> Mechanism<T> {
         let t10 = t5 + t1.mul_add(t9, num(-0.9810000000000001) * rot_lower_xz);
         let t11 = t5 + t2.mul_add(t9, num(4.905) * rot_upper_xz);
         let t12 = t6.mul_add(t10, t11) / t7;
-        sink.put(2, -t12);
+        writer.put(2, -t12);
         let lower_omega_dot = t6.mul_add(t12, num(37.45318352059925) * t10);
-        sink.put(3, lower_omega_dot);
-        sink.put(0, upper_omega);
-        sink.put(1, lower_omega);
+        writer.put(3, lower_omega_dot);
+        writer.put(0, upper_omega);
+        writer.put(1, lower_omega);
     }
 
     /// v̇(t, q, v) from S v̇ = r_s + r_k by S = LᵀDL in its fixed pattern.
@@ -295,9 +295,9 @@ impl<T: Real> Mechanism<T> {
         t: T,
         q: &[T; COORDINATES],
         v: &[T; VELOCITIES],
-        sink: &mut impl Sink<T>,
+        writer: &mut impl OutputWriter<T>,
     ) {
-        self.each_motion(t, q, v, &mut bryant_runtime::Beyond::<_, COORDINATES>(sink));
+        self.each_motion(t, q, v, &mut bryant_runtime::TailView::<_, COORDINATES>(writer));
     }
 
     /// q̇(q, v).
@@ -318,12 +318,12 @@ impl<T: Real> Mechanism<T> {
         &self,
         _q: &[T; COORDINATES],
         v: &[T; VELOCITIES],
-        sink: &mut impl Sink<T>,
+        writer: &mut impl OutputWriter<T>,
     ) {
         let upper_omega = v[0];
-        sink.put(0, upper_omega);
+        writer.put(0, upper_omega);
         let lower_omega = v[1];
-        sink.put(1, lower_omega);
+        writer.put(1, lower_omega);
     }
 
     /// What parameters must keep, in the order of `INFO.conditions`.
@@ -454,7 +454,7 @@ impl<T: Real> Model<T> for Mechanism<T> {
     type Parameters = Parameters<T>;
     type State = [T; STATE];
     type Outputs = [T; OUTPUTS];
-    type Guards = [T; GUARDS];
+    type EventFunctions = [T; EVENT_FUNCTIONS];
     type Kinks = [T; KINKS];
     type Powers = [T; POWERS];
     type Curves = [T; CURVES];
@@ -482,9 +482,9 @@ impl<T: Real> Model<T> for Mechanism<T> {
     }
 
     #[inline(always)]
-    fn each_rate(&self, t: T, y: &[T; STATE], sink: &mut impl Sink<T>) {
+    fn each_rate(&self, t: T, y: &[T; STATE], writer: &mut impl OutputWriter<T>) {
         let (q, v) = parts(y);
-        self.each_motion(t, q, v, sink);
+        self.each_motion(t, q, v, writer);
     }
 
     #[inline(always)]
@@ -557,7 +557,7 @@ pub static INFO: Info = Info {
     units: &["rad", "rad", "rad/s", "rad/s"],
     auxiliaries: &[],
     memory: &[],
-    guards: &[],
+    event_functions: &[],
     kinks: &[],
     onsets: &[],
     corners: 0,

@@ -144,8 +144,8 @@ pub enum What {
     Normalize = 7,
     /// [`Dynamics::renew`] of the state that stands in the results.
     Renew = 8,
-    /// [`Dynamics::guards`]: the event functions.
-    Guards = 9,
+    /// [`Dynamics::event_functions`]: the event functions.
+    EventFunctions = 9,
     /// [`Dynamics::kinks`]: the non-smooth switching functions.
     Kinks = 10,
     /// [`Dynamics::curves`].
@@ -179,7 +179,7 @@ impl What {
         What::Outputs,
         What::Normalize,
         What::Renew,
-        What::Guards,
+        What::EventFunctions,
         What::Kinks,
         What::Curves,
         What::SmallestPivot,
@@ -322,7 +322,7 @@ fn of_model<M: Model<f64>, J: Differentiate>(
         What::Outputs => model.outputs(t, y, results),
         What::Normalize => model.normalize(results),
         What::Renew => model.renew(t, results),
-        What::Guards => model.guards(t, y, results),
+        What::EventFunctions => model.event_functions(t, y, results),
         What::Kinks => model.kinks(t, y, results),
         What::Curves => model.curves(t, y, results),
         What::SmallestPivot => match model.smallest_pivot(t, y) {

@@ -39,12 +39,12 @@ pub trait Dynamics<T: Real> {
     /// The discrete update of the state after a step: [`Model::renew`].
     fn renew(&self, t: T, y: &mut [T]);
     /// The same, with event functions that are already known at this time and state. An implementation that uses them returns the same bits.
-    fn renew_by(&self, t: T, y: &mut [T], guards: &[T]) {
-        let _ = guards;
+    fn renew_by(&self, t: T, y: &mut [T], event_functions: &[T]) {
+        let _ = event_functions;
         self.renew(t, y);
     }
-    /// The event functions (guards), in the order of [`Info::guards`]: [`Model::guards`].
-    fn guards(&self, t: T, y: &[T], guards: &mut [T]);
+    /// The event functions (event functions), in the order of [`Info::event_functions`]: [`Model::event_functions`].
+    fn event_functions(&self, t: T, y: &[T], event_functions: &mut [T]);
     /// The non-smooth switching functions (kinks), in the order of [`Info::kinks`]: [`Model::kinks`].
     fn kinks(&self, t: T, y: &[T], kinks: &mut [T]);
     /// The onsets: all gaps in the order of [`Info::onsets`], then all speeds: [`Model::onsets`].
@@ -80,11 +80,11 @@ pub trait Dynamics<T: Real> {
 /// An implementation that computes all entries at once searches each contact of ellipsoids once for its force and once for its distance.
 #[derive(Debug)]
 pub struct Arrival<'a, T> {
-    /// [`Dynamics::guards`]
-    pub guards: &'a mut [T],
+    /// [`Dynamics::event_functions`]
+    pub event_functions: &'a mut [T],
     /// [`Dynamics::onsets`]
     pub onsets: &'a mut [T],
-    /// The state as [`Dynamics::renew_by`] makes it of these guards, where the model has memory; else it is left alone.
+    /// The state as [`Dynamics::renew_by`] makes it of these event functions, where the model has memory; else it is left alone.
     pub renewed: &'a mut [T],
     /// [`Dynamics::curves`]; no place where nobody wants them.
     pub curves: &'a mut [T],
@@ -127,15 +127,15 @@ pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
     arrival: &mut Arrival<'_, T>,
 ) {
     let info = model.info();
-    if !info.guards.is_empty() {
-        model.guards(t, y, arrival.guards);
+    if !info.event_functions.is_empty() {
+        model.event_functions(t, y, arrival.event_functions);
     }
     if !info.onsets.is_empty() {
         model.onsets(t, y, arrival.onsets);
     }
     if !info.memory.is_empty() {
         arrival.renewed.copy_from_slice(y);
-        model.renew_by(t, arrival.renewed, arrival.guards);
+        model.renew_by(t, arrival.renewed, arrival.event_functions);
     }
     if !arrival.curves.is_empty() {
         model.curves(t, y, arrival.curves);
@@ -265,8 +265,8 @@ enabled! {
     };
     Normalize { y: &'a mut [T] } -> (), |model| model.normalize(M::State::of_mut(y));
     Renew { t: &'a T, y: &'a mut [T] } -> (), |model| model.renew(*t, M::State::of_mut(y));
-    Guards { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
-        *M::Guards::of_mut(out) = model.guards(*t, M::State::of(y));
+    EventFunctions { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
+        *M::EventFunctions::of_mut(out) = model.event_functions(*t, M::State::of(y));
     };
     Kinks { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
         *M::Kinks::of_mut(out) = model.kinks(*t, M::State::of(y));
@@ -410,8 +410,8 @@ macro_rules! stepping {
             });
         }
 
-        fn guards(&self, t: T, y: &[T], out: &mut [T]) {
-            T::enable(Guards {
+        fn event_functions(&self, t: T, y: &[T], out: &mut [T]) {
+            T::enable(EventFunctions {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,

@@ -16,7 +16,7 @@ pub use dynamics::{
     Adjustable, Compiled, Differentiable, Direct, Dynamics, Family, Owned,
 };
 pub use model::{
-    Behind, Beyond, Change, CurveInfo, CurveKind, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Sink,
+    OffsetView, TailView, Change, CurveInfo, CurveKind, Info, Model, OutputInfo, ParameterInfo, ParameterSet, OutputWriter,
     StateKind, Vector, part,
 };
 pub use real::{DoubleDouble, Dual, Fast, Mask, Real, Several, Task, Width};

@@ -275,8 +275,8 @@ impl Failure {
                 let name = name(self.info.kinks, index);
                 write!(f, "; the kink \"{name}\" keeps steps at {step:.1e} s")
             }
-            Cause::Guard(index) => {
-                let name = name(self.info.guards, index);
+            Cause::EventFunction(index) => {
+                let name = name(self.info.event_functions, index);
                 write!(f, "; the event \"{name}\" ends steps after {step:.1e} s")
             }
             Cause::Fixed => write!(f, "; the step is {step:e} s"),

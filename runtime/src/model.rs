@@ -5,9 +5,9 @@ use core::ops::{Index, IndexMut};
 
 /// An output writer: takes results one by one, in the order in which they are computed ([`Model::each_rate`]).
 ///
-/// An array stores them. Another sink may turn each result into something else, such as the state that it leads to, while it is still in a register;
+/// An array stores them. Another writer may turn each result into something else, such as the state that it leads to, while it is still in a register;
 /// then nothing is stored in between.
-pub trait Sink<T> {
+pub trait OutputWriter<T> {
     /// Takes the result with an index. Mark it `#[inline(always)]`: generated code calls it in straight lines, with indices known at compile time.
     fn put(&mut self, index: usize, value: T);
 }
@@ -18,27 +18,27 @@ pub trait Change<T> {
     fn of(&self, index: usize, value: T) -> T;
 }
 
-impl<T, const N: usize> Sink<T> for [T; N] {
+impl<T, const N: usize> OutputWriter<T> for [T; N] {
     #[inline(always)]
     fn put(&mut self, index: usize, value: T) {
         self[index] = value;
     }
 }
 
-/// An offset view: the part of a sink that begins at the index `FROM`.
-pub struct Behind<'a, S, const FROM: usize>(pub &'a mut S);
+/// An offset view: the part of a writer that begins at the index `FROM`.
+pub struct OffsetView<'a, S, const FROM: usize>(pub &'a mut S);
 
-impl<T, S: Sink<T>, const FROM: usize> Sink<T> for Behind<'_, S, FROM> {
+impl<T, S: OutputWriter<T>, const FROM: usize> OutputWriter<T> for OffsetView<'_, S, FROM> {
     #[inline(always)]
     fn put(&mut self, index: usize, value: T) {
         self.0.put(FROM + index, value);
     }
 }
 
-/// An offset view the other way: passes the results from index `FROM` on to the sink, as 0, 1, …, and drops those before.
-pub struct Beyond<'a, S, const FROM: usize>(pub &'a mut S);
+/// An offset view the other way: passes the results from index `FROM` on to the writer, as 0, 1, …, and drops those before.
+pub struct TailView<'a, S, const FROM: usize>(pub &'a mut S);
 
-impl<T, S: Sink<T>, const FROM: usize> Sink<T> for Beyond<'_, S, FROM> {
+impl<T, S: OutputWriter<T>, const FROM: usize> OutputWriter<T> for TailView<'_, S, FROM> {
     #[inline(always)]
     fn put(&mut self, index: usize, value: T) {
         if let Some(index) = index.checked_sub(FROM) {
@@ -49,7 +49,7 @@ impl<T, S: Sink<T>, const FROM: usize> Sink<T> for Beyond<'_, S, FROM> {
 
 /// A fixed-size array of scalars.
 pub trait Vector<T>:
-    Copy + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize> + Sink<T>
+    Copy + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize> + OutputWriter<T>
 {
     /// Number of entries.
     const LEN: usize;
@@ -135,8 +135,8 @@ pub trait Model<T: Real>: Sized {
     type State: Vector<T>;
     /// `[T; number of outputs]`.
     type Outputs: Vector<T>;
-    /// `[T; number of event functions (guards)]`.
-    type Guards: Vector<T>;
+    /// `[T; number of event functions (event_functions)]`.
+    type EventFunctions: Vector<T>;
     /// `[T; number of non-smooth switching functions (kinks)]`.
     type Kinks: Vector<T>;
     /// `[T; number of powers]`.
@@ -156,10 +156,10 @@ pub trait Model<T: Real>: Sized {
     fn derivative(&self, t: T, y: &Self::State) -> Self::State;
     /// ẏ at time `t` \[s\] and state `y`, entry by entry: each index of the state once, in the order in which they are computed.
     #[inline(always)]
-    fn each_rate(&self, t: T, y: &Self::State, sink: &mut impl Sink<T>) {
+    fn each_rate(&self, t: T, y: &Self::State, writer: &mut impl OutputWriter<T>) {
         let rate = self.derivative(t, y);
         for i in 0..Self::State::LEN {
-            sink.put(i, rate[i]);
+            writer.put(i, rate[i]);
         }
     }
     /// q̇ at the coordinates and velocities of `y`, written into the coordinates of `rate`. The rest of `rate` is not changed. The semi-implicit
@@ -184,11 +184,11 @@ pub trait Model<T: Real>: Sized {
     /// its bits.
     #[inline(always)]
     fn renew(&self, _t: T, _y: &mut Self::State) {}
-    /// Event functions (guards), in the order of [`Info::guards`]. Where one changes its sign, a force law changes its branch. A step with error
+    /// Event functions (event functions), in the order of [`Info::event_functions`]. Where one changes its sign, a force law changes its branch. A step with error
     /// control ends there.
     #[inline(always)]
-    fn guards(&self, _t: T, _y: &Self::State) -> Self::Guards {
-        Self::Guards::splat(T::from_f64(0.0))
+    fn event_functions(&self, _t: T, _y: &Self::State) -> Self::EventFunctions {
+        Self::EventFunctions::splat(T::from_f64(0.0))
     }
     /// Non-smooth switching functions (kinks), in the order of [`Info::kinks`]. Where one changes its sign, a force law is not smooth, though no
     /// discrete state depends on it: a contact begins to touch, a point of a curve is passed. A method keeps its order where its steps end there. A
@@ -297,7 +297,7 @@ pub struct Info {
     /// set").
     pub memory: &'static [&'static str],
     /// Names of the event functions ("belt lap: locks").
-    pub guards: &'static [&'static str],
+    pub event_functions: &'static [&'static str],
     /// Names of the non-smooth switching functions ("belt lap: goes taut").
     pub kinks: &'static [&'static str],
     /// Names of the onsets: first those of laws ("contact hit: touches"), then those of corners ("contact hit: corner of the curve").
@@ -546,7 +546,7 @@ pub struct ParameterInfo {
 
 #[cfg(test)]
 mod tests {
-    use super::{Behind, Beyond, Model, ParameterSet, Sink, over};
+    use super::{OffsetView, TailView, Model, ParameterSet, OutputWriter, over};
     use crate::Dual;
     use crate::test_models::{Oscillator, Pendulum};
     use crate::test_scalars::Pair;
@@ -554,12 +554,12 @@ mod tests {
     #[test]
     fn a_sink_is_a_part_of_another() {
         let mut all = [0; 5];
-        let mut end = Behind::<_, 3>(&mut all);
+        let mut end = OffsetView::<_, 3>(&mut all);
         end.put(0, 30);
         end.put(1, 40);
         assert_eq!(all, [0, 0, 0, 30, 40]);
         let mut end = [0; 2];
-        let mut all = Beyond::<_, 3>(&mut end);
+        let mut all = TailView::<_, 3>(&mut end);
         for index in 0..5 {
             all.put(index, 10 * index);
         }

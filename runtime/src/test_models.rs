@@ -41,7 +41,7 @@ pub const BARE: Info = Info {
     units: &["m", "m/s"],
     auxiliaries: &[],
     memory: &[],
-    guards: &[],
+    event_functions: &[],
     kinks: &[],
     onsets: &[],
     corners: 0,
@@ -62,13 +62,13 @@ pub const BARE: Info = Info {
 /// What models on unit structs have in common: how many numbers there are of each kind, and where a run starts. q̇ is that of time 0, which
 /// counts only where it depends on time.
 macro_rules! bare {
-    ($model:ident, state $state:expr, outputs $outputs:expr, guards $guards:expr, kinks $kinks:expr, powers $powers:expr,
+    ($model:ident, state $state:expr, outputs $outputs:expr, event_functions $event_functions:expr, kinks $kinks:expr, powers $powers:expr,
      curves $curves:expr, from $y0:expr) => {
         type With<U: Real> = $model;
         type Parameters = None;
         type State = [T; $state];
         type Outputs = [T; $outputs];
-        type Guards = [T; $guards];
+        type EventFunctions = [T; $event_functions];
         type Kinks = [T; $kinks];
         type Powers = [T; $powers];
         type Curves = [T; $curves];
@@ -107,7 +107,7 @@ macro_rules! model {
         pub struct $model;
 
         impl<T: Real> Model<T> for $model {
-            bare!($model, state [$($q,)* $($v,)*].len(), outputs 0, guards 0, kinks { let names: &[&str] = &[$($name),*]; names.len() },
+            bare!($model, state [$($q,)* $($v,)*].len(), outputs 0, event_functions 0, kinks { let names: &[&str] = &[$($name),*]; names.len() },
                 powers 0, curves 0, from $y0);
             const INFO: &'static Info = &Info {
                 name: stringify!($model),
@@ -185,7 +185,7 @@ impl<T: Real> Model<T> for Oscillator<T> {
     type Parameters = Oscillator<T>;
     type State = [T; 2];
     type Outputs = [T; 1];
-    type Guards = [T; 0];
+    type EventFunctions = [T; 0];
     type Kinks = [T; 0];
     type Powers = [T; 0];
     type Curves = [T; 0];
@@ -275,7 +275,7 @@ pub struct Runaway;
 pub const SPRING: Curve<2> = Curve::new([[-1.0, 0.0], [0.45, 1e-3]], Extrapolate::Error);
 
 impl<T: Real> Model<T> for Runaway {
-    bare!(Runaway, state 2, outputs 2, guards 0, kinks 0, powers 0, curves 1, from [0.0, 1.0]);
+    bare!(Runaway, state 2, outputs 2, event_functions 0, kinks 0, powers 0, curves 1, from [0.0, 1.0]);
     const INFO: &'static Info = &Info {
         name: "runaway",
         coordinates: &["mass.x"],
@@ -318,7 +318,7 @@ impl<T: Real> Model<T> for Runaway {
 pub struct Spin;
 
 impl<T: Real> Model<T> for Spin {
-    bare!(Spin, state 4, outputs 0, guards 0, kinks 0, powers 0, curves 0, from [1.0, 0.0, 0.0, 0.0]);
+    bare!(Spin, state 4, outputs 0, event_functions 0, kinks 0, powers 0, curves 0, from [1.0, 0.0, 0.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "spin",
         dimension: 3,
@@ -347,13 +347,13 @@ impl<T: Real> Model<T> for Spin {
 pub struct Ratchet;
 
 impl<T: Real> Model<T> for Ratchet {
-    bare!(Ratchet, state 3, outputs 0, guards 1, kinks 0, powers 0, curves 0, from [-1.0, 0.0, -2.0]);
+    bare!(Ratchet, state 3, outputs 0, event_functions 1, kinks 0, powers 0, curves 0, from [-1.0, 0.0, -2.0]);
     const INFO: &'static Info = &Info {
         name: "ratchet",
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
         memory: &["largest"],
-        guards: &["turns"],
+        event_functions: &["turns"],
         duration: 10.0,
         every: 0.5,
         ..BARE
@@ -368,7 +368,7 @@ impl<T: Real> Model<T> for Ratchet {
     fn renew(&self, _: T, y: &mut [T; 3]) {
         y[2] = y[2].max(y[0]);
     }
-    fn guards(&self, _: T, y: &[T; 3]) -> [T; 1] {
+    fn event_functions(&self, _: T, y: &[T; 3]) -> [T; 1] {
         [y[1]]
     }
 }
@@ -379,13 +379,13 @@ impl<T: Real> Model<T> for Ratchet {
 pub struct Ledge;
 
 impl<T: Real> Model<T> for Ledge {
-    bare!(Ledge, state 3, outputs 0, guards 1, kinks 0, powers 0, curves 0, from [0.0, 1.0, 0.0]);
+    bare!(Ledge, state 3, outputs 0, event_functions 1, kinks 0, powers 0, curves 0, from [0.0, 1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "ledge",
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
         memory: &["largest"],
-        guards: &["leaves"],
+        event_functions: &["leaves"],
         duration: 10.0,
         every: 0.5,
         ..BARE
@@ -400,7 +400,7 @@ impl<T: Real> Model<T> for Ledge {
     fn renew(&self, _: T, y: &mut [T; 3]) {
         y[2] = y[0];
     }
-    fn guards(&self, _: T, y: &[T; 3]) -> [T; 1] {
+    fn event_functions(&self, _: T, y: &[T; 3]) -> [T; 1] {
         let one = T::from_f64(1.0);
         let left = T::select(y[2].lt(y[0]), -one, one);
         [T::select(y[0].lt(T::from_f64(0.5)), one, left)]
@@ -412,7 +412,7 @@ impl<T: Real> Model<T> for Ledge {
 pub struct Counter;
 
 impl<T: Real> Model<T> for Counter {
-    bare!(Counter, state 3, outputs 0, guards 0, kinks 0, powers 0, curves 0, from [0.0, 1.0, 0.0]);
+    bare!(Counter, state 3, outputs 0, event_functions 0, kinks 0, powers 0, curves 0, from [0.0, 1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "counter",
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
@@ -439,7 +439,7 @@ impl<T: Real> Model<T> for Counter {
 pub struct Chain;
 
 impl<T: Real> Model<T> for Chain {
-    bare!(Chain, state 5, outputs 0, guards 3, kinks 0, powers 0, curves 0, from [0.0, 0.0, 9.0, 9.0, 9.0]);
+    bare!(Chain, state 5, outputs 0, event_functions 3, kinks 0, powers 0, curves 0, from [0.0, 0.0, 9.0, 9.0, 9.0]);
     const INFO: &'static Info = &Info {
         name: "chain",
         kinds: &[
@@ -451,7 +451,7 @@ impl<T: Real> Model<T> for Chain {
         ],
         units: &["m", "m/s", "", "", ""],
         memory: &["first", "second", "third"],
-        guards: &["first", "second", "third"],
+        event_functions: &["first", "second", "third"],
         duration: 2.0,
         every: 0.5,
         ..BARE
@@ -465,15 +465,15 @@ impl<T: Real> Model<T> for Chain {
     }
     fn normalize(&self, _: &mut [T; 5]) {}
     fn renew(&self, t: T, y: &mut [T; 5]) {
-        let guards = self.guards(t, y);
-        for (time, guard) in y[2..].iter_mut().zip(guards) {
-            *time = T::select(guard.lt(T::from_f64(0.0)), t, *time);
+        let event_functions = self.event_functions(t, y);
+        for (time, event_function) in y[2..].iter_mut().zip(event_functions) {
+            *time = T::select(event_function.lt(T::from_f64(0.0)), t, *time);
         }
     }
-    fn guards(&self, t: T, &[_, _, first, second, third]: &[T; 5]) -> [T; 3] {
+    fn event_functions(&self, t: T, &[_, _, first, second, third]: &[T; 5]) -> [T; 3] {
         let (one, ever) = (T::from_f64(1.0), T::from_f64(8.0));
         // the event function of a switch that has fired stays at 1
-        let waiting = |time: T, guard: T| T::select(time.lt(ever), one, guard);
+        let waiting = |time: T, event_function: T| T::select(time.lt(ever), one, event_function);
         [
             waiting(first, one - t),
             waiting(second, first - ever),
@@ -515,7 +515,7 @@ model! {
 pub struct Leaky;
 
 impl<T: Real> Model<T> for Leaky {
-    bare!(Leaky, state 2, outputs 0, guards 0, kinks 0, powers 1, curves 0, from [0.0, 0.0]);
+    bare!(Leaky, state 2, outputs 0, event_functions 0, kinks 0, powers 1, curves 0, from [0.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "Leaky",
         powers: &["thrust"],
@@ -543,7 +543,7 @@ impl<T: Real> Model<T> for Leaky {
 pub struct Stage;
 
 impl<T: Real> Model<T> for Stage {
-    bare!(Stage, state 2, outputs 0, guards 0, kinks 0, powers 1, curves 0, from [1.0, 0.0]);
+    bare!(Stage, state 2, outputs 0, event_functions 0, kinks 0, powers 1, curves 0, from [1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "Stage",
         powers: &["spring"],

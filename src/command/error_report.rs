@@ -324,7 +324,7 @@ mod tests {
     use crate::equations::{self, Engine};
     use crate::simulation::Runs;
     use bryant_runtime::Info;
-    use bryant_runtime::program::{Job, Observer, Outcome, Sink};
+    use bryant_runtime::program::{Job, Observer, Outcome, SampleWriter};
     use std::cell::Cell;
     use std::time::Duration;
 
@@ -340,10 +340,10 @@ mod tests {
             self.engine.info()
         }
 
-        fn run(&self, job: &Job, sink: &mut Sink<'_>, observer: &mut Observer<'_>) -> Outcome {
+        fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>) -> Outcome {
             match self.taken.replace(true) {
-                false => self.engine.run(job, sink, observer),
-                true => self.engine.run(&(self.then)(job), sink, observer),
+                false => self.engine.run(job, writer, observer),
+                true => self.engine.run(&(self.then)(job), writer, observer),
             }
         }
     }

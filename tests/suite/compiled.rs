@@ -160,7 +160,7 @@ fn check(compiled: &Compiled) {
     roots.extend(&equations.outputs);
     roots.push(equations.kinetic_energy);
     roots.extend(equations.powers.iter().map(|power| power.value));
-    roots.extend(equations.guards.iter().map(|guard| guard.value));
+    roots.extend(equations.event_functions.iter().map(|event_function| event_function.value));
     if equations.charts > 0 {
         roots.extend(&equations.renewed_coordinates);
         roots.extend(&equations.renewed_velocities);
@@ -207,10 +207,10 @@ fn check(compiled: &Compiled) {
         entry
             .energy(&named, point.t, &state, &mut others)
             .expect("powers");
-        let mut guards = vec![f64::NAN; equations.guards.len()];
+        let mut event_functions = vec![f64::NAN; equations.event_functions.len()];
         entry
-            .guards(&named, point.t, &state, &mut guards)
-            .expect("guards");
+            .event_functions(&named, point.t, &state, &mut event_functions)
+            .expect("event_functions");
         let mut renewed = state.clone();
         entry
             .renewed(&named, point.t, &state, &mut renewed)
@@ -226,7 +226,7 @@ fn check(compiled: &Compiled) {
         let memory = renewed.split_off(state.len() - point.m.len());
         let (moving, laws) = renewed.split_at(coordinates + size);
         assert_eq!(laws, point.z, "{name}: what is integrated is not renewed");
-        others.extend(guards);
+        others.extend(event_functions);
         if equations.charts > 0 {
             others.extend(moving);
         } else {
@@ -269,7 +269,7 @@ fn check(compiled: &Compiled) {
         ));
         let rest = full + outputs.len()..;
         share = share.max(compare(
-            &format!("{name}: energy, powers, guards, renewed state, kinks, momentum"),
+            &format!("{name}: energy, powers, event_functions, renewed state, kinks, momentum"),
             &[],
             &others,
             &values[rest.clone()],

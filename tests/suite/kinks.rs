@@ -85,10 +85,10 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
     let names: Vec<&'static str> = info
         .kinks
         .iter()
-        .chain(info.guards)
+        .chain(info.event_functions)
         .map(|name| name.split_once(": ").map_or(*name, |(_, what)| what))
         .collect();
-    let signs = info.kinks.len() + info.guards.len();
+    let signs = info.kinks.len() + info.event_functions.len();
     let h = every / CELLS as f64;
     let mut random = Random::new(info.name.bytes().map(u64::from).sum());
     let mut seen = Seen::default();
@@ -117,12 +117,12 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
                 .map(|(k, (y, rate))| if k < moving { y + s * rate } else { *y })
                 .collect();
             let mut kinks = vec![0.0; info.kinks.len()];
-            let mut guards = vec![0.0; info.guards.len()];
+            let mut event_functions = vec![0.0; info.event_functions.len()];
             entry.kinks(&[], t + s, &there, &mut kinks).expect("kinks");
             entry
-                .guards(&[], t + s, &there, &mut guards)
-                .expect("guards");
-            kinks.extend(guards);
+                .event_functions(&[], t + s, &there, &mut event_functions)
+                .expect("event_functions");
+            kinks.extend(event_functions);
             rates.push(derivative(t + s, &there));
             functions.push(kinks);
             times.push(t + s);

@@ -62,7 +62,7 @@ impl Layout {
         match input {
             Input::Time => self.time,
             Input::State(i) => self.state + i,
-            Input::Acceleration(i) | Input::Guard(i) => self.before + i,
+            Input::Acceleration(i) | Input::EventFunction(i) => self.before + i,
             Input::Parameter(i) => self.parameters + i,
             Input::Derived(i) => self.derived + i,
         }
@@ -93,7 +93,7 @@ impl Programs {
         let time = derived + lists.derived as u32;
         let state = time + 1;
         let before = state + facts.kinds.len() as u32;
-        let rest = before + facts.velocities.len().max(facts.guards.len()) as u32;
+        let rest = before + facts.velocities.len().max(facts.event_functions.len()) as u32;
         Programs {
             constants,
             place_of,

@@ -230,8 +230,8 @@ impl<'a> Emulated<'a> {
         };
         let time = some(1);
         let given = INPUTS.map(&mut some);
-        let [state, accelerations, guards, parameters, derived] = &given;
-        let inputs = [&time, state, accelerations, guards, parameters, derived];
+        let [state, accelerations, event_functions, parameters, derived] = &given;
+        let inputs = [&time, state, accelerations, event_functions, parameters, derived];
         let got = self.run(scalar, inputs.map(|slots| slots.as_slice()));
         for lane in 0..self.lanes {
             let at = |slot: &Slot| of_lane(scalar, slot, self.lanes, lane);
@@ -240,7 +240,7 @@ impl<'a> Emulated<'a> {
                 time: at(&time[0]),
                 state: of(state),
                 accelerations: of(accelerations),
-                guards: of(guards),
+                event_functions: of(event_functions),
                 parameters: of(parameters),
                 derived: of(derived),
             };

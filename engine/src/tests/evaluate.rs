@@ -13,7 +13,7 @@ pub struct Given<T> {
     pub time: T,
     pub state: Vec<T>,
     pub accelerations: Vec<T>,
-    pub guards: Vec<T>,
+    pub event_functions: Vec<T>,
     pub parameters: Vec<T>,
     pub derived: Vec<T>,
 }
@@ -24,7 +24,7 @@ impl<T: Copy> Given<T> {
             Input::Time => self.time,
             Input::State(i) => self.state[i as usize],
             Input::Acceleration(i) => self.accelerations[i as usize],
-            Input::Guard(i) => self.guards[i as usize],
+            Input::EventFunction(i) => self.event_functions[i as usize],
             Input::Parameter(i) => self.parameters[i as usize],
             Input::Derived(i) => self.derived[i as usize],
         }

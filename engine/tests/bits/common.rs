@@ -256,8 +256,8 @@ fn compare_at<T: Real, O: Of<T>>(
         ("outputs", info.outputs.len(), |m, t, y, out| {
             m.outputs(t, y, out)
         }),
-        ("guards", info.guards.len(), |m, t, y, out| {
-            m.guards(t, y, out)
+        ("event_functions", info.event_functions.len(), |m, t, y, out| {
+            m.event_functions(t, y, out)
         }),
         ("kinks", info.kinks.len(), |m, t, y, out| m.kinks(t, y, out)),
         ("onsets", 2 * info.onsets.len(), |m, t, y, out| {
@@ -352,8 +352,8 @@ fn compare_at_once<T: Real, O: Of<T>>(
 fn arrival<T: Real>(model: &dyn Dynamics<T>, wanted: u8, t: T, y: &[T]) -> Vec<T> {
     let info = model.info();
     let of = |count: usize| vec![T::from_f64(0.25); count];
-    let [mut guards, mut onsets, mut renewed, mut curves, mut powers] = [
-        info.guards.len(),
+    let [mut event_functions, mut onsets, mut renewed, mut curves, mut powers] = [
+        info.event_functions.len(),
         2 * info.onsets.len(),
         y.len(),
         if wanted > 0 { info.curves.len() } else { 0 },
@@ -363,7 +363,7 @@ fn arrival<T: Real>(model: &dyn Dynamics<T>, wanted: u8, t: T, y: &[T]) -> Vec<T
     let [mut momentum, mut external_wrench] = [[T::from_f64(0.25); 6]; 2];
     let mut energy = T::from_f64(0.25);
     let mut arrival = Arrival {
-        guards: &mut guards,
+        event_functions: &mut event_functions,
         onsets: &mut onsets,
         renewed: &mut renewed,
         curves: &mut curves,
@@ -376,7 +376,7 @@ fn arrival<T: Real>(model: &dyn Dynamics<T>, wanted: u8, t: T, y: &[T]) -> Vec<T
     };
     model.arrive(t, y, &mut arrival);
     let few = [&[energy][..], &momentum, &external_wrench].concat();
-    [few, guards, onsets, renewed, curves, powers].concat()
+    [few, event_functions, onsets, renewed, curves, powers].concat()
 }
 
 /// A scalar that tests make from random numbers.

@@ -88,8 +88,8 @@ fn check<T: Real>(name: &str, lanes: &Lanes<T>) {
         ("outputs", info.outputs.len(), |m, t, y, out| {
             m.outputs(t, y, out);
         }),
-        ("guards", info.guards.len(), |m, t, y, out| {
-            m.guards(t, y, out);
+        ("event_functions", info.event_functions.len(), |m, t, y, out| {
+            m.event_functions(t, y, out);
         }),
         ("kinks", info.kinks.len(), |m, t, y, out| {
             m.kinks(t, y, out);
@@ -123,13 +123,13 @@ fn renewed<T: Real>(name: &str, lanes: &Lanes<T>, models: [&dyn Dynamics<T>; 2],
     let mut plain = y.to_vec();
     models[1].renew(t, &mut plain);
     for model in models {
-        let mut guards = vec![T::from_f64(0.0); model.info().guards.len()];
-        model.guards(t, y, &mut guards);
+        let mut event_functions = vec![T::from_f64(0.0); model.info().event_functions.len()];
+        model.event_functions(t, y, &mut event_functions);
         let [mut by, mut without] = [y.to_vec(), y.to_vec()];
-        model.renew_by(t, &mut by, &guards);
+        model.renew_by(t, &mut by, &event_functions);
         model.renew(t, &mut without);
         same(&format!("{name}: renewed"), lanes, &without, &plain);
-        same(&format!("{name}: renewed by guards"), lanes, &by, &plain);
+        same(&format!("{name}: renewed by event functions"), lanes, &by, &plain);
     }
 }
 

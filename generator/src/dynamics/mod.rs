@@ -237,7 +237,7 @@ fn in_graph(
         charts: layout.charts(),
         renewed_coordinates: ids(&renewed.q),
         renewed_velocities: ids(&renewed.v),
-        guards: named(&loads.events.guards),
+        event_functions: named(&loads.events.event_functions),
         kinks: named(&kinks),
         corners: onsets[1].len(),
         onsets: (onsets.iter().flatten())

@@ -1,7 +1,7 @@
 //! What a function computes with: time, coordinates, velocities, states of force laws, and what was computed before.
 //!
 //! Values that are known before a function runs stand in its graph as inputs. The graph knows symbols for the others; the
-//! three that emission adds (accelerations, guards, constants derived from parameters) are numbered after the model's
+//! three that emission adds (accelerations, event functions, constants derived from parameters) are numbered after the model's
 //! parameters.
 
 use crate::equations::{Equations, LawState, Variable};
@@ -24,8 +24,8 @@ pub(crate) enum Input {
     Memory(usize),
     /// `a[i]`: v̇, where a function starts from it
     Acceleration(usize),
-    /// `g[i]`: a guard, where memory is renewed by it
-    Guard(usize),
+    /// `g[i]`: an event function, where memory is renewed by it
+    EventFunction(usize),
     /// Field of the parameters
     Parameter(usize),
     /// Field of the mechanism, computed from parameters
@@ -41,7 +41,7 @@ impl Input {
             Input::Auxiliary(i) => Some((Argument::Auxiliaries, i)),
             Input::Memory(i) => Some((Argument::Memory, i)),
             Input::Acceleration(i) => Some((Argument::Accelerations, i)),
-            Input::Guard(i) => Some((Argument::Guards, i)),
+            Input::EventFunction(i) => Some((Argument::EventFunctions, i)),
             Input::Time | Input::Parameter(_) | Input::Derived(_) => None,
         }
     }
@@ -70,8 +70,8 @@ pub(crate) enum Argument {
     Memory,
     /// v̇
     Accelerations,
-    /// The guards
-    Guards,
+    /// The event functions
+    EventFunctions,
 }
 
 impl Argument {
@@ -83,7 +83,7 @@ impl Argument {
         Argument::Coordinates,
         Argument::Velocities,
         Argument::Accelerations,
-        Argument::Guards,
+        Argument::EventFunctions,
     ];
 
     /// The name that it has everywhere.
@@ -95,7 +95,7 @@ impl Argument {
             Argument::Auxiliaries => "z",
             Argument::Memory => "m",
             Argument::Accelerations => "a",
-            Argument::Guards => "g",
+            Argument::EventFunctions => "g",
         }
     }
 }
@@ -112,8 +112,8 @@ pub(crate) struct Inputs {
     pub memory: Vec<String>,
     /// Names of v̇.
     pub accelerations: Vec<String>,
-    /// Names of the guards.
-    pub guards: Vec<String>,
+    /// Names of the event functions.
+    pub event_functions: Vec<String>,
     /// Fields of the parameters.
     pub parameters: Vec<String>,
     /// Fields of the mechanism.
@@ -147,10 +147,10 @@ impl Inputs {
             auxiliaries: laws(&equations.auxiliaries),
             memory: laws(&equations.memory),
             accelerations: of("dot"),
-            guards: equations
-                .guards
+            event_functions: equations
+                .event_functions
                 .iter()
-                .map(|guard| format!("guard_{}", snake(&guard.name)))
+                .map(|event_function| format!("event_function_{}", snake(&event_function.name)))
                 .collect(),
             velocities: if clash {
                 of("rate")
@@ -175,9 +175,9 @@ impl Inputs {
             Input::Memory(i) => Symbol::Memory(i as u32),
             Input::Parameter(i) => parameter(i),
             Input::Acceleration(i) => parameter(self.parameters.len() + i),
-            Input::Guard(i) => parameter(self.parameters.len() + self.accelerations.len() + i),
+            Input::EventFunction(i) => parameter(self.parameters.len() + self.accelerations.len() + i),
             Input::Derived(i) => {
-                parameter(self.parameters.len() + self.accelerations.len() + self.guards.len() + i)
+                parameter(self.parameters.len() + self.accelerations.len() + self.event_functions.len() + i)
             }
         }
     }
@@ -186,7 +186,7 @@ impl Inputs {
     pub(crate) fn input(&self, symbol: Symbol) -> Input {
         let parameters = self.parameters.len();
         let accelerations = parameters + self.accelerations.len();
-        let guards = accelerations + self.guards.len();
+        let event_functions = accelerations + self.event_functions.len();
         match symbol {
             Symbol::Time => Input::Time,
             Symbol::Coordinate(i) => Input::Coordinate(i as usize),
@@ -196,8 +196,8 @@ impl Inputs {
             Symbol::Parameter(i) => match i as usize {
                 i if i < parameters => Input::Parameter(i),
                 i if i < accelerations => Input::Acceleration(i - parameters),
-                i if i < guards => Input::Guard(i - accelerations),
-                i => Input::Derived(i - guards),
+                i if i < event_functions => Input::EventFunction(i - accelerations),
+                i => Input::Derived(i - event_functions),
             },
         }
     }
@@ -210,7 +210,7 @@ impl Inputs {
             Argument::Velocities | Argument::Accelerations => self.velocities.len(),
             Argument::Auxiliaries => self.auxiliaries.len(),
             Argument::Memory => self.memory.len(),
-            Argument::Guards => self.guards.len(),
+            Argument::EventFunctions => self.event_functions.len(),
         }
     }
 
@@ -229,6 +229,6 @@ impl Inputs {
             .chain(all(&self.auxiliaries, Input::Auxiliary))
             .chain(all(&self.memory, Input::Memory))
             .chain(all(&self.accelerations, Input::Acceleration))
-            .chain(all(&self.guards, Input::Guard))
+            .chain(all(&self.event_functions, Input::EventFunction))
     }
 }

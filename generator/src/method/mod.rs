@@ -25,8 +25,8 @@ pub enum Method {
     CoordinateRates,
     /// The entries of the state that are renewed when a step is accepted: [`Lists::renewed`](crate::program::Lists::renewed).
     Renewed,
-    /// The guards.
-    Guards,
+    /// The event functions.
+    EventFunctions,
     /// The kinks.
     Kinks,
     /// The onsets: the gap of each, then the speed of each.
@@ -65,7 +65,7 @@ impl Method {
         Method::Derivative,
         Method::CoordinateRates,
         Method::Renewed,
-        Method::Guards,
+        Method::EventFunctions,
         Method::Kinks,
         Method::Onsets,
         Method::Curves,
@@ -91,6 +91,6 @@ pub enum Start {
     State,
     /// v̇: the results of [`Method::Derivative`] behind q̇, as many as velocities.
     Accelerations,
-    /// The results of [`Method::Guards`].
-    Guards,
+    /// The results of [`Method::EventFunctions`].
+    EventFunctions,
 }

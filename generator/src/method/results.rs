@@ -37,7 +37,7 @@ pub(crate) enum Length {
     /// As many as m has.
     Memory,
     Outputs,
-    Guards,
+    EventFunctions,
     Kinks,
     Powers,
     /// As many as there are curves of the state.

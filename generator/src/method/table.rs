@@ -29,7 +29,7 @@ pub(crate) struct Specification {
     pub labels: Vec<String>,
     /// How the roots are returned.
     pub results: Results,
-    /// Values that it receives ready-made: the guards, or the accelerations where computing them again would repeat most of their method.
+    /// Values that it receives ready-made: the event functions, or the accelerations where computing them again would repeat most of their method.
     pub start: Start,
     /// Whether it is evaluated over lanes, besides what goes to an output writer. The instructions of wide registers are such only in
     /// functions that are compiled for them, which are the runtime's: all that they call must be part of them.
@@ -61,7 +61,7 @@ const TABLE: [fn(&Source<'_>) -> Option<Specification>; 22] = [
     kink_rates,
     auxiliary_rates,
     renewed,
-    guards,
+    event_functions,
     kinks,
     onsets,
     curves,
@@ -110,15 +110,15 @@ pub(crate) fn motion(rates: &Specification, accelerations: &Specification) -> Sp
 /// The method that writes q̇ and v̇.
 pub(crate) const EACH_MOTION: &str = "each_motion";
 
-/// Whether memory is renewed by the sign of a guard. It is then given the guards, to see the very values that ended the
+/// Whether memory is renewed by the sign of an event function. It is then given the event functions, to see the very values that ended the
 /// step: computed a second time, a value close to 0 may have the other sign.
-pub(crate) fn renews_by_guards(equations: &Equations) -> bool {
+pub(crate) fn renews_by_event_functions(equations: &Equations) -> bool {
     let live = Live::new(&equations.graph, &next(&equations.memory));
-    let guards = equations.guards.iter().map(|guard| guard.value);
+    let event_functions = equations.event_functions.iter().map(|event_function| event_function.value);
     let computed = |id: &NodeId| !matches!(equations.graph.node(*id), Node::Symbol(_));
-    guards
+    event_functions
         .filter(computed)
-        .any(|guard| live.nodes().contains(&guard))
+        .any(|event_function| live.nodes().contains(&event_function))
 }
 
 fn initial_conditions(from: &Source<'_>) -> Option<Specification> {
@@ -294,9 +294,9 @@ fn renewed(from: &Source<'_>) -> Option<Specification> {
     };
     let mut method = from.of_state(name, Method::Renewed, results);
     method.in_lanes = true;
-    if renews_by_guards(equations) {
-        method.arguments.push(Argument::Guards);
-        method.start = Start::Guards;
+    if renews_by_event_functions(equations) {
+        method.arguments.push(Argument::EventFunctions);
+        method.start = Start::EventFunctions;
     }
     let words = match charted {
         true => {
@@ -318,17 +318,17 @@ fn renewed(from: &Source<'_>) -> Option<Specification> {
     Some(method)
 }
 
-fn guards(from: &Source<'_>) -> Option<Specification> {
-    let guards = some(&from.equations.guards)?;
-    let results = Results::Array(Length::Guards);
+fn event_functions(from: &Source<'_>) -> Option<Specification> {
+    let event_functions = some(&from.equations.event_functions)?;
+    let results = Results::Array(Length::EventFunctions);
     Some(Specification {
-        documentation: "Functions whose change of sign ends a step, in the order of `INFO.guards`.",
-        roots: values(guards),
-        labels: named("guard_", guards),
+        documentation: "Functions whose change of sign ends a step, in the order of `INFO.event_functions`.",
+        roots: values(event_functions),
+        labels: named("event_function_", event_functions),
         start: Start::Accelerations,
         in_lanes: true,
         of_parts: true,
-        ..from.of_state("guards", Method::Guards, results)
+        ..from.of_state("event_functions", Method::EventFunctions, results)
     })
 }
 
@@ -542,7 +542,7 @@ mod tests {
     use std::collections::BTreeSet;
     use std::path::Path;
 
-    /// Models that have all there is among them: curves that parameters stretch, pivots that may vanish, guards, charts, states of laws.
+    /// Models that have all there is among them: curves that parameters stretch, pivots that may vanish, event functions, charts, states of laws.
     const MODELS: [&str; 6] = [
         "models/child-seat.yaml",
         "tests/models/curves.yaml",

@@ -25,8 +25,8 @@ pub struct Facts {
     pub auxiliaries: Vec<String>,
     /// Names of m, in order.
     pub memory: Vec<String>,
-    /// Names of the guards.
-    pub guards: Vec<String>,
+    /// Names of the event functions.
+    pub event_functions: Vec<String>,
     /// Names of the kinks.
     pub kinks: Vec<String>,
     /// Names of the onsets, the corners of curves behind those of laws.
@@ -135,7 +135,7 @@ impl Facts {
             units: units(equations),
             auxiliaries: names(&equations.auxiliaries, |state| &state.name),
             memory: names(&equations.memory, |state| &state.name),
-            guards: names(&equations.guards, |guard| &guard.name),
+            event_functions: names(&equations.event_functions, |event_function| &event_function.name),
             kinks: names(&equations.kinks, |kink| &kink.name),
             onsets: names(&equations.onsets, |onset| &onset.name),
             corners: equations.corners,

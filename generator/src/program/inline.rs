@@ -128,7 +128,7 @@ fn leaf(node: Node, inputs: &Inputs) -> Option<usize> {
             Input::Auxiliary(i) => inputs.auxiliaries[i].len(),
             Input::Memory(i) => inputs.memory[i].len(),
             Input::Acceleration(i) => inputs.accelerations[i].len(),
-            Input::Guard(i) => inputs.guards[i].len(),
+            Input::EventFunction(i) => inputs.event_functions[i].len(),
             Input::Parameter(i) => BEFORE_PARAMETER + inputs.parameters[i].len(),
             Input::Derived(i) => BEFORE_DERIVED + inputs.derived[i].len(),
         }),

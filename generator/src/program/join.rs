@@ -7,13 +7,13 @@ use rustc_hash::FxHashMap;
 /// What is often wanted at one time and state, and is cheaper at once: methods have much in common, contacts above all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Combination {
-    /// The guards, with the accelerations that they start from.
-    Guards,
+    /// The event functions, with the accelerations that they start from.
+    EventFunctions,
     /// The outputs, with the accelerations that they start from.
     Outputs,
     /// What balances are made of within a step: powers, external_wrench.
     Exchange,
-    /// What a time loop wants to know where a step ends: guards, onsets, and what memory becomes by these guards.
+    /// What a time loop wants to know where a step ends: event functions, onsets, and what memory becomes by these event functions.
     Arrival,
     /// The same, and the arguments of curves.
     ArrivalWithCurves,
@@ -24,7 +24,7 @@ pub enum Combination {
 impl Combination {
     /// All of them, in the order of their numbers.
     pub const ALL: [Combination; 6] = [
-        Combination::Guards,
+        Combination::EventFunctions,
         Combination::Outputs,
         Combination::Exchange,
         Combination::Arrival,
@@ -35,18 +35,18 @@ impl Combination {
     /// The methods whose results it has, one behind the other.
     pub const fn methods(self) -> &'static [Method] {
         match self {
-            Combination::Guards => &[Method::Guards],
+            Combination::EventFunctions => &[Method::EventFunctions],
             Combination::Outputs => &[Method::Outputs],
             Combination::Exchange => &[Method::Powers, Method::ExternalWrench],
-            Combination::Arrival => &[Method::Guards, Method::Onsets, Method::Renewed],
+            Combination::Arrival => &[Method::EventFunctions, Method::Onsets, Method::Renewed],
             Combination::ArrivalWithCurves => &[
-                Method::Guards,
+                Method::EventFunctions,
                 Method::Onsets,
                 Method::Renewed,
                 Method::Curves,
             ],
             Combination::WatchedArrival => &[
-                Method::Guards,
+                Method::EventFunctions,
                 Method::Onsets,
                 Method::Renewed,
                 Method::Curves,
@@ -66,10 +66,10 @@ impl Lists {
         let wanted = combination.methods();
         let coordinates = self.facts.coordinates.len();
         let starts = |start| move |method: &Method| self.routine(*method).start == start;
-        let from_guards = wanted.iter().any(starts(Start::Guards));
+        let from_event_functions = wanted.iter().any(starts(Start::EventFunctions));
         let mut methods = wanted.to_vec();
-        if from_guards && !wanted.contains(&Method::Guards) {
-            methods.insert(0, Method::Guards);
+        if from_event_functions && !wanted.contains(&Method::EventFunctions) {
+            methods.insert(0, Method::EventFunctions);
         }
         if methods.iter().any(starts(Start::Accelerations)) {
             methods.insert(0, Method::Derivative);
@@ -79,7 +79,7 @@ impl Lists {
             wanted: wanted.contains(method),
             gives: match method {
                 Method::Derivative => Gives::Accelerations(coordinates),
-                Method::Guards => Gives::Guards,
+                Method::EventFunctions => Gives::EventFunctions,
                 _ => Gives::Nothing,
             },
         });
@@ -177,15 +177,15 @@ enum Gives {
     Nothing,
     /// The results from this one on are accelerations.
     Accelerations(usize),
-    /// The results are guards.
-    Guards,
+    /// The results are event functions.
+    EventFunctions,
 }
 
 /// What parts so far have given.
 #[derive(Default)]
 struct Given {
     accelerations: Option<Vec<Value>>,
-    guards: Option<Vec<Value>>,
+    event_functions: Option<Vec<Value>>,
 }
 
 impl Given {
@@ -193,7 +193,7 @@ impl Given {
     fn value(&self, input: Input) -> Option<Value> {
         match input {
             Input::Acceleration(i) => self.accelerations.as_ref().map(|given| given[i as usize]),
-            Input::Guard(i) => self.guards.as_ref().map(|given| given[i as usize]),
+            Input::EventFunction(i) => self.event_functions.as_ref().map(|given| given[i as usize]),
             _ => None,
         }
     }
@@ -202,7 +202,7 @@ impl Given {
         match gives {
             Gives::Nothing => {}
             Gives::Accelerations(from) => self.accelerations = Some(results[from..].to_vec()),
-            Gives::Guards => self.guards = Some(results.to_vec()),
+            Gives::EventFunctions => self.event_functions = Some(results.to_vec()),
         }
     }
 }

@@ -15,8 +15,8 @@ pub enum Input {
     State(u32),
     /// An acceleration, where a method starts from them.
     Acceleration(u32),
-    /// A guard, where memory is renewed by the sign of it.
-    Guard(u32),
+    /// An event function, where memory is renewed by the sign of it.
+    EventFunction(u32),
     /// A parameter, by its index in the model.
     Parameter(u32),
     /// A value that depends on parameters alone, by its index among those.

@@ -213,7 +213,7 @@ impl Form for Writer<'_> {
             inputs::Input::Auxiliary(i) => Input::State(place(q + v + i)),
             inputs::Input::Memory(i) => Input::State(place(q + v + z + i)),
             inputs::Input::Acceleration(i) => Input::Acceleration(place(i)),
-            inputs::Input::Guard(i) => Input::Guard(place(i)),
+            inputs::Input::EventFunction(i) => Input::EventFunction(place(i)),
             inputs::Input::Parameter(i) => Input::Parameter(place(i)),
             inputs::Input::Derived(i) => Input::Derived(place(i)),
         };

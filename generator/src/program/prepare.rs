@@ -61,10 +61,10 @@ fn with_start(known: &Known, start: Start, equations: &Equations, inputs: &Input
     let graph = &equations.graph;
     match start {
         Start::State => {}
-        Start::Guards => {
-            for (i, guard) in equations.guards.iter().enumerate() {
-                let symbol = inputs.symbol(Input::Guard(i));
-                know(&mut known, graph, guard.value, symbol);
+        Start::EventFunctions => {
+            for (i, event_function) in equations.event_functions.iter().enumerate() {
+                let symbol = inputs.symbol(Input::EventFunction(i));
+                know(&mut known, graph, event_function.value, symbol);
             }
         }
         Start::Accelerations => {
@@ -173,7 +173,7 @@ fn factored_of(
             known.extend(arguments.stand_ins().map(|(node, by)| (node, (by, false))));
         }
         let plain = match method.start {
-            Start::Guards => with_start(&known, Start::Guards, equations, inputs),
+            Start::EventFunctions => with_start(&known, Start::EventFunctions, equations, inputs),
             _ => known.clone(),
         };
         let roots = arguments.roots(index, methods);

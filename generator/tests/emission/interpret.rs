@@ -19,9 +19,9 @@ pub enum Value {
     /// A struct by its fields.
     Struct(BTreeMap<String, Value>),
     /// The output writer: numbers by their index, each written once.
-    Sink(Rc<RefCell<BTreeMap<usize, f64>>>),
+    OutputWriter(Rc<RefCell<BTreeMap<usize, f64>>>),
     /// An output writer with an offset: its index 0 is a later index of the other.
-    Beyond(Rc<RefCell<BTreeMap<usize, f64>>>, usize),
+    TailView(Rc<RefCell<BTreeMap<usize, f64>>>, usize),
 }
 
 impl Value {
@@ -48,12 +48,12 @@ impl Value {
             Value::Number(value) => vec![*value],
             Value::List(values) => values.iter().flat_map(Value::flat).collect(),
             Value::Struct(fields) => fields.values().flat_map(Value::flat).collect(),
-            Value::Sink(found) => {
+            Value::OutputWriter(found) => {
                 let found = found.borrow();
                 assert!(found.keys().copied().eq(0..found.len()), "one is missing");
                 found.values().copied().collect()
             }
-            Value::Beyond(..) => panic!("a part of a sink is no list"),
+            Value::TailView(..) => panic!("a part of a writer is no list"),
         }
     }
 
@@ -162,7 +162,7 @@ impl<'a> Module<'a> {
                 Stmt::Expr(Expr::MethodCall(call), Some(_)) => drop(self.method(call, &scope)),
                 Stmt::Expr(expression, None) => {
                     result = Some(match self.eval(expression, &scope) {
-                        full @ Value::Sink(_) => Value::numbers(&full.flat()),
+                        full @ Value::OutputWriter(_) => Value::numbers(&full.flat()),
                         other => other,
                     });
                 }
@@ -231,7 +231,7 @@ impl<'a> Module<'a> {
                     ref other => panic!("operator {}", other.to_token_stream()),
                 })
             }
-            Expr::Repeat(_) => Value::Sink(Rc::default()),
+            Expr::Repeat(_) => Value::OutputWriter(Rc::default()),
             Expr::Array(array) => Value::List(self.all(&array.elems, scope)),
             Expr::Tuple(tuple) => Value::List(self.all(&tuple.elems, scope)),
             Expr::Struct(literal) => {
@@ -249,8 +249,8 @@ impl<'a> Module<'a> {
             }
             Expr::Call(call) => match &path(&call.func)[..] {
                 "bryant_runtime::Beyond" => match self.eval(&call.args[0], scope) {
-                    Value::Sink(found) => Value::Beyond(found, self.length(&call.func)),
-                    other => panic!("{other:?} is no sink"),
+                    Value::OutputWriter(found) => Value::TailView(found, self.length(&call.func)),
+                    other => panic!("{other:?} is no writer"),
                 },
                 name => self.function(name, self.all(&call.args, scope)),
             },
@@ -293,8 +293,8 @@ impl<'a> Module<'a> {
         }
         let receiver = self.eval(&call.receiver, scope);
         let taken = match &receiver {
-            Value::Sink(found) => Some((found, 0)),
-            Value::Beyond(found, from) => Some((found, *from)),
+            Value::OutputWriter(found) => Some((found, 0)),
+            Value::TailView(found, from) => Some((found, *from)),
             _ => None,
         };
         if let (Some((found, from)), "put") = (taken, name.as_str()) {

@@ -464,7 +464,7 @@ fn no_method_hides_one_of_the_trait() {
     let hidden = [
         "coordinate_rates",
         "curves",
-        "guards",
+        "event_functions",
         "kinetic_energy",
         "kinks",
         "momentum",

@@ -1,4 +1,4 @@
-//! Where in a step a guard or a kink changes its sign, in each lane: as [`crate::simulate`] looks for it in a single run, with
+//! Where in a step an event function or a kink changes its sign, in each lane: as [`crate::simulate`] looks for it in a single run, with
 //! selections in place of branches.
 
 use super::step::Step;
@@ -16,7 +16,7 @@ pub const fn width<T: Several>() -> f64 {
     }
 }
 
-/// Half of the distance over which the rate of a guard is taken, as a part of the step: the error is of its square, and of rounding
+/// Half of the distance over which the rate of an event function is taken, as a part of the step: the error is of its square, and of rounding
 /// over it.
 const APART: f64 = 1e-4;
 
@@ -29,8 +29,8 @@ pub fn changed<T: Several>(zero: Zero, before: &[T], after: &[T]) -> T::Mask {
 /// The functions of a model whose signs matter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Functions {
-    /// [`Dynamics::guards`]
-    Guards,
+    /// [`Dynamics::event_functions`]
+    EventFunctions,
     /// [`Dynamics::kinks`]
     Kinks,
 }
@@ -40,7 +40,7 @@ impl Functions {
     #[inline(always)]
     pub fn evaluate<T: Real>(self, model: &dyn Dynamics<T>, t: T, y: &[T], values: &mut [T]) {
         match self {
-            Functions::Guards => model.guards(t, y, values),
+            Functions::EventFunctions => model.event_functions(t, y, values),
             Functions::Kinks => model.kinks(t, y, values),
         }
     }
@@ -48,7 +48,7 @@ impl Functions {
     /// The sign of a zero of theirs.
     pub const fn zero(self) -> Zero {
         match self {
-            Functions::Guards => Zero::Positive,
+            Functions::EventFunctions => Zero::Positive,
             Functions::Kinks => Zero::Neither,
         }
     }

@@ -14,7 +14,7 @@
 //! | `reach` | how far the next step goes |
 //! | `step` | a step of a Runge–Kutta method |
 //! | `control` | the first step of each lane, and roots for the controller |
-//! | `search` | guards and kinks within the steps of all lanes |
+//! | `search` | event functions and kinks within the steps of all lanes |
 //! | `event` | their values within steps |
 //! | `sample` | outputs at the times of samples |
 //! | `jump` | outputs on both sides of events |

@@ -5,7 +5,7 @@
 //! length of the step ← fixed, or the controller's, cut to meet the next kink in time
 //! take it, in all lanes
 //!   in which the error is too large, or something is hidden    → again, shorter
-//!   in which a guard changed its sign                          → ends there
+//!   in which an event function changed its sign                          → ends there
 //! samples, memory of force laws; lanes at the end of their run hand it over
 //! ```
 //!
@@ -135,7 +135,7 @@ struct Landing<T: Real> {
 struct Renewed<T: Real> {
     /// Where anything.
     any: T::Mask,
-    /// Where guards or onsets, too.
+    /// Where event functions or onsets, too.
     other: T::Mask,
 }
 
@@ -174,10 +174,10 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) level: T::Part,
     /// Of fixed steps.
     pub(super) grid: Grid<T>,
-    /// The guards where the step before began, where this one begins, and where it leads as a whole.
-    pub(super) guards_past: Box<[T]>,
-    pub(super) guards: Box<[T]>,
-    pub(super) guards_ahead: Box<[T]>,
+    /// The event functions where the step before began, where this one begins, and where it leads as a whole.
+    pub(super) event_functions_past: Box<[T]>,
+    pub(super) event_functions: Box<[T]>,
+    pub(super) event_functions_ahead: Box<[T]>,
     /// Length of the step before \[s\]; 0 where this one goes on otherwise than it ended.
     pub(super) past: T::Part,
     /// The kinks there, where steps end at them.
@@ -188,7 +188,7 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) watch: Option<Box<Watch<T>>>,
     /// Steps of all lanes since the clock was looked at.
     turns: u32,
-    /// Room for guards or kinks.
+    /// Room for event functions or kinks.
     pub(super) after: Box<[T]>,
     /// Room for all outputs of the model.
     pub(super) of_model: Box<[T]>,
@@ -196,7 +196,7 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) found: Vec<[T::One; MOST_LANES]>,
     /// The same on both sides of an event.
     pub(super) sided: Sided<T::One>,
-    /// Room for guards or kinks within steps.
+    /// Room for event functions or kinks within steps.
     pub(super) values: Vec<Values<T>>,
     /// Whether jumps of outputs are wanted.
     pub(super) notes_jumps: bool,
@@ -279,7 +279,7 @@ impl<'a, T: Several> Run<'a, T> {
         models.all.want_outputs(&outputs);
         models.packed.want_outputs(&outputs);
         step.end.copy_from_slice(&step.y);
-        let (guards, kinks) = (info.guards.len(), info.kinks.len());
+        let (event_functions, kinks) = (info.event_functions.len(), info.kinks.len());
         let blank = Series {
             samples: settings.samples,
             values: vec![T::One::from_f64(f64::NAN); settings.samples * outputs.len()],
@@ -296,16 +296,16 @@ impl<'a, T: Several> Run<'a, T> {
                 Pace::Adaptive(tolerances) => Allowed::of(tolerances, info),
                 Pace::Fixed(_) => Vec::new(),
             },
-            guards_past: zeros(guards),
+            event_functions_past: zeros(event_functions),
             past: T::Part::from_f64(0.0),
-            guards: zeros(guards),
-            guards_ahead: zeros(guards),
+            event_functions: zeros(event_functions),
+            event_functions_ahead: zeros(event_functions),
             kinks: zeros(kinks),
             onsets: Onsets::new(info, matches!(settings.pace, Pace::Adaptive(_))),
             bends: Bends::new(info),
             watch: Watch::of(info, &settings.pace, settings.energy_limit),
             turns: 0,
-            after: zeros(guards.max(kinks)),
+            after: zeros(event_functions.max(kinks)),
             of_model: zeros(info.outputs.len()),
             lanes: (0..T::LANES)
                 .map(|_| Lane::idle(settings.duration))
@@ -321,7 +321,7 @@ impl<'a, T: Several> Run<'a, T> {
                 behind: nothing.clone().into_boxed_slice(),
             },
             found: nothing,
-            values: vec![[nought; 5]; guards.max(kinks)],
+            values: vec![[nought; 5]; event_functions.max(kinks)],
             notes_jumps: scenarios.wants_jumps(),
             info,
             settings,
@@ -406,7 +406,7 @@ impl<'a, T: Several> Run<'a, T> {
         self.step.latest = self.latest();
         self.controller.reset(fresh);
         self.advance_onsets(fresh);
-        replace(fresh, &mut self.guards, &self.guards_ahead);
+        replace(fresh, &mut self.event_functions, &self.event_functions_ahead);
         self.past = T::Part::select(fresh, T::Part::from_f64(0.0), self.past);
         self.begin_bends(fresh);
         self.begin_watch(fresh);
@@ -443,7 +443,7 @@ impl<'a, T: Several> Run<'a, T> {
     #[inline(always)]
     fn look_at_begin(&mut self) {
         let mut arrival = Arrival {
-            guards: &mut self.guards_ahead,
+            event_functions: &mut self.event_functions_ahead,
             onsets: &mut self.onsets.values[END],
             renewed: &mut self.renewed,
             curves: &mut [],
@@ -460,7 +460,7 @@ impl<'a, T: Several> Run<'a, T> {
             return;
         }
         let mut arrival = Arrival {
-            guards: &mut self.guards_ahead,
+            event_functions: &mut self.event_functions_ahead,
             onsets: &mut self.onsets.values[END],
             renewed: &mut self.renewed,
             curves: &mut self.bends.arguments,
@@ -479,13 +479,13 @@ impl<'a, T: Several> Run<'a, T> {
         if self.info.memory.is_empty() {
             return renewed;
         }
-        for round in 0..=self.guards.len() {
+        for round in 0..=self.event_functions.len() {
             let differs = differ(&self.renewed, &self.step.y).and(lanes);
             if !differs.any() {
                 break;
             }
             if round == 0 {
-                self.after[..self.guards.len()].copy_from_slice(&self.guards_ahead);
+                self.after[..self.event_functions.len()].copy_from_slice(&self.event_functions_ahead);
                 let [.., end, any, _] = &mut self.onsets.values;
                 any.copy_from_slice(end);
             }
@@ -495,8 +495,8 @@ impl<'a, T: Several> Run<'a, T> {
         }
         if renewed.any.any() {
             let [.., end, any, _] = &self.onsets.values;
-            let guards = differ(&self.after[..self.guards.len()], &self.guards_ahead);
-            renewed.other = guards.or(differ(any, end)).and(renewed.any);
+            let event_functions = differ(&self.after[..self.event_functions.len()], &self.event_functions_ahead);
+            renewed.other = event_functions.or(differ(any, end)).and(renewed.any);
         }
         renewed
     }
@@ -567,7 +567,7 @@ impl<'a, T: Several> Run<'a, T> {
         (hidden.or(over), T::Part::select(over, part, shorter))
     }
 
-    /// Takes over the ends of accepted steps. A step ends where a guard changes its sign.
+    /// Takes over the ends of accepted steps. A step ends where an event function changes its sign.
     #[inline(always)]
     fn land(&mut self, accepted: T::Mask, easy: T::Mask, reach: &Reach<T>) -> Landing<T> {
         let t = self.step.t;
@@ -657,8 +657,8 @@ impl<'a, T: Several> Run<'a, T> {
         let smooth = known.and(whole);
         let past = T::Part::select(goes_on, self.step.h.part(0), T::Part::from_f64(0.0));
         self.past = T::Part::select(accepted, past, self.past);
-        replace(going, &mut self.guards_past, &self.guards);
-        replace(going, &mut self.guards, &self.guards_ahead);
+        replace(going, &mut self.event_functions_past, &self.event_functions);
+        replace(going, &mut self.event_functions, &self.event_functions_ahead);
         self.leave_watch(going, known.and(arrived.not()), smooth);
         self.count_steps(whole.not().and(going));
     }

@@ -1,4 +1,4 @@
-//! What lies within the steps just taken, in all lanes: where a guard changes its sign, and what is seen within a step alone.
+//! What lies within the steps just taken, in all lanes: where an event function changes its sign, and what is seen within a step alone.
 
 use super::event::{
     Functions, PLACES, Probe, Sides, Values, changed, excursion, first_change, hidden, may_stray,
@@ -99,10 +99,10 @@ impl<T: Several> Run<'_, T> {
         T::Part::select(blind, part, never)
     }
 
-    /// Kinks at five places of the steps of these lanes, guards at the three between their ends, into `values`.
+    /// Kinks at five places of the steps of these lanes, event functions at the three between their ends, into `values`.
     #[inline(always)]
     pub(super) fn look_into(&mut self, functions: Functions, lanes: T::Mask) {
-        let between = functions == Functions::Guards;
+        let between = functions == Functions::EventFunctions;
         let mut places = Places::new((0, 0.0));
         for i in each(lanes.lanes()) {
             for (k, theta) in PLACES.into_iter().enumerate() {
@@ -142,7 +142,7 @@ impl<T: Several> Run<'_, T> {
         step.inside_in_order(model, theta, order, &mut self.state);
         let t = theta * step.h.ordered(order) + step.t.ordered(order);
         let count = match functions {
-            Functions::Guards => self.info.guards.len(),
+            Functions::EventFunctions => self.info.event_functions.len(),
             Functions::Kinks => self.info.kinks.len(),
         };
         functions.evaluate(model, t, &self.state, &mut self.after[..count]);
@@ -164,8 +164,8 @@ impl<T: Several> Run<'_, T> {
             behind: one,
         };
         let mut whole = T::Mask::of_lanes(u32::MAX);
-        if !self.guards.is_empty() {
-            let functions = Functions::Guards;
+        if !self.event_functions.is_empty() {
+            let functions = Functions::EventFunctions;
             if let Some(at) = self.apart(Change {
                 functions,
                 accepted,
@@ -198,8 +198,8 @@ impl<T: Several> Run<'_, T> {
         (place, whole)
     }
 
-    /// Where functions change their sign within the steps of the lanes that are accepted, and in which lanes they do: guards also where they
-    /// change it back. Their values at the beginning are in `guards` or `kinks`.
+    /// Where functions change their sign within the steps of the lanes that are accepted, and in which lanes they do: event functions also where they
+    /// change it back. Their values at the beginning are in `event_functions` or `kinks`.
     #[inline(always)]
     fn change(
         &mut self,
@@ -208,11 +208,11 @@ impl<T: Several> Run<'_, T> {
         reached: T,
     ) -> Option<(Sides<T>, T::Mask)> {
         let before = match functions {
-            Functions::Guards => &self.guards,
+            Functions::EventFunctions => &self.event_functions,
             Functions::Kinks => &self.kinks,
         };
         let after = match functions {
-            Functions::Guards => &self.guards_ahead[..],
+            Functions::EventFunctions => &self.event_functions_ahead[..],
             Functions::Kinks => {
                 let after = &mut self.after[..before.len()];
                 self.models.all.kinks(reached, &self.end, after);
@@ -221,7 +221,7 @@ impl<T: Several> Run<'_, T> {
         };
         let mut crossed = changed(functions.zero(), before, after).and(accepted);
         let mut end = T::Part::from_f64(1.0);
-        if functions == Functions::Guards {
+        if functions == Functions::EventFunctions {
             let hidden = self.may_turn(easy).and(accepted).and(crossed.not());
             if hidden.any() {
                 let (turned, at) = self.excursions(hidden);
@@ -234,7 +234,7 @@ impl<T: Several> Run<'_, T> {
         }
         self.step.complete(&*self.models.all);
         let before = match functions {
-            Functions::Guards => &self.guards,
+            Functions::EventFunctions => &self.event_functions,
             Functions::Kinks => &self.kinks,
         };
         let mut probe = Probe {
@@ -248,14 +248,14 @@ impl<T: Several> Run<'_, T> {
         Some((sides, crossed))
     }
 
-    /// In which lanes a guard may change its sign within the step and change it back.
+    /// In which lanes an event function may change its sign within the step and change it back.
     #[inline(always)]
     fn may_turn(&self, easy: T::Mask) -> T::Mask {
         let nought = T::Part::from_f64(0.0);
         let lengths = [self.past, self.step.h.part(0)];
         let mut may = easy.or(nought.lt(self.past).not());
-        let guards = self.guards_past.iter().zip(&self.guards);
-        for ((past, before), after) in guards.zip(&self.guards_ahead) {
+        let event_functions = self.event_functions_past.iter().zip(&self.event_functions);
+        for ((past, before), after) in event_functions.zip(&self.event_functions_ahead) {
             let values = [past.part(0), before.part(0), after.part(0)];
             may = may.or(nought.lt(overshoot(values, lengths)));
             may = may.or(nought.lt(heads_for([values[0], values[1]], lengths)));
@@ -263,21 +263,21 @@ impl<T: Several> Run<'_, T> {
         may
     }
 
-    /// In which of these lanes a guard changes its sign within the step and changes it back, and a part of the step at which it has; 1 in the
-    /// others. Searches of all lanes and guards go on side by side, each in a lane of a register.
+    /// In which of these lanes an event function changes its sign within the step and changes it back, and a part of the step at which it has; 1 in the
+    /// others. Searches of all lanes and event functions go on side by side, each in a lane of a register.
     #[inline(always)]
     fn excursions(&mut self, lanes: T::Mask) -> (T::Mask, T::Part) {
         self.step.complete(&*self.models.all);
-        self.look_into(Functions::Guards, lanes);
-        let zero = Functions::Guards.zero();
-        let ends = self.guards.iter().zip(&self.guards_ahead);
+        self.look_into(Functions::EventFunctions, lanes);
+        let zero = Functions::EventFunctions.zero();
+        let ends = self.event_functions.iter().zip(&self.event_functions_ahead);
         for (values, (before, after)) in self.values.iter_mut().zip(ends) {
             (values[0], values[4]) = (*before, *after);
         }
         let mut waiting = Waiting {
             among: lanes.lanes() & ((1 << T::LANES) - 1),
             lanes: 0,
-            guard: 0,
+            event_function: 0,
         };
         let mut searches = [None; MOST_LANES];
         let mut first = [None; MOST_LANES];
@@ -307,16 +307,16 @@ impl<T: Several> Run<'_, T> {
             if places.is_empty() {
                 break;
             }
-            self.evaluate_at(Functions::Guards, &mut places);
+            self.evaluate_at(Functions::EventFunctions, &mut places);
             for (position, (_, (index, _))) in places.each().enumerate() {
                 if let Some(Search {
                     lane,
-                    guard,
+                    event_function,
                     excursion,
                 }) = &mut searches[index]
                 {
-                    let before = self.guards[*guard].lane(*lane);
-                    let value = self.after[*guard].lane(position);
+                    let before = self.event_functions[*event_function].lane(*lane);
+                    let value = self.after[*event_function].lane(position);
                     excursion.tell(opposite(zero, before, value).to_f64());
                 }
             }
@@ -335,38 +335,38 @@ impl<T: Several> Run<'_, T> {
     #[inline(always)]
     fn next_excursion(&self, zero: Zero, waiting: &mut Waiting) -> Option<Search> {
         while waiting.lanes == 0 {
-            if waiting.guard == self.guards.len() {
+            if waiting.event_function == self.event_functions.len() {
                 return None;
             }
-            let values = &self.values[waiting.guard];
+            let values = &self.values[waiting.event_function];
             waiting.lanes = may_stray(zero, values, waiting.among);
-            waiting.guard += 1;
+            waiting.event_function += 1;
         }
         let lane = waiting.lanes.trailing_zeros() as usize;
         waiting.lanes &= waiting.lanes - 1;
-        let guard = waiting.guard - 1;
+        let event_function = waiting.event_function - 1;
         Some(Search {
             lane,
-            guard,
-            excursion: excursion(zero, &self.values[guard], lane),
+            event_function,
+            excursion: excursion(zero, &self.values[event_function], lane),
         })
     }
 }
 
-/// The search for an excursion of a guard in a lane.
+/// The search for an excursion of an event function in a lane.
 #[derive(Clone, Copy)]
 struct Search {
     lane: usize,
-    guard: usize,
+    event_function: usize,
     excursion: Excursion,
 }
 
-/// Searches that have not begun: those of the guard before `guard` in some lanes, and of all from there on.
+/// Searches that have not begun: those of the event function before `event_function` in some lanes, and of all from there on.
 struct Waiting {
     /// The lanes that are searched.
     among: u32,
     lanes: u32,
-    guard: usize,
+    event_function: usize,
 }
 
 /// Puts what was found at places where it belongs: place by place, function by function.

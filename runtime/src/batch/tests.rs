@@ -55,7 +55,7 @@ impl<T: Real> Model<T> for Bumper<T> {
     type Parameters = Parameters<T>;
     type State = [T; 3];
     type Outputs = [T; 3];
-    type Guards = [T; 1];
+    type EventFunctions = [T; 1];
     type Kinks = [T; 1];
     type Powers = [T; 0];
     type Curves = [T; 0];
@@ -69,7 +69,7 @@ impl<T: Real> Model<T> for Bumper<T> {
         units: &["m", "m/s", ""],
         auxiliaries: &[],
         memory: &["latched"],
-        guards: &["latches"],
+        event_functions: &["latches"],
         kinks: &["touches"],
         onsets: &[],
         corners: 0,
@@ -137,7 +137,7 @@ impl<T: Real> Model<T> for Bumper<T> {
         y[2] = T::select(deep, T::from_f64(1.0), y[2]);
     }
     #[inline(always)]
-    fn guards(&self, _: T, y: &[T; 3]) -> [T; 1] {
+    fn event_functions(&self, _: T, y: &[T; 3]) -> [T; 1] {
         let never = T::from_f64(-1.0);
         let latched = T::from_f64(0.5).lt(y[2]);
         [T::select(latched, never, y[0] - self.parameters.all[2])]
@@ -277,9 +277,9 @@ impl<F: Real> OfAnyWidth<F> for Ledges<'_> {
     }
 }
 
-/// As of single runs: a guard that jumps where a run stands would cut every step down to nothing, for ever.
+/// As of single runs: an event function that jumps where a run stands would cut every step down to nothing, for ever.
 #[test]
-fn a_guard_that_jumps_where_a_lane_stands_does_not_stop_it() {
+fn a_event_function_that_jumps_where_a_lane_stands_does_not_stop_it() {
     let rk4 = |step| fixed(Method::Rk4, step).pace;
     for pace in [adaptive().pace, rk4(0.01), rk4(0.5)] {
         let settings = Settings {
@@ -560,7 +560,7 @@ impl<T: Real> Model<T> for Swing<T> {
     type Parameters = Frequency<T>;
     type State = [T; 2];
     type Outputs = [T; 1];
-    type Guards = [T; 0];
+    type EventFunctions = [T; 0];
     type Kinks = [T; 0];
     type Powers = [T; 0];
     type Curves = [T; 0];
@@ -569,7 +569,7 @@ impl<T: Real> Model<T> for Swing<T> {
         kinds: &[StateKind::Position, StateKind::Velocity],
         units: &["m", "m/s"],
         memory: &[],
-        guards: &[],
+        event_functions: &[],
         kinks: &[],
         onsets: &[],
         corners: 0,

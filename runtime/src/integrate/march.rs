@@ -6,7 +6,7 @@
 //!
 //! y⁺ = y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄) = Y₃ + ((Z₂ − y) + (Y₄ − Y₃)) / 3,  Z₂ = Y₂ + h/2 k₄
 //!
-//! Derivatives are not stored. Each entry becomes an entry of the next stage's state as soon as it is computed ([`Sink`]), and a step stores four
+//! Derivatives are not stored. Each entry becomes an entry of the next stage's state as soon as it is computed ([`OutputWriter`]), and a step stores four
 //! states, with Z₂ in the place of Y₂. With wide registers, the derivatives of a larger model would not fit into the first cache. When k₄ is known,
 //! the rest is done entry by entry, in one pass with [`Model::normalize`], which divides while states are fetched. Rounding: to first order in h a
 //! step rounds an entry by at most 4/3 ε|y|, where ε is the distance from 1 to the next number: 5/6 because Y₂, Y₃, Y₄ and Z₂ are rounded, and 1/2
@@ -17,7 +17,7 @@
 use super::tableau::Tableau;
 use super::tableau::dormand_prince::Dop853;
 use super::{Rate, combine_into};
-use crate::{Change, Model, Real, Sink, Task, Vector};
+use crate::{Change, Model, Real, OutputWriter, Task, Vector};
 
 /// Takes `steps` steps of length `h` \[s\] from time `t` \[s\] and state `y`. It leaves the last state in `y` and returns its time \[s\].
 ///
@@ -186,7 +186,7 @@ fn renew<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
     if M::INFO.memory.is_empty() {
         return;
     }
-    for _ in 0..=M::Guards::LEN {
+    for _ in 0..=M::EventFunctions::LEN {
         let before = *y;
         model.renew(t, y);
         if y.as_ref() == before.as_ref() {
@@ -229,7 +229,7 @@ struct Ahead<T, S> {
     to: *mut S,
 }
 
-impl<T: Real, S: Vector<T>> Sink<T> for Ahead<T, S> {
+impl<T: Real, S: Vector<T>> OutputWriter<T> for Ahead<T, S> {
     #[inline(always)]
     #[expect(unsafe_code, reason = "both may be one state")]
     fn put(&mut self, index: usize, rate: T) {
@@ -269,7 +269,7 @@ mod tests {
 
     /// A model whose discrete state changes with every update is updated once more than it has event functions.
     fn renew_all<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
-        for _ in 0..=M::Guards::LEN {
+        for _ in 0..=M::EventFunctions::LEN {
             model.renew(t, y);
         }
     }

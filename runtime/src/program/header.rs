@@ -20,7 +20,7 @@ pub struct Header {
     /// Names of the discrete states of force laws.
     pub memory: Vec<String>,
     /// Names of the event functions.
-    pub guards: Vec<String>,
+    pub event_functions: Vec<String>,
     /// Names of the non-smooth switching functions of force laws.
     pub kinks: Vec<String>,
     /// Names of the effects that do work.
@@ -82,7 +82,7 @@ impl Header {
             velocities: names(info.velocities),
             auxiliaries: names(info.auxiliaries),
             memory: names(info.memory),
-            guards: names(info.guards),
+            event_functions: names(info.event_functions),
             kinks: names(info.kinks),
             powers: names(info.powers),
             outputs: outputs.collect(),

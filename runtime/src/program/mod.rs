@@ -24,7 +24,7 @@ use reading::Signals;
 use std::ops::ControlFlow;
 
 /// Receives time, state and outputs of each sample. It may stop the run.
-pub type Sink<'a> = dyn FnMut(f64, &[f64], &[f64]) -> ControlFlow<()> + 'a;
+pub type SampleWriter<'a> = dyn FnMut(f64, &[f64], &[f64]) -> ControlFlow<()> + 'a;
 
 /// Is called from time to time with the time that a run has reached \[s\], also between samples. It may stop the run, which then ends with
 /// [`ErrorKind::Stopped`].
@@ -62,17 +62,17 @@ impl Entry {
         }
     }
 
-    /// Runs the model as the job says, in double precision, and passes every sample to `sink`.
+    /// Runs the model as the job says, in double precision, and passes every sample to `writer`.
     ///
     /// # Errors
     /// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before the failure were delivered.
-    pub fn run(&self, job: &Job, sink: &mut Sink<'_>) -> Result<Report, RunError> {
-        execute_in_double((self.make)(), job, false, sink, &mut going_on).result
+    pub fn run(&self, job: &Job, writer: &mut SampleWriter<'_>) -> Result<Report, RunError> {
+        execute_in_double((self.make)(), job, false, writer, &mut going_on).result
     }
 
     /// [`Entry::run`] with a watch: where the energy went, and whether the run can be trusted.
-    pub fn run_balanced(&self, job: &Job, sink: &mut Sink<'_>) -> Outcome {
-        execute_in_double((self.make)(), job, true, sink, &mut going_on)
+    pub fn run_balanced(&self, job: &Job, writer: &mut SampleWriter<'_>) -> Outcome {
+        execute_in_double((self.make)(), job, true, writer, &mut going_on)
     }
 
     /// The model with these parameters.
@@ -151,20 +151,20 @@ impl Entry {
         Ok(())
     }
 
-    /// The event functions, in the order of [`Info::guards`].
+    /// The event functions, in the order of [`Info::event_functions`].
     ///
     /// # Errors
     /// Those of [`Entry::derivative`].
-    pub fn guards(
+    pub fn event_functions(
         &self,
         parameters: &[Named],
         t: f64,
         y: &[f64],
-        guards: &mut [f64],
+        event_functions: &mut [f64],
     ) -> Result<(), RunError> {
-        let lengths = [("guards", guards.len(), self.info.guards.len())];
+        let lengths = [("event_functions", event_functions.len(), self.info.event_functions.len())];
         let model = self.at(parameters, y, &lengths)?;
-        model.guards(t, y, guards);
+        model.event_functions(t, y, event_functions);
         Ok(())
     }
 
@@ -253,26 +253,26 @@ impl Entry {
     }
 }
 
-/// Runs a model of a family as the job says, with the arithmetic that it asks for, and passes every sample to `sink`. Unless the job is silent, the
+/// Runs a model of a family as the job says, with the arithmetic that it asks for, and passes every sample to `writer`. Unless the job is silent, the
 /// run is watched: the outcome says where the energy went and whether the run can be trusted.
-pub fn run_job(family: &impl Family, job: &Job, sink: &mut Sink<'_>) -> Outcome {
-    run_job_observed(family, job, sink, &mut going_on)
+pub fn run_job(family: &impl Family, job: &Job, writer: &mut SampleWriter<'_>) -> Outcome {
+    run_job_observed(family, job, writer, &mut going_on)
 }
 
 /// [`run_job`] with an observer, who hears how far the run is and may stop it.
 pub fn run_job_observed(
     family: &impl Family,
     job: &Job,
-    sink: &mut Sink<'_>,
+    writer: &mut SampleWriter<'_>,
     observer: &mut Observer<'_>,
 ) -> Outcome {
     let balanced = !job.silent;
     match job.scalar {
-        Scalar::F64 => execute_in_double(family.over(), job, balanced, sink, observer),
-        Scalar::F32 => execute(family.over::<f32>(), job, balanced, sink, observer),
-        Scalar::Fast => execute(family.over::<Fast>(), job, balanced, sink, observer),
+        Scalar::F64 => execute_in_double(family.over(), job, balanced, writer, observer),
+        Scalar::F32 => execute(family.over::<f32>(), job, balanced, writer, observer),
+        Scalar::Fast => execute(family.over::<Fast>(), job, balanced, writer, observer),
         Scalar::DoubleDouble => {
-            execute(family.over::<DoubleDouble>(), job, balanced, sink, observer)
+            execute(family.over::<DoubleDouble>(), job, balanced, writer, observer)
         }
     }
 }
@@ -281,10 +281,10 @@ pub fn run_job_observed(
 pub fn run_model_observed(
     model: Box<dyn Adjustable<f64> + '_>,
     job: &Job,
-    sink: &mut Sink<'_>,
+    writer: &mut SampleWriter<'_>,
     observer: &mut Observer<'_>,
 ) -> Outcome {
-    execute_in_double(model, job, !job.silent, sink, observer)
+    execute_in_double(model, job, !job.silent, writer, observer)
 }
 
 /// An [`Observer`] that never stops a run.
@@ -298,25 +298,25 @@ fn going_on(_: f64) -> ControlFlow<()> {
 /// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before the failure were delivered.
 pub fn run<T: Real, M: Model<T> + 'static>(
     job: &Job,
-    sink: &mut Sink<'_>,
+    writer: &mut SampleWriter<'_>,
 ) -> Result<Report, RunError> {
     execute(
         made_differentiable::<T, M>(),
         job,
         false,
-        sink,
+        writer,
         &mut going_on,
     )
     .result
 }
 
 /// [`run`] with a watch: where the energy went, and whether the run can be trusted.
-pub fn run_balanced<T: Real, M: Model<T> + 'static>(job: &Job, sink: &mut Sink<'_>) -> Outcome {
+pub fn run_balanced<T: Real, M: Model<T> + 'static>(job: &Job, writer: &mut SampleWriter<'_>) -> Outcome {
     execute(
         made_differentiable::<T, M>(),
         job,
         true,
-        sink,
+        writer,
         &mut going_on,
     )
 }
@@ -327,10 +327,10 @@ fn execute_in_double(
     model: Box<dyn Adjustable<f64> + '_>,
     job: &Job,
     balanced: bool,
-    sink: &mut Sink<'_>,
+    writer: &mut SampleWriter<'_>,
     observer: &mut Observer<'_>,
 ) -> Outcome {
-    execute(model, job, balanced, sink, observer)
+    execute(model, job, balanced, writer, observer)
 }
 
 /// Number of steps between two looks at the clock; the observer is called as often.
@@ -341,7 +341,7 @@ fn execute<T: Real>(
     mut model: Box<dyn Adjustable<T> + '_>,
     job: &Job,
     balanced: bool,
-    sink: &mut Sink<'_>,
+    writer: &mut SampleWriter<'_>,
     observer: &mut Observer<'_>,
 ) -> Outcome {
     if let Err(error) = job::adjust(&mut *model, &job.parameters) {
@@ -380,7 +380,7 @@ fn execute<T: Real>(
                 ControlFlow::Continue(())
             }
             SampleKind::Row if job.silent => ControlFlow::Continue(()),
-            SampleKind::Row => numbers.send(sample, sink),
+            SampleKind::Row => numbers.send(sample, writer),
         },
         &mut in_time,
     );
@@ -474,8 +474,8 @@ struct Numbers {
 }
 
 impl Numbers {
-    /// Passes a sample to `sink`, which may stop the run.
-    fn send<T: Real>(&mut self, sample: Sample<'_, T>, sink: &mut Sink<'_>) -> ControlFlow<()> {
+    /// Passes a sample to `writer`, which may stop the run.
+    fn send<T: Real>(&mut self, sample: Sample<'_, T>, writer: &mut SampleWriter<'_>) -> ControlFlow<()> {
         for (numbers, scalars) in [
             (&mut self.state, sample.state),
             (&mut self.outputs, sample.outputs),
@@ -483,7 +483,7 @@ impl Numbers {
             numbers.clear();
             numbers.extend(scalars.iter().map(|scalar| scalar.to_f64()));
         }
-        sink(sample.t, &self.state, &self.outputs)
+        writer(sample.t, &self.state, &self.outputs)
     }
 }
 

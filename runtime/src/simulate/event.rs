@@ -1,8 +1,8 @@
-//! Where in a step a guard or a kink changes its sign.
+//! Where in a step an event function or a kink changes its sign.
 //!
 //! A step is searched for the first time at which one of some functions, in any lane, has another sign than at its beginning:
 //! the root of φ(θ) = max −sign(g(0)) g(θ), negative before it, on the step's interpolant. A function that changes its sign
-//! twice within one step shows nothing of it at the end; [`Within::excursion`] looks for guards that do, [`Within::hidden`] for kinks.
+//! twice within one step shows nothing of it at the end; [`Within::excursion`] looks for event functions that do, [`Within::hidden`] for kinks.
 
 use super::excursion::Excursion;
 use crate::integrate::Stepper;
@@ -17,7 +17,7 @@ pub(crate) const WIDTH: f64 = 1e-13;
 /// Which functions of a model are looked at.
 #[derive(Clone, Copy)]
 pub(super) enum Which {
-    Guards,
+    EventFunctions,
     Kinks,
 }
 
@@ -25,7 +25,7 @@ impl Which {
     /// What 0 means.
     pub const fn zero(self) -> Zero {
         match self {
-            Which::Guards => Zero::Positive,
+            Which::EventFunctions => Zero::Positive,
             Which::Kinks => Zero::Neither,
         }
     }
@@ -56,7 +56,7 @@ impl<T: Real> Within<'_, T> {
         let t = T::from_f64(span.t + theta * span.h);
         let values = &mut self.values[place * count..][..count];
         match self.which {
-            Which::Guards => self.model.guards(t, self.state, values),
+            Which::EventFunctions => self.model.event_functions(t, self.state, values),
             Which::Kinks => self.model.kinks(t, self.state, values),
         }
         values
@@ -316,7 +316,7 @@ const DEEPER: f64 = 4.0;
 /// What 0 at the beginning of a step means; at its end it is always no change yet.
 #[derive(Clone, Copy)]
 pub(crate) enum Zero {
-    /// Positive: a guard may rest there, and what comes of it is decided by what it becomes.
+    /// Positive: an event function may rest there, and what comes of it is decided by what it becomes.
     Positive,
     /// Neither: a step that begins on a kink and leaves it has a first stage on one side and the others on the other.
     Neither,

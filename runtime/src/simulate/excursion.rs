@@ -1,18 +1,18 @@
-//! Whether a guard changes its sign within a step and changes it back, so that nothing of it shows at the end.
+//! Whether an event function changes its sign within a step and changes it back, so that nothing of it shows at the end.
 //!
-//! 1. **Is it possible?** Three values, a step before, at the beginning and at the end, tell how much the guard bends. A guard that bends so
+//! 1. **Is it possible?** Three values, a step before, at the beginning and at the end, tell how much the event function bends. An event function that bends so
 //!    much cannot come farther off its chord than h²/8 times its second derivative. Where that is less than its distance from zero, even with a
 //!    margin, and it would not come to zero on the line that it was on in the step before, nothing is spent ([`overshoot`], [`heads_for`]).
 //! 2. **Does it?** Otherwise it is evaluated within the step, at the ends of its quarters, and then wherever it may be on the other side
 //!    ([`Excursion`]). Between two places, a concave function is below the lines through each of them and the one known next beyond. That holds for
 //!    distances in straight motion, however close something passes, and for a parabola four times over. An interval in which these lines stay on
-//!    this side is left; in another the guard is evaluated where the lines meet, or a parabola has its vertex, and both parts are looked at.
+//!    this side is left; in another the event function is evaluated where the lines meet, or a parabola has its vertex, and both parts are looked at.
 //!
-//! The step is then cut where the guard changes its sign first, as where the change shows at the end.
+//! The step is then cut where the event function changes its sign first, as where the change shows at the end.
 
 use crate::Real;
 
-/// A guard may bend so many times as much as is known.
+/// An event function may bend so many times as much as is known.
 const MARGIN: f64 = 4.0;
 /// And come near zero so many times as fast.
 const FASTER: f64 = 1.5;
@@ -25,7 +25,7 @@ const NARROW: f64 = 1e-14;
 /// No place is looked at nearer to a known one, as a part of the interval.
 const NEAREST: f64 = 1e-2;
 
-/// Positive where a guard may have come to zero between `before` and `after`, a step of length `h` apart, by how much it bends since `past`, a step
+/// Positive where an event function may have come to zero between `before` and `after`, a step of length `h` apart, by how much it bends since `past`, a step
 /// of length `h_past` before.
 #[inline(always)]
 pub(crate) fn overshoot<T: Real>([past, before, after]: [T; 3], [h_past, h]: [T; 2]) -> T {
@@ -35,7 +35,7 @@ pub(crate) fn overshoot<T: Real>([past, before, after]: [T; 3], [h_past, h]: [T;
     T::from_f64(0.25 * MARGIN) * bend * h * h - before.abs().min(after.abs())
 }
 
-/// Positive where a guard would come to zero in a step of length `h` that is `before` now, if it went on as it did since `past`, a step of length
+/// Positive where an event function would come to zero in a step of length `h` that is `before` now, if it went on as it did since `past`, a step of length
 /// `h_past` before: what passes zero straight and close shows nothing of it at the ends of a step but that.
 #[inline(always)]
 pub(crate) fn heads_for<T: Real>([past, before]: [T; 2], [h_past, h]: [T; 2]) -> T {
@@ -43,14 +43,14 @@ pub(crate) fn heads_for<T: Real>([past, before]: [T; 2], [h_past, h]: [T; 2]) ->
     T::from_f64(FASTER) * approach * h - before.abs()
 }
 
-/// A place in a step, as a part of it, and how far the guard is on the other side there.
+/// A place in a step, as a part of it, and how far the event function is on the other side there.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     theta: f64,
     value: f64,
 }
 
-/// The search for a place in a step at which a guard is on the other side, which it is not at its ends. It asks for values and is told.
+/// The search for a place in a step at which an event function is on the other side, which it is not at its ends. It asks for values and is told.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Excursion {
     /// At the beginning, the ends of the quarters, and the end: negative on this side.
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn a_guard_that_keeps_its_sign_is_not_found_and_costs_little() {
+    fn a_event_function_that_keeps_its_sign_is_not_found_and_costs_little() {
         // a quarter is 0.25 long, so that the parabola bends by 0.0625 in it
         for depth in [1e-12, 1e-6, 1e-2, 0.1, 1.0] {
             let (found, asked) = search(|theta| -depth - (theta - 0.37) * (theta - 0.37));
@@ -276,11 +276,11 @@ mod tests {
             for share in [0.0, 0.5, 0.99, 1.01] {
                 for k in 1..100 {
                     let (place, speed) = (0.01 * f64::from(k) + 1e-3, 3.7f64);
-                    let guard = |theta: f64| near - (speed * (theta - place)).hypot(share * near);
-                    if guard(0.0) > 0.0 || guard(1.0) > 0.0 {
+                    let event_function = |theta: f64| near - (speed * (theta - place)).hypot(share * near);
+                    if event_function(0.0) > 0.0 || event_function(1.0) > 0.0 {
                         continue;
                     }
-                    let (found, asked) = search(guard);
+                    let (found, asked) = search(event_function);
                     assert_eq!(found.is_some(), share < 1.0, "{near} {share} {place}");
                     assert!(asked <= 40, "{asked} for {near} {share} {place}");
                 }
@@ -289,8 +289,8 @@ mod tests {
         // and a step is looked into if it has such a place, whatever the one before
         for place in [0.1, 0.4, 0.6, 0.9] {
             for past in [0.3, 1.0, 3.0] {
-                let guard = |theta: f64| 1e-3 - (theta - place).abs();
-                let values = [guard(-past), guard(0.0)];
+                let event_function = |theta: f64| 1e-3 - (theta - place).abs();
+                let values = [event_function(-past), event_function(0.0)];
                 assert!(heads_for(values, [past, 1.0]) > 0.0, "{place} {past}");
             }
         }
@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_is_looked_into_where_the_guard_can_have_come_to_zero() {
+    fn a_step_is_looked_into_where_the_event_function_can_have_come_to_zero() {
         // cos t above a level close to 1, in steps that have the peak anywhere within
         for step in [0.1, 0.3, 1.0] {
             for k in 0..=20 {

@@ -2,7 +2,7 @@
 //!
 //! Steps end on every kink of a curve of time ([`Info::breakpoints`](crate::Info::breakpoints)), for an error estimate assumes a smooth
 //! derivative. Fixed steps also end on every sample; steps under control of their error are chosen freely, and samples are
-//! interpolated. A step ends where a guard of the model changes its sign ([`Model::guards`]), and, where asked to, on kinks of
+//! interpolated. A step ends where an event function of the model changes its sign ([`Model::event_functions`]), and, where asked to, on kinks of
 //! force laws ([`Model::kinks`]). After each accepted step the memory of force laws is renewed.
 //!
 //! **One loop and the other.** A batch (`crate::batch`) has a time loop of its own. Both have the same parts where something is decided: the
@@ -95,7 +95,7 @@ pub struct Report {
     pub evaluations: u64,
     /// Jacobians of the Rosenbrock method, each as many evaluations over dual numbers as the state has entries, and one.
     pub jacobians: u64,
-    /// Changes of sign of guards at which a step ended, and kinks that were approached and crossed.
+    /// Changes of sign of event functions at which a step ended, and kinks that were approached and crossed.
     pub events: u64,
     /// Samples delivered, but for those at the ends of [parts](Settings::parts).
     pub samples: u64,
@@ -126,8 +126,8 @@ pub enum Cause {
     Sample,
     /// A kink of a force law, by its index in [`Info::kinks`](crate::Info::kinks).
     Kink(usize),
-    /// A guard, by its index in [`Info::guards`](crate::Info::guards).
-    Guard(usize),
+    /// An event function, by its index in [`Info::event_functions`](crate::Info::event_functions).
+    EventFunction(usize),
     /// The end of the run.
     End,
 }

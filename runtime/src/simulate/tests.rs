@@ -599,9 +599,9 @@ fn rejected_steps_do_not_touch_memory() {
     }
 }
 
-/// A guard that jumps where a run stands would cut every step down to nothing, for ever: after a while one goes on.
+/// An event function that jumps where a run stands would cut every step down to nothing, for ever: after a while one goes on.
 #[test]
-fn a_guard_that_jumps_where_a_run_stands_does_not_stop_it() {
+fn a_event_function_that_jumps_where_a_run_stands_does_not_stop_it() {
     // of a long step an event is known less well than a time is
     let fixed = |step| Method::fixed(Formula::Rk4, step);
     for method in [at_tolerance(1e-8), fixed(0.01), fixed(0.5)] {

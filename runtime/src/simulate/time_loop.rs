@@ -4,13 +4,13 @@
 //! length of the step ← pace (fixed, or the controller's), cut to meet the next kink in time, or the way to a kink of a force law
 //! take it
 //!   error too large, or a kink crossed that matters   → again, shorter
-//!   else a guard changed its sign                     → ends there
+//!   else an event function changed its sign                     → ends there
 //! work, samples, memory of force laws; the next step begins
 //! ```
 //!
 //! | file | what |
 //! |---|---|
-//! | `search` | kinks and guards within a step |
+//! | `search` | kinks and event functions within a step |
 //! | `onset` | what begins and ends within a step |
 //! | `sample` | the samples in it |
 //! | `count` | what decided its length |
@@ -74,7 +74,7 @@ struct Landed {
 enum Renewed {
     /// Nothing.
     No,
-    /// Memory, but neither guards nor onsets.
+    /// Memory, but neither event functions nor onsets.
     Alike,
     /// More than that.
     Other,
@@ -95,7 +95,7 @@ struct Landing {
     begin: f64,
     /// How long it is \[s\].
     length: f64,
-    /// Whether it went all the way; otherwise a guard changed its sign in it.
+    /// Whether it went all the way; otherwise an event function changed its sign in it.
     whole: bool,
     /// What forced its length, if not its error.
     forced: Option<Cause>,
@@ -140,10 +140,10 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     /// Where a step leads, and what renewing memory makes of that.
     ahead: &'a mut [T],
     renewed: &'a mut [T],
-    /// The guards where the step before began, where this one begins, and where it ends.
-    guards_past: &'a mut [T],
-    guards: &'a mut [T],
-    guards_ahead: &'a mut [T],
+    /// The event functions where the step before began, where this one begins, and where it ends.
+    event_functions_past: &'a mut [T],
+    event_functions: &'a mut [T],
+    event_functions_ahead: &'a mut [T],
     /// Length of the step before \[s\]; 0 where this one goes on otherwise than it ended.
     past: f64,
     /// Whether it is not accuracy that decides the length of this step.
@@ -168,7 +168,7 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     standing: Standing,
     searches: u32,
 
-    /// A state within a step; another one; values of guards or kinks at [`PLACES`] places; outputs; arguments of curves.
+    /// A state within a step; another one; values of event functions or kinks at [`PLACES`] places; outputs; arguments of curves.
     inside: &'a mut [T],
     spare: &'a mut [T],
     values: &'a mut [T],
@@ -178,11 +178,11 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
 
 /// Scalars of workspace that a run takes, but for those of its step.
 pub(super) const fn length(info: &Info) -> usize {
-    let (guards, kinks) = (info.guards.len(), info.kinks.len());
+    let (event_functions, kinks) = (info.event_functions.len(), info.kinks.len());
     let state = info.state_length();
     let states = 7 * state + Allowed::<()>::length(state);
     states
-        + 3 * guards
+        + 3 * event_functions
         + kinks
         + 2 * KEPT * info.onsets.len()
         + values(info)
@@ -190,10 +190,10 @@ pub(super) const fn length(info: &Info) -> usize {
         + info.curves.len()
 }
 
-/// How many values of guards or kinks are kept at the same time.
+/// How many values of event functions or kinks are kept at the same time.
 const fn values(info: &Info) -> usize {
-    let (guards, kinks) = (info.guards.len(), info.kinks.len());
-    PLACES * if guards > kinks { guards } else { kinks }
+    let (event_functions, kinks) = (info.event_functions.len(), info.kinks.len());
+    PLACES * if event_functions > kinks { event_functions } else { kinks }
 }
 
 impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
@@ -242,9 +242,9 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             rate: workspace.part(state),
             ahead: workspace.part(state),
             renewed: workspace.part(state),
-            guards_past: workspace.part(info.guards.len()),
-            guards: workspace.part(info.guards.len()),
-            guards_ahead: workspace.part(info.guards.len()),
+            event_functions_past: workspace.part(info.event_functions.len()),
+            event_functions: workspace.part(info.event_functions.len()),
+            event_functions_ahead: workspace.part(info.event_functions.len()),
             past: 0.0,
             easy: true,
             kinks: workspace.part(info.kinks.len()),
@@ -308,7 +308,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.arrive_at(start, State::Reached, false);
         self.renew(false);
         self.onsets.advance();
-        self.guards.copy_from_slice(self.guards_ahead);
+        self.event_functions.copy_from_slice(self.event_functions_ahead);
         if let Some(watch) = &mut self.watch {
             let spare = [&mut *self.inside, &mut *self.spare];
             watch.open(self.model, self.y, &self.settings, spare);
@@ -401,8 +401,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         if let (Some(watch), true) = (&mut self.watch, renewed != Renewed::No) {
             watch.renew(landing.begin);
         }
-        core::mem::swap(&mut self.guards_past, &mut self.guards);
-        self.guards.copy_from_slice(self.guards_ahead);
+        core::mem::swap(&mut self.event_functions_past, &mut self.event_functions);
+        self.event_functions.copy_from_slice(self.event_functions_ahead);
         let latest = self.f.latest;
         let goes_on = self.begin(step, &reach, &landing, renewed)?;
         if let (Some(watch), Pace::Fixed(_)) = (&mut self.watch, self.settings.method.pace) {
@@ -555,7 +555,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// Takes over the end of a step that is accepted. It is cut short where a guard changes its sign.
+    /// Takes over the end of a step that is accepted. It is cut short where an event function changes its sign.
     fn land(&mut self, step: &mut dyn Stepper<T>, reach: &Reach) -> Landing {
         let begin = self.report.t;
         let mut landing = Landing {
@@ -571,8 +571,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             },
         };
         let mut t = reach.reached;
-        if let Some((guard, end)) = self.guard_within(step) {
-            let theta = self.way_to_guard(step, end);
+        if let Some((event_function, end)) = self.event_function_within(step) {
+            let theta = self.way_to_event_function(step, end);
             let ends = begin + theta * reach.length;
             let lengths = [ends - begin, reach.length];
             let finest = finest_of::<T>(begin);
@@ -585,7 +585,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 landing.length = ends - begin;
             }
             self.report.events += 1;
-            landing.forced = Some(Cause::Guard(guard));
+            landing.forced = Some(Cause::EventFunction(event_function));
         }
         if landing.whole {
             self.standing.forget();
@@ -691,7 +691,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             None => (&mut [][..], None),
         };
         let mut arrival = Arrival {
-            guards: self.guards_ahead,
+            event_functions: self.event_functions_ahead,
             onsets: self.onsets.at(END),
             renewed: self.renewed,
             curves,
@@ -714,24 +714,24 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
     }
 
     /// Renews the memory of force laws, and the charts of Bryant angles with their coordinates, from the state reached, until that
-    /// changes nothing: what one switch does may be what another waits for. Each guard stands for at most one link of such a chain.
+    /// changes nothing: what one switch does may be what another waits for. Each event function stands for at most one link of such a chain.
     /// What is wanted of that state is known before and after; `watched` says whether with what the watch wants.
     fn renew(&mut self, watched: bool) -> Renewed {
         if self.info.memory.is_empty() || self.y == self.renewed {
             return Renewed::No;
         }
-        let before = &mut self.values[..self.guards.len()];
-        before.copy_from_slice(self.guards_ahead);
+        let before = &mut self.values[..self.event_functions.len()];
+        before.copy_from_slice(self.event_functions_ahead);
         self.onsets.keep();
-        for _ in 0..=self.guards.len() {
+        for _ in 0..=self.event_functions.len() {
             core::mem::swap(&mut self.y, &mut self.renewed);
             self.arrive_at(self.report.t, State::Reached, watched);
             if self.y == self.renewed {
                 break;
             }
         }
-        let before = &self.values[..self.guards.len()];
-        match before == self.guards_ahead && self.onsets.as_kept() {
+        let before = &self.values[..self.event_functions.len()];
+        match before == self.event_functions_ahead && self.onsets.as_kept() {
             true => Renewed::Alike,
             false => Renewed::Other,
         }

@@ -228,7 +228,7 @@ fn cause(cause: Cause, header: &Header) -> String {
         Cause::Breakpoint => "kink of a curve of time".into(),
         Cause::Sample => "row of the table".into(),
         Cause::Kink(index) => format!("kink: {}", named(&header.kinks, index)),
-        Cause::Guard(index) => format!("event: {}", named(&header.guards, index)),
+        Cause::EventFunction(index) => format!("event: {}", named(&header.event_functions, index)),
         Cause::End => "end of the run".into(),
     }
 }

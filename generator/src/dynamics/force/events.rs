@@ -11,7 +11,7 @@ use crate::model::{Contact, Curve, Extrapolate, Model, ScaledCurve};
 /// The events of all laws.
 pub struct Events<'g> {
     /// Functions whose change of sign is where a law changes its branch, by name.
-    pub guards: Vec<(String, Expr<'g>)>,
+    pub event_functions: Vec<(String, Expr<'g>)>,
     /// Functions whose change of sign is where a law is not smooth, by name. They are made when everything else is
     /// derived, so that they leave no trace in the equations.
     kinks: Vec<(String, Box<dyn Fn() -> Expr<'g> + 'g>)>,
@@ -37,7 +37,7 @@ impl Events<'_> {
         let curves = &model.curves;
         let ends = |c: &Curve| c.extrapolate == Extrapolate::Error;
         Events {
-            guards: Vec::new(),
+            event_functions: Vec::new(),
             kinks: Vec::new(),
             onsets: Vec::new(),
             corners: Vec::new(),
@@ -76,9 +76,9 @@ pub enum Acts {
 
 impl<'g> Loads<'g> {
     /// Ends steps where an expression changes its sign.
-    pub fn guard(&mut self, name: impl Into<String>, expression: Expr<'g>) {
+    pub fn event_function(&mut self, name: impl Into<String>, expression: Expr<'g>) {
         if expression.as_constant().is_none() {
-            self.events.guards.push((name.into(), expression));
+            self.events.event_functions.push((name.into(), expression));
         }
     }
 

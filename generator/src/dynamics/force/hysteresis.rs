@@ -13,7 +13,7 @@
 //! x > 0: F = clamp(s (x − p), u(x), f(x)),   x < 0: F = clamp(s (x − p), f(x), u(x))
 //!
 //! During a step p is held. The new foot gives the very force of the old one, so nothing jumps where a step ends; and a
-//! guard ends steps where the rate changes its sign, because a turning point inside a step would be forgotten.
+//! event function ends steps where the rate changes its sign, because a turning point inside a step would be forgotten.
 
 use super::switch::Gate;
 use super::{Acts, Loads, choose};
@@ -90,7 +90,7 @@ pub fn apply<'g>(
 pub fn watch_turns<'g>(loads: &mut Loads<'g>, owner: &str, abscissa: Expr<'g>, rate: Expr<'g>) {
     let graph = abscissa.graph();
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-    loads.guard(
+    loads.event_function(
         format!("{owner}: turns from loading to unloading"),
         choose(zero, abscissa, rate, one),
     );
@@ -117,7 +117,7 @@ pub fn apply_both_ways<'g>(
     let graph = loading.graph();
     let (abscissa, zero) = (argument(), graph.constant(0.0));
     let slope = number(graph, &law.slope);
-    loads.guard(format!("{owner}: turns from loading to unloading"), rate);
+    loads.event_function(format!("{owner}: turns from loading to unloading"), rate);
     let furthest = abscissa - loading / slope;
     let Some(unloading) = &law.unloading else {
         // on each side of 0 the line of the other side has the wrong sign, so the clamp makes it 0

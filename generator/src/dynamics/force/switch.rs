@@ -1,11 +1,11 @@
 //! Switches: two times that are remembered, that at which a switch fired and that from which on it acts.
 //!
-//! fired ← t where the trigger's guard G < 0 after an accepted step,   acts ← t where t ≥ fired + delay
+//! fired ← t where the trigger's event function G < 0 after an accepted step,   acts ← t where t ≥ fired + delay
 //!
 //! G is positive until the quantity passes its threshold: the change of its sign ends a step, which so ends at the crossing.
 //! Both times are held during a step, and a force that waits for a switch never jumps inside of one. A quantity that
 //! itself depends on the switch, such as an acceleration, is therefore no circle. What has happened has happened: a switch
-//! does not fire again, and its guard rests at 1.
+//! does not fire again, and its event function rests at 1.
 
 use super::onset::{FAR, Onset};
 use super::{Loads, NEVER, choose};
@@ -123,26 +123,26 @@ pub fn complete<'g>(
         let Remembered { fired, acts, .. } = loads.states.switches[index];
         let memory = |index: usize| graph.symbol(Symbol::Memory(index as u32));
         // rests at 1 once it has come
-        let waiting = |index: usize, guard: Expr<'g>| choose(memory(index), ever, one, guard);
+        let waiting = |index: usize, event_function: Expr<'g>| choose(memory(index), ever, one, event_function);
         let above = |threshold, quantity: Option<Expr<'g>>| {
             number(graph, threshold) - quantity.unwrap_or(zero)
         };
         // a time has come where it is reached, a threshold is passed where it is left behind
-        let (guard, inclusive) = match &switch.trigger {
+        let (event_function, inclusive) = match &switch.trigger {
             Trigger::Time(time) => (number(graph, time) - now, true),
             Trigger::Above(_, threshold) => (above(threshold, quantities[index]), false),
             Trigger::Below(_, threshold) => (-above(threshold, quantities[index]), false),
         };
-        let guard = waiting(fired, guard);
+        let event_function = waiting(fired, event_function);
         loads.states.memory[fired].next = match inclusive {
-            true => choose(zero, guard, memory(fired), now),
-            false => choose(guard, zero, now, memory(fired)),
+            true => choose(zero, event_function, memory(fired), now),
+            false => choose(event_function, zero, now, memory(fired)),
         };
-        loads.guard(format!("switch {}: fires", switch.name), guard);
+        loads.event_function(format!("switch {}: fires", switch.name), event_function);
         if let Some(after) = &switch.after {
-            let guard = waiting(acts, memory(fired) + number(graph, after) - now);
-            loads.states.memory[acts].next = choose(zero, guard, memory(acts), now);
-            loads.guard(format!("switch {}: acts", switch.name), guard);
+            let event_function = waiting(acts, memory(fired) + number(graph, after) - now);
+            loads.states.memory[acts].next = choose(zero, event_function, memory(acts), now);
+            loads.event_function(format!("switch {}: acts", switch.name), event_function);
         }
     }
 }

@@ -269,7 +269,7 @@ fn lens<'g>(graph: &'g Graph, [a, b]: [Expr<'g>; 2], overlap: Expr<'g>) -> (Expr
     (area, cap + tube)
 }
 
-/// Mass flow into a bag, 0 until it is fired; with a guard at each point of its curve.
+/// Mass flow into a bag, 0 until it is fired; with an event function at each point of its curve.
 fn flow_in<'g>(
     graph: &'g Graph,
     model: &Model,
@@ -284,8 +284,8 @@ fn flow_in<'g>(
     if points.len() <= MOST_KINKS {
         for (index, point) in points.iter().enumerate() {
             let kink = point[0] * number(graph, &inflow.flow.stretch);
-            let guard = format!("{owner}: point {} of the inflow", index + 1);
-            loads.guard(guard, fire.since + kink - now);
+            let event_function = format!("{owner}: point {} of the inflow", index + 1);
+            loads.event_function(event_function, fire.since + kink - now);
         }
     }
     fire.once(curve(graph, &inflow.flow, since), zero)

@@ -18,7 +18,7 @@ pub(super) struct Body {
 }
 
 /// Writes a list whose results go to `results[0]`, `results[1]` and so on. `m` is a pointer to the model, `t` the time, `y` the state.
-/// Accelerations are in `accelerations`, event functions in `guards`.
+/// Accelerations are in `accelerations`, event functions in `event_functions`.
 pub(super) fn body(list: &List, curve: &dyn Fn(u32) -> String, support: &mut Support) -> Body {
     let first = list.constants.len() + list.inputs.len();
     let mut writer = Writer {
@@ -82,7 +82,7 @@ fn input(input: Input) -> String {
         Input::Time => "t".to_owned(),
         Input::State(i) => format!("y[{i}]"),
         Input::Acceleration(i) => format!("accelerations[{i}]"),
-        Input::Guard(i) => format!("guards[{i}]"),
+        Input::EventFunction(i) => format!("event_functions[{i}]"),
         Input::Parameter(i) => format!("m->parameters[{i}]"),
         Input::Derived(i) => format!("m->derived[{i}]"),
     }

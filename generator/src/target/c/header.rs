@@ -58,8 +58,8 @@ fn sizes(text: &mut String, lists: &Lists, upper: &str) {
         ),
         ("OUTPUTS", facts.outputs.len(), "outputs"),
         (
-            "GUARDS",
-            facts.guards.len(),
+            "EVENT_FUNCTIONS",
+            facts.event_functions.len(),
             "functions at whose change of sign a step is to end",
         ),
         (

@@ -46,9 +46,9 @@ const PLAIN: [Plain; 12] = [
     ),
     plain(Method::Outputs, "outputs", "outputs", "The outputs."),
     plain(
-        Method::Guards,
-        "guards",
-        "guards",
+        Method::EventFunctions,
+        "event_functions",
+        "event_functions",
         "Functions at whose change of sign a step is to end, and renew is to be called.",
     ),
     plain(
@@ -169,12 +169,12 @@ impl Methods<'_> {
                 format!("    double rate[{upper}_STATE];\n    {name}_derivative(m, t, y, rate);\n"),
                 format!(", rate + {upper}_COORDINATES"),
             ),
-            Start::Guards => (
-                ", const double guards[]",
+            Start::EventFunctions => (
+                ", const double event functions[]",
                 format!(
-                    "    double guards[{upper}_GUARDS];\n    {name}_guards(m, t, y, guards);\n"
+                    "    double event_functions[{upper}_EVENT_FUNCTIONS];\n    {name}_event_functions(m, t, y, event_functions);\n"
                 ),
-                ", guards".to_owned(),
+                ", event_functions".to_owned(),
             ),
         };
         let silent = silent(&statements, start);
@@ -490,7 +490,7 @@ fn silent(body: &Body, start: Start) -> String {
         (body.uses_time, "t"),
         (body.uses_state, "y"),
         (start != Start::Accelerations, "accelerations"),
-        (start != Start::Guards, "guards"),
+        (start != Start::EventFunctions, "event_functions"),
     ];
     let unused = unused.iter().filter(|(used, _)| !used);
     unused

@@ -29,7 +29,7 @@ impl Argument {
             Argument::Velocities | Argument::Accelerations => Some(quote!([T; VELOCITIES])),
             Argument::Auxiliaries => Some(quote!([T; AUXILIARIES])),
             Argument::Memory => Some(quote!([T; MEMORY])),
-            Argument::Guards => Some(quote!([T; GUARDS])),
+            Argument::EventFunctions => Some(quote!([T; EVENT_FUNCTIONS])),
         }
     }
 }

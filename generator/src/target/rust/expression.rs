@@ -16,7 +16,7 @@ use syn::{BinOp, Expr};
 pub(crate) trait Words {
     fn value(&self, id: NodeId) -> Expr;
     fn number(&self, value: f64) -> Expr;
-    /// The place among the results that something is put into a sink at.
+    /// The place among the results that something is put into a writer at.
     fn place(&self, place: usize) -> Expr;
 }
 
@@ -108,7 +108,7 @@ impl<'a> Printer<'a> {
                     None => syntax::literal(Literal::usize_unsuffixed(place)),
                 };
                 let value = self.value(self.schedule.roots[place]);
-                syntax::method(syntax::word("sink"), "put", [index, value])
+                syntax::method(syntax::word("writer"), "put", [index, value])
             }
         }
     }
@@ -131,7 +131,7 @@ impl<'a> Printer<'a> {
             Input::Auxiliary(i) => syntax::element("z", i),
             Input::Memory(i) => syntax::element("m", i),
             Input::Acceleration(i) => syntax::element("a", i),
-            Input::Guard(i) => syntax::element("g", i),
+            Input::EventFunction(i) => syntax::element("g", i),
         }
     }
 }

@@ -89,14 +89,14 @@ impl Writer<'_> {
             let (part, of) = (part_name(part), self.part_type(part));
             quote!(#part: &#of<T>)
         });
-        let sink = self.puts(i).then(|| quote!(, sink: &mut impl Sink<T>));
+        let writer = self.puts(i).then(|| quote!(, writer: &mut impl OutputWriter<T>));
         let returned = arrow(&self.returned(i));
         with_body(
             self.body(i, sources),
             parse_quote! {
                 #[doc = #text]
                 #[inline(always)]
-                fn #name(#receiver #(, #arguments)* #(, #parts)* #sink) #returned {}
+                fn #name(#receiver #(, #arguments)* #(, #parts)* #writer) #returned {}
             },
         )
     }
@@ -110,11 +110,11 @@ impl Writer<'_> {
         } else if self.apart {
             let task = self.task_type(i);
             let parts = parts.map(|part| quote!(#part: &#part));
-            let sink = self.puts(i).then(|| quote!(sink: &mut *sink));
-            quote!(T::enable_apart(#task { mechanism: self, #(#arguments,)* #(#parts,)* #sink }))
+            let writer = self.puts(i).then(|| quote!(writer: &mut *writer));
+            quote!(T::enable_apart(#task { mechanism: self, #(#arguments,)* #(#parts,)* #writer }))
         } else {
-            let sink = self.puts(i).then(|| quote!(sink));
-            quote!(self.#name(#(#arguments,)* #(&#parts,)* #sink))
+            let writer = self.puts(i).then(|| quote!(writer));
+            quote!(self.#name(#(#arguments,)* #(&#parts,)* #writer))
         };
         if i + 1 == self.pieces.len() {
             return call;
@@ -139,12 +139,12 @@ impl Writer<'_> {
         let part_types = sources.iter().map(|&part| self.part_type(part));
         let returned = self.returned(i);
         let text = format!(" Part {} of `{}`, to be called.", i + 1, self.method.name);
-        let SinkOfTask {
+        let WriterOfTask {
             generic,
             bound,
             field,
             value,
-        } = SinkOfTask::of(self.puts(i));
+        } = WriterOfTask::of(self.puts(i));
         quote! {
             #[doc = #text]
             struct #name<'a, T #generic> {
@@ -189,7 +189,7 @@ impl Writer<'_> {
         quote!(#part<T>)
     }
 
-    /// Whether later pieces need anything of a piece, and not the sink alone.
+    /// Whether later pieces need anything of a piece, and not the writer alone.
     fn hands_on(&self, i: usize) -> bool {
         !self.pieces[i].passes_on.is_empty()
     }
@@ -341,7 +341,7 @@ impl Writer<'_> {
             .map(|line| line.begins(&mut current))
             .map(|section| section.map(|section| sections[section].as_str()))
             .collect();
-        // What is read late is read by section, and each input that is put into a sink as it is by itself.
+        // What is read late is read by section, and each input that is put into a writer as it is by itself.
         let reads = |number: usize| {
             let leaf = |place: usize| {
                 self.schedule
@@ -404,7 +404,7 @@ impl Writer<'_> {
         }
     }
 
-    /// `let name = formula;` or `sink.put(place, formula);`, under a comment.
+    /// `let name = formula;` or `writer.put(place, formula);`, under a comment.
     pub(crate) fn line(
         &self,
         statement: Statement,
@@ -446,24 +446,24 @@ impl Writer<'_> {
 /// An element of an argument: its place there, and the input that it is.
 type Element = (Argument, usize, NodeId);
 
-/// The parts of a task that are about a sink.
+/// The parts of a task that are about a writer.
 #[derive(Default)]
-pub(crate) struct SinkOfTask {
+pub(crate) struct WriterOfTask {
     pub generic: TokenStream,
     pub bound: TokenStream,
     pub field: TokenStream,
     pub value: TokenStream,
 }
 
-impl SinkOfTask {
+impl WriterOfTask {
     /// All empty where it has none.
     pub(crate) fn of(puts: bool) -> Self {
         match puts {
-            true => SinkOfTask {
+            true => WriterOfTask {
                 generic: quote!(, S),
-                bound: quote!(, S: Sink<T>),
-                field: quote!(sink: &'a mut S,),
-                value: quote!(self.sink),
+                bound: quote!(, S: OutputWriter<T>),
+                field: quote!(writer: &'a mut S,),
+                value: quote!(self.writer),
             },
             false => Self::default(),
         }

@@ -37,7 +37,7 @@ pub(crate) fn implementation(
             type Parameters = Parameters<T>;
             type State = [T; STATE];
             type Outputs = [T; OUTPUTS];
-            type Guards = [T; GUARDS];
+            type EventFunctions = [T; EVENT_FUNCTIONS];
             type Kinks = [T; KINKS];
             type Powers = [T; POWERS];
             type Curves = [T; CURVES];
@@ -153,13 +153,13 @@ impl State {
         } = self;
         let motion = ident(table::EACH_MOTION);
         let z = self.z.then(|| {
-            quote!(self.each_auxiliary_rate(#arguments, &mut Behind::<_, { COORDINATES + VELOCITIES }>(sink));)
+            quote!(self.each_auxiliary_rate(#arguments, &mut OffsetView::<_, { COORDINATES + VELOCITIES }>(writer));)
         });
         // memory does not change during a step
         let m = self.m.then(|| {
             quote! {
                 for i in STATE - MEMORY..STATE {
-                    sink.put(i, T::from_f64(0.0));
+                    writer.put(i, T::from_f64(0.0));
                 }
             }
         });
@@ -173,9 +173,9 @@ impl State {
             }
 
             #[inline(always)]
-            fn each_rate(&self, t: T, y: &[T; STATE], sink: &mut impl Sink<T>) {
+            fn each_rate(&self, t: T, y: &[T; STATE], writer: &mut impl OutputWriter<T>) {
                 #split
-                self.#motion(#arguments, sink);
+                self.#motion(#arguments, writer);
                 #z
                 #m
             }
@@ -242,15 +242,15 @@ impl State {
         let Self {
             split, arguments, ..
         } = self;
-        let by_guards =
-            table::renews_by_guards(equations).then(|| quote!(, &self.guards_at(#arguments)));
+        let by_event_functions =
+            table::renews_by_event_functions(equations).then(|| quote!(, &self.event_functions_at(#arguments)));
         let renew = match equations.charts {
             0 => quote! {
-                let renewed = self.renewed_memory(#arguments #by_guards);
+                let renewed = self.renewed_memory(#arguments #by_event_functions);
                 y[STATE - MEMORY..].copy_from_slice(&renewed);
             },
             _ => quote! {
-                let (q, v, m) = self.renewed(#arguments #by_guards);
+                let (q, v, m) = self.renewed(#arguments #by_event_functions);
                 y[..COORDINATES].copy_from_slice(&q);
                 y[COORDINATES..COORDINATES + VELOCITIES].copy_from_slice(&v);
                 y[STATE - MEMORY..].copy_from_slice(&m);

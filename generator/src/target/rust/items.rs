@@ -49,12 +49,12 @@ pub(crate) fn uses(
             use core::marker::PhantomData;
         )
     });
-    let behind = (!equations.auxiliaries.is_empty()).then(|| quote!(Behind,));
+    let offset_view = (!equations.auxiliaries.is_empty()).then(|| quote!(OffsetView,));
     let version = Literal::u32_unsuffixed(GENERATED_CODE_VERSION);
     quote! {
         #curve
         #force
-        use bryant_runtime::{#behind #watched Info, Model, #output #parameter ParameterSet, Real, Sink, StateKind};
+        use bryant_runtime::{#watched Info, Model, #offset_view #output OutputWriter, #parameter ParameterSet, Real, StateKind};
         #phantom
         #nalgebra
 
@@ -84,7 +84,7 @@ pub(crate) fn sizes(equations: &Equations) -> TokenStream {
         size("Length of q.", "COORDINATES", equations.coordinates.len()),
         size("Length of v.", "VELOCITIES", equations.velocities.len()),
         size("Number of outputs.", "OUTPUTS", equations.outputs.len()),
-        size("Number of guards.", "GUARDS", equations.guards.len()),
+        size("Number of event functions.", "EVENT_FUNCTIONS", equations.event_functions.len()),
         size("Number of kinks.", "KINKS", equations.kinks.len()),
         size("Number of powers.", "POWERS", equations.powers.len()),
         size(
@@ -320,7 +320,7 @@ pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
         units,
         auxiliaries,
         memory,
-        guards,
+        event_functions,
         kinks,
         onsets,
         powers,
@@ -396,7 +396,7 @@ pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
             units: &[#(#units),*],
             auxiliaries: &[#(#auxiliaries),*],
             memory: &[#(#memory),*],
-            guards: &[#(#guards),*],
+            event_functions: &[#(#event_functions),*],
             kinks: &[#(#kinks),*],
             onsets: &[#(#onsets),*],
             corners: #corners,

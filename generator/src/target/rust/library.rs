@@ -25,7 +25,7 @@ impl Library {
             "MEMORY",
             "STATE",
             "OUTPUTS",
-            "GUARDS",
+            "EVENT_FUNCTIONS",
             "KINKS",
             "POWERS",
             "CURVES",

@@ -101,7 +101,7 @@ pub(crate) fn part_of(method: &Specification, of: &str, from: &str) -> Vec<ImplI
     let (of, from) = (ident(of), ident(from));
     let given = method.arguments.iter().map(|a| ident(a.name()));
     let body = parse_quote!({
-        self.#of(#(#given,)* &mut bryant_runtime::Beyond::<_, #from>(sink));
+        self.#of(#(#given,)* &mut bryant_runtime::TailView::<_, #from>(writer));
     });
     let reads = method.arguments.iter().copied().collect();
     public_method(method, &reads, true, body)
@@ -139,10 +139,10 @@ pub(crate) fn public_method(
     if let Results::Written { by, length } = method.results {
         debug_assert!(
             !asked,
-            "nothing that is put into a sink starts from accelerations"
+            "nothing that is put into a writer starts from accelerations"
         );
         let by = ident(by);
-        let sink = format_ident!("{}sink", if puts_any { "" } else { "_" });
+        let writer = format_ident!("{}writer", if puts_any { "" } else { "_" });
         let in_array: Option<ImplItemFn> = length.map(|length| {
             let length = results::written_length(length);
             parse_quote! {
@@ -164,7 +164,7 @@ pub(crate) fn public_method(
             parse_quote! {
                 #[doc = #text]
                 #[inline(always)]
-                pub fn #by(&self, #(#arguments,)* #sink: &mut impl Sink<T>) {}
+                pub fn #by(&self, #(#arguments,)* #writer: &mut impl OutputWriter<T>) {}
             },
         );
         return in_array.into_iter().chain([one_by_one]).collect();

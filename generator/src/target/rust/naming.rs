@@ -18,7 +18,7 @@ impl Naming {
         arguments: &[Argument],
     ) -> Self {
         let labels = labels_of(&schedule.graph, &schedule.roots, labels);
-        let mut reserved = vec!["q", "v", "a", "s", "num", "parameters", "sink"];
+        let mut reserved = vec!["q", "v", "a", "s", "num", "parameters", "writer"];
         // only where they are, so that a coordinate z keeps its name elsewhere
         for (argument, name) in [(Argument::Auxiliaries, "z"), (Argument::Memory, "m")] {
             if inputs.length(argument) > 0 {

@@ -39,7 +39,7 @@ pub(crate) fn written_length(length: Length) -> TokenStream {
         Length::Auxiliaries => "AUXILIARIES",
         Length::Memory => "MEMORY",
         Length::Outputs => "OUTPUTS",
-        Length::Guards => "GUARDS",
+        Length::EventFunctions => "EVENT_FUNCTIONS",
         Length::Kinks => "KINKS",
         Length::Powers => "POWERS",
         Length::Curves => "CURVES",

@@ -48,7 +48,7 @@ impl Writer<'_> {
         let (method, number) = (self.method.name, i + 1);
         let own = self.owner(subroutine.first().lines.end - 1);
         let element = snake(own.split_once(' ').map_or(own.as_str(), |(_, name)| name));
-        let mut names = Names::with(&["self", "num", "t", "x", "c", "sink"]);
+        let mut names = Names::with(&["self", "num", "t", "x", "c", "writer"]);
         let puts = subroutine
             .first()
             .puts
@@ -99,7 +99,7 @@ impl Writer<'_> {
         subroutines: &[Subroutine],
         called: &[Called],
     ) -> Vec<Places> {
-        let mut names = Names::with(&["self", "num", "sink", "q", "v", "z", "m", "a", "g", "t"]);
+        let mut names = Names::with(&["self", "num", "writer", "q", "v", "z", "m", "a", "g", "t"]);
         for name in self.names.all() {
             names.take(name);
         }

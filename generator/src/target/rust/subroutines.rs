@@ -1,7 +1,7 @@
 //! A method as calls: the subroutines that like elements share as functions, and the function that calls them.
 
 use super::expression::{Printer, ident, number};
-use super::function::{SinkOfTask, Writer, arrow, with_body};
+use super::function::{WriterOfTask, Writer, arrow, with_body};
 use super::results;
 use super::subroutine_names::{Called, CommonWords, Places, Word};
 use crate::expression::{Node, NodeId};
@@ -332,12 +332,12 @@ impl Writer<'_> {
         let text = format!(" A call of `{name}`.");
         let names: Vec<_> = given.iter().map(|given| &given.name).collect();
         let types = given.iter().map(|given| given.of(&quote!('a)));
-        let SinkOfTask {
+        let WriterOfTask {
             generic,
             bound,
             field,
             value,
-        } = SinkOfTask::of(subroutine.puts());
+        } = WriterOfTask::of(subroutine.puts());
         quote! {
             #[doc = #text]
             struct #task<'a, T #generic> {
@@ -366,7 +366,7 @@ impl Writer<'_> {
     ) -> ImplItemFn {
         let name = &function.function;
         let returned = arrow(&returned(subroutine, function));
-        let sink = subroutine.puts().then(|| quote!(sink: &mut impl Sink<T>));
+        let writer = subroutine.puts().then(|| quote!(writer: &mut impl OutputWriter<T>));
         let owners = subroutine
             .blocks
             .iter()
@@ -387,7 +387,7 @@ impl Writer<'_> {
             parse_quote! {
                 #[doc = #text]
                 #[inline(always)]
-                fn #name(&self, #(#names: #types,)* #sink) #returned {}
+                fn #name(&self, #(#names: #types,)* #writer) #returned {}
             },
         )
     }
@@ -449,9 +449,9 @@ impl Writer<'_> {
                     let first =
                         self.first_live_through(of, function, &places[subroutine], block, printer);
                     lines.extend(first);
-                    let sink = of.puts().then(|| quote!(sink: &mut *sink));
+                    let writer = of.puts().then(|| quote!(writer: &mut *writer));
                     let call = quote! {
-                        T::enable_apart(#task { mechanism: self, #(#names: #values,)* #sink })
+                        T::enable_apart(#task { mechanism: self, #(#names: #values,)* #writer })
                     };
                     let name = ident(&places[subroutine].returned[block]);
                     // the last element of many may compute what nobody asks for

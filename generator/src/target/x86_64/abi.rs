@@ -21,7 +21,7 @@ pub enum Base {
     /// Accelerations.
     Accelerations,
     /// Event functions.
-    Guards,
+    EventFunctions,
     /// Parameters of the model.
     Parameters,
     /// Values that depend on parameters alone.
@@ -40,7 +40,7 @@ impl Base {
         Base::Time,
         Base::State,
         Base::Accelerations,
-        Base::Guards,
+        Base::EventFunctions,
         Base::Parameters,
         Base::Derived,
         Base::Results,

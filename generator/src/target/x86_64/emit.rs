@@ -67,7 +67,7 @@ fn place(input: Input) -> (Base, u32) {
         Input::Time => (Base::Time, 0),
         Input::State(index) => (Base::State, index),
         Input::Acceleration(index) => (Base::Accelerations, index),
-        Input::Guard(index) => (Base::Guards, index),
+        Input::EventFunction(index) => (Base::EventFunctions, index),
         Input::Parameter(index) => (Base::Parameters, index),
         Input::Derived(index) => (Base::Derived, index),
     }

@@ -1,4 +1,4 @@
-//! Kinks of force laws and guards: where in a step they are, and what to do about it.
+//! Kinks of force laws and event functions: where in a step they are, and what to do about it.
 //!
 //! **Kinks.** A step that crosses a kink has stages on both sides of it, and whatever is made of them, its result and its
 //! interpolant alike, is of order 1 or 2 only. It is taken again so that it ends a little before the place where the
@@ -55,14 +55,14 @@ pub(super) fn matters(pace: Pace, error: Option<f64>, length: f64, hop: f64) -> 
 }
 
 impl<T: Real> TimeLoop<'_, '_, T> {
-    /// Guards or kinks within a step that is complete.
+    /// Event functions or kinks within a step that is complete.
     fn within<'s>(&'s mut self, step: &'s dyn Stepper<T>, which: Which) -> Within<'s, T> {
         Within {
             model: self.model,
             step,
             which,
             before: match which {
-                Which::Guards => self.guards,
+                Which::EventFunctions => self.event_functions,
                 Which::Kinks => self.kinks,
             },
             state: self.inside,
@@ -151,39 +151,39 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         self.within(step, Which::Kinks).hidden()
     }
 
-    /// A guard that changes its sign within a step, with a part of the step at which it has, 1 where it shows at the end.
-    pub(super) fn guard_within(&mut self, step: &mut dyn Stepper<T>) -> Option<(usize, f64)> {
-        let zero = Which::Guards.zero();
-        if let Some(guard) = event::changed(zero, self.guards, self.guards_ahead) {
-            return Some((guard, 1.0));
+    /// An event function that changes its sign within a step, with a part of the step at which it has, 1 where it shows at the end.
+    pub(super) fn event_function_within(&mut self, step: &mut dyn Stepper<T>) -> Option<(usize, f64)> {
+        let zero = Which::EventFunctions.zero();
+        if let Some(event_function) = event::changed(zero, self.event_functions, self.event_functions_ahead) {
+            return Some((event_function, 1.0));
         }
         let lengths = [self.past, step.span().h];
-        let guards = self.guards_past.iter().zip(&*self.guards);
-        let mut guards = guards.zip(&*self.guards_ahead);
-        let may_turn = guards.any(|((past, before), after)| {
+        let event_functions = self.event_functions_past.iter().zip(&*self.event_functions);
+        let mut event_functions = event_functions.zip(&*self.event_functions_ahead);
+        let may_turn = event_functions.any(|((past, before), after)| {
             let lengths = lengths.map(T::from_f64);
             overshoot([*past, *before, *after], lengths).to_f64() > 0.0
                 || heads_for([*past, *before], lengths).to_f64() > 0.0
         });
         let known = self.past > 0.0 && !self.easy;
-        if self.guards.is_empty() || (known && !may_turn) {
+        if self.event_functions.is_empty() || (known && !may_turn) {
             return None;
         }
         step.complete(&mut self.f);
         let mut within = Within {
             model: self.model,
             step,
-            which: Which::Guards,
-            before: self.guards,
+            which: Which::EventFunctions,
+            before: self.event_functions,
             state: self.inside,
             values: self.values,
         };
-        within.excursion(self.guards_ahead)
+        within.excursion(self.event_functions_ahead)
     }
 
-    /// The part of a step that lies before the first change of a guard, which has changed at `end`, and a trifle.
-    pub(super) fn way_to_guard(&mut self, step: &mut dyn Stepper<T>, end: f64) -> f64 {
+    /// The part of a step that lies before the first change of an event function, which has changed at `end`, and a trifle.
+    pub(super) fn way_to_event_function(&mut self, step: &mut dyn Stepper<T>, end: f64) -> f64 {
         step.complete(&mut self.f);
-        self.within(step, Which::Guards).first_change(end, WIDTH)
+        self.within(step, Which::EventFunctions).first_change(end, WIDTH)
     }
 }

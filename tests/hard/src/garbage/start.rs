@@ -69,7 +69,7 @@ impl<'a> Start<'a> {
         let z = initial_of(&equations.auxiliaries);
         let mut m = initial_of(&equations.memory);
         let next: Vec<NodeId> = equations.memory.iter().map(|m| m.next).collect();
-        for _ in 0..=equations.guards.len() {
+        for _ in 0..=equations.event_functions.len() {
             m = values(&next, &q, &v, &z, &m);
         }
 
@@ -90,7 +90,7 @@ impl<'a> Start<'a> {
         }
         // An event function that is NaN never changes its sign, so its event would never come. Energies may overflow; the balance at the
         // end of a run reports this.
-        let named = equations.guards.iter().chain(&equations.kinks);
+        let named = equations.event_functions.iter().chain(&equations.kinks);
         let (names, roots): (Vec<&str>, Vec<NodeId>) = named
             .map(|named| (named.name.as_str(), named.value))
             .unzip();

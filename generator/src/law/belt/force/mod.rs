@@ -329,10 +329,10 @@ impl<'g> Segment<'g> {
         );
         let (index, lengthens) = loads.memory(format!("{}: lengthens", self.owner), "", one);
         let noise = graph.constant(NOISE);
-        let guard = choose(half, lengthens, growing + noise, noise - growing);
+        let event_function = choose(half, lengthens, growing + noise, noise - growing);
         let turned = choose(half, lengthens, zero, one);
-        loads.states.memory[index].next = choose(guard, zero, turned, lengthens);
-        guard
+        loads.states.memory[index].next = choose(event_function, zero, turned, lengthens);
+        event_function
     }
 
     /// Tells where the tension without damping, by which webbing slips, has kinks.

@@ -14,7 +14,7 @@
 //! is so when a step is accepted, and gives the very tension that there was: nothing jumps where a step ends.
 //!
 //! While the limiter pays out, x follows L also within a step, so that the elongation stays at ε_F; whether it does is
-//! remembered too, and guards end the steps where it begins, L = (1 + ε_F) ℓ, and where it ends because the webbing no more
+//! remembered too, and event functions end the steps where it begins, L = (1 + ε_F) ℓ, and where it ends because the webbing no more
 //! lengthens, L̇ + (1 + ε_F) (ṙ + ṡ − ẏ) = 0.
 
 use super::Law;
@@ -182,11 +182,11 @@ impl<'g> Webbing<'g> {
             true => lengthens,
             false => lengthens + graph.constant(NOISE),
         };
-        let guard = choose(limiter.pays, half, -limiter.beyond, ends);
-        let begins = choose(guard, zero, choose(zero, lengthens, one, zero), zero);
-        let ends = choose(guard, zero, zero, one);
+        let event_function = choose(limiter.pays, half, -limiter.beyond, ends);
+        let begins = choose(event_function, zero, choose(zero, lengthens, one, zero), zero);
+        let ends = choose(event_function, zero, zero, one);
         loads.states.memory[limiter.paying].next = choose(limiter.pays, half, begins, ends);
-        loads.guard(format!("belt {name}: limiter"), guard);
+        loads.event_function(format!("belt {name}: limiter"), event_function);
     }
 
     /// The rate at which the film spool gives webbing, which pulls with `tension`; nothing without one.
@@ -222,7 +222,7 @@ fn elongation<'g>(graph: &'g Graph, belt: &Belt, tension: &Number) -> Expr<'g> {
     inverse(graph, &belt.force, tension)
 }
 
-/// r and ṙ, both 0 until it fires and for its delay; and a guard at each kink.
+/// r and ṙ, both 0 until it fires and for its delay; and an event function at each kink.
 fn pretensioner<'g>(law: Law<'_, 'g>, loads: &mut Loads<'g>) -> (Expr<'g>, Expr<'g>) {
     let Law {
         graph,
@@ -256,15 +256,15 @@ fn pretensioner<'g>(law: Law<'_, 'g>, loads: &mut Loads<'g>) -> (Expr<'g>, Expr<
 
     let points = &model.curves[retract.curve].points;
     if delay.is_some() {
-        let guard = format!("belt {name}: begin of the pretensioner");
-        loads.guard(guard, begins - now);
+        let event_function = format!("belt {name}: begin of the pretensioner");
+        loads.event_function(event_function, begins - now);
     }
     for (index, point) in points.iter().enumerate().skip(1) {
         if points.len() <= MOST_KINKS {
             let kink = point[0] * number(graph, &retract.stretch);
             let left = begins + kink - now;
-            let guard = format!("belt {name}: point {} of the pretensioner", index + 1);
-            loads.guard(guard, left);
+            let event_function = format!("belt {name}: point {} of the pretensioner", index + 1);
+            loads.event_function(event_function, left);
         }
     }
     (curve(graph, retract, since), rate)
