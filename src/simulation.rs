@@ -54,7 +54,8 @@ pub trait Runs {
     /// Names, units and sizes.
     fn info(&self) -> &'static Info;
     /// Runs a job: [`Engine::run`].
-    fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>) -> Outcome;
+    fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>)
+    -> Outcome;
 }
 
 impl Runs for Engine {
@@ -62,7 +63,12 @@ impl Runs for Engine {
         Engine::info(self)
     }
 
-    fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>) -> Outcome {
+    fn run(
+        &self,
+        job: &Job,
+        writer: &mut SampleWriter<'_>,
+        observer: &mut Observer<'_>,
+    ) -> Outcome {
         Engine::run(self, job, writer, observer)
     }
 }
@@ -73,7 +79,12 @@ impl Runs for RustcModel {
         RustcModel::info(self)
     }
 
-    fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>) -> Outcome {
+    fn run(
+        &self,
+        job: &Job,
+        writer: &mut SampleWriter<'_>,
+        observer: &mut Observer<'_>,
+    ) -> Outcome {
         run_model_observed(self.model(), job, writer, observer)
     }
 }

@@ -21,7 +21,12 @@ impl Engine {
 
     /// Runs a job: see [`run_job_observed`].
     #[inline(never)]
-    pub fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>) -> Outcome {
+    pub fn run(
+        &self,
+        job: &Job,
+        writer: &mut SampleWriter<'_>,
+        observer: &mut Observer<'_>,
+    ) -> Outcome {
         run_job_observed(self, job, writer, observer)
     }
 

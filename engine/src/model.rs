@@ -330,7 +330,8 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
             account,
         } = arrival;
         let memory = !self.shared.info.memory.is_empty();
-        let nothing = event_functions.is_empty() && onsets.is_empty() && curves.is_empty() && !memory;
+        let nothing =
+            event_functions.is_empty() && onsets.is_empty() && curves.is_empty() && !memory;
         if nothing && account.is_none() {
             return true;
         }

@@ -80,7 +80,11 @@ fn printed(lists: &Lists) -> Vec<(&'static str, Method, usize)> {
     let all = [
         ("derivative", Method::Derivative, state),
         ("outputs", Method::Outputs, facts.outputs.len()),
-        ("event_functions", Method::EventFunctions, facts.event_functions.len()),
+        (
+            "event_functions",
+            Method::EventFunctions,
+            facts.event_functions.len(),
+        ),
         ("kinks", Method::Kinks, facts.kinks.len()),
         ("onsets", Method::Onsets, 2 * facts.onsets.len()),
         ("curves", Method::Curves, facts.curves.len()),

@@ -193,8 +193,8 @@ pub use failure::{Failure, Reason, Refusal};
 pub use integrate::Formula;
 pub use integrate::control::Tolerances;
 pub use model::{
-    OffsetView, TailView, Change, CurveInfo, CurveKind, Info, Model, OutputInfo, ParameterInfo,
-    ParameterSet, OutputWriter, StateKind, Vector, part,
+    Change, CurveInfo, CurveKind, Info, Model, OffsetView, OutputInfo, OutputWriter, ParameterInfo,
+    ParameterSet, StateKind, TailView, Vector, part,
 };
 #[cfg(any(feature = "std", feature = "libm", test))]
 pub use real::Fast;

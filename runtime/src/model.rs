@@ -546,7 +546,7 @@ pub struct ParameterInfo {
 
 #[cfg(test)]
 mod tests {
-    use super::{OffsetView, TailView, Model, ParameterSet, OutputWriter, over};
+    use super::{Model, OffsetView, OutputWriter, ParameterSet, TailView, over};
     use crate::Dual;
     use crate::test_models::{Oscillator, Pendulum};
     use crate::test_scalars::Pair;

@@ -340,7 +340,12 @@ mod tests {
             self.engine.info()
         }
 
-        fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>) -> Outcome {
+        fn run(
+            &self,
+            job: &Job,
+            writer: &mut SampleWriter<'_>,
+            observer: &mut Observer<'_>,
+        ) -> Outcome {
             match self.taken.replace(true) {
                 false => self.engine.run(job, writer, observer),
                 true => self.engine.run(&(self.then)(job), writer, observer),

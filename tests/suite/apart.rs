@@ -331,9 +331,13 @@ fn alike(ours: &mut dyn Adjustable<f64>, theirs: &mut dyn Adjustable<f64>, withi
             ("outputs", info.outputs.len(), |m, t, y, out| {
                 m.outputs(t, y, out);
             }),
-            ("event_functions", info.event_functions.len(), |m, t, y, out| {
-                m.event_functions(t, y, out);
-            }),
+            (
+                "event_functions",
+                info.event_functions.len(),
+                |m, t, y, out| {
+                    m.event_functions(t, y, out);
+                },
+            ),
             ("kinks", info.kinks.len(), |m, t, y, out| m.kinks(t, y, out)),
             ("powers", info.powers.len(), |m, t, y, out| {
                 m.powers(t, y, out);

@@ -160,7 +160,12 @@ fn check(compiled: &Compiled) {
     roots.extend(&equations.outputs);
     roots.push(equations.kinetic_energy);
     roots.extend(equations.powers.iter().map(|power| power.value));
-    roots.extend(equations.event_functions.iter().map(|event_function| event_function.value));
+    roots.extend(
+        equations
+            .event_functions
+            .iter()
+            .map(|event_function| event_function.value),
+    );
     if equations.charts > 0 {
         roots.extend(&equations.renewed_coordinates);
         roots.extend(&equations.renewed_velocities);

@@ -231,7 +231,14 @@ impl<'a> Emulated<'a> {
         let time = some(1);
         let given = INPUTS.map(&mut some);
         let [state, accelerations, event_functions, parameters, derived] = &given;
-        let inputs = [&time, state, accelerations, event_functions, parameters, derived];
+        let inputs = [
+            &time,
+            state,
+            accelerations,
+            event_functions,
+            parameters,
+            derived,
+        ];
         let got = self.run(scalar, inputs.map(|slots| slots.as_slice()));
         for lane in 0..self.lanes {
             let at = |slot: &Slot| of_lane(scalar, slot, self.lanes, lane);

@@ -64,7 +64,13 @@ impl<T: Real> Probe<T> {
             let numbers = (0..count).map(|_| self.random(random, special));
             numbers.collect::<Vec<T>>()
         };
-        let [state, accelerations, mut event_functions, parameters, derived] = INPUTS.map(&mut some);
+        let [
+            state,
+            accelerations,
+            mut event_functions,
+            parameters,
+            derived,
+        ] = INPUTS.map(&mut some);
         // code gets either of them at the same place
         let both = event_functions.len().min(accelerations.len());
         event_functions[..both].copy_from_slice(&accelerations[..both]);

@@ -78,10 +78,12 @@ pub fn list(random: &mut Random, mix: Mix) -> List {
     }
     list.constants.extend([1.0, -0.0, 0.5]);
     list.inputs.push(Input::Time);
-    let [state, accelerations, event_functions, parameters, derived] = INPUTS.map(|count| 0..count as u32);
+    let [state, accelerations, event_functions, parameters, derived] =
+        INPUTS.map(|count| 0..count as u32);
     list.inputs.extend(state.map(Input::State));
     list.inputs.extend(accelerations.map(Input::Acceleration));
-    list.inputs.extend(event_functions.map(Input::EventFunction));
+    list.inputs
+        .extend(event_functions.map(Input::EventFunction));
     list.inputs.extend(parameters.map(Input::Parameter));
     list.inputs.extend(derived.map(Input::Derived));
     let inputs: Vec<f64> = list.inputs.iter().map(|_| random.ordinary()).collect();

@@ -256,9 +256,11 @@ fn compare_at<T: Real, O: Of<T>>(
         ("outputs", info.outputs.len(), |m, t, y, out| {
             m.outputs(t, y, out)
         }),
-        ("event_functions", info.event_functions.len(), |m, t, y, out| {
-            m.event_functions(t, y, out)
-        }),
+        (
+            "event_functions",
+            info.event_functions.len(),
+            |m, t, y, out| m.event_functions(t, y, out),
+        ),
         ("kinks", info.kinks.len(), |m, t, y, out| m.kinks(t, y, out)),
         ("onsets", 2 * info.onsets.len(), |m, t, y, out| {
             m.onsets(t, y, out)
@@ -352,7 +354,13 @@ fn compare_at_once<T: Real, O: Of<T>>(
 fn arrival<T: Real>(model: &dyn Dynamics<T>, wanted: u8, t: T, y: &[T]) -> Vec<T> {
     let info = model.info();
     let of = |count: usize| vec![T::from_f64(0.25); count];
-    let [mut event_functions, mut onsets, mut renewed, mut curves, mut powers] = [
+    let [
+        mut event_functions,
+        mut onsets,
+        mut renewed,
+        mut curves,
+        mut powers,
+    ] = [
         info.event_functions.len(),
         2 * info.onsets.len(),
         y.len(),

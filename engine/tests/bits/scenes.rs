@@ -88,9 +88,13 @@ fn check<T: Real>(name: &str, lanes: &Lanes<T>) {
         ("outputs", info.outputs.len(), |m, t, y, out| {
             m.outputs(t, y, out);
         }),
-        ("event_functions", info.event_functions.len(), |m, t, y, out| {
-            m.event_functions(t, y, out);
-        }),
+        (
+            "event_functions",
+            info.event_functions.len(),
+            |m, t, y, out| {
+                m.event_functions(t, y, out);
+            },
+        ),
         ("kinks", info.kinks.len(), |m, t, y, out| {
             m.kinks(t, y, out);
         }),
@@ -129,7 +133,12 @@ fn renewed<T: Real>(name: &str, lanes: &Lanes<T>, models: [&dyn Dynamics<T>; 2],
         model.renew_by(t, &mut by, &event_functions);
         model.renew(t, &mut without);
         same(&format!("{name}: renewed"), lanes, &without, &plain);
-        same(&format!("{name}: renewed by event functions"), lanes, &by, &plain);
+        same(
+            &format!("{name}: renewed by event functions"),
+            lanes,
+            &by,
+            &plain,
+        );
     }
 }
 

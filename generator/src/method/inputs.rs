@@ -175,10 +175,12 @@ impl Inputs {
             Input::Memory(i) => Symbol::Memory(i as u32),
             Input::Parameter(i) => parameter(i),
             Input::Acceleration(i) => parameter(self.parameters.len() + i),
-            Input::EventFunction(i) => parameter(self.parameters.len() + self.accelerations.len() + i),
-            Input::Derived(i) => {
-                parameter(self.parameters.len() + self.accelerations.len() + self.event_functions.len() + i)
+            Input::EventFunction(i) => {
+                parameter(self.parameters.len() + self.accelerations.len() + i)
             }
+            Input::Derived(i) => parameter(
+                self.parameters.len() + self.accelerations.len() + self.event_functions.len() + i,
+            ),
         }
     }
 

@@ -114,7 +114,10 @@ pub(crate) const EACH_MOTION: &str = "each_motion";
 /// step: computed a second time, a value close to 0 may have the other sign.
 pub(crate) fn renews_by_event_functions(equations: &Equations) -> bool {
     let live = Live::new(&equations.graph, &next(&equations.memory));
-    let event_functions = equations.event_functions.iter().map(|event_function| event_function.value);
+    let event_functions = equations
+        .event_functions
+        .iter()
+        .map(|event_function| event_function.value);
     let computed = |id: &NodeId| !matches!(equations.graph.node(*id), Node::Symbol(_));
     event_functions
         .filter(computed)

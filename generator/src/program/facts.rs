@@ -135,7 +135,9 @@ impl Facts {
             units: units(equations),
             auxiliaries: names(&equations.auxiliaries, |state| &state.name),
             memory: names(&equations.memory, |state| &state.name),
-            event_functions: names(&equations.event_functions, |event_function| &event_function.name),
+            event_functions: names(&equations.event_functions, |event_function| {
+                &event_function.name
+            }),
             kinks: names(&equations.kinks, |kink| &kink.name),
             onsets: names(&equations.onsets, |onset| &onset.name),
             corners: equations.corners,

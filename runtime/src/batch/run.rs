@@ -406,7 +406,11 @@ impl<'a, T: Several> Run<'a, T> {
         self.step.latest = self.latest();
         self.controller.reset(fresh);
         self.advance_onsets(fresh);
-        replace(fresh, &mut self.event_functions, &self.event_functions_ahead);
+        replace(
+            fresh,
+            &mut self.event_functions,
+            &self.event_functions_ahead,
+        );
         self.past = T::Part::select(fresh, T::Part::from_f64(0.0), self.past);
         self.begin_bends(fresh);
         self.begin_watch(fresh);
@@ -485,7 +489,8 @@ impl<'a, T: Several> Run<'a, T> {
                 break;
             }
             if round == 0 {
-                self.after[..self.event_functions.len()].copy_from_slice(&self.event_functions_ahead);
+                self.after[..self.event_functions.len()]
+                    .copy_from_slice(&self.event_functions_ahead);
                 let [.., end, any, _] = &mut self.onsets.values;
                 any.copy_from_slice(end);
             }
@@ -495,7 +500,10 @@ impl<'a, T: Several> Run<'a, T> {
         }
         if renewed.any.any() {
             let [.., end, any, _] = &self.onsets.values;
-            let event_functions = differ(&self.after[..self.event_functions.len()], &self.event_functions_ahead);
+            let event_functions = differ(
+                &self.after[..self.event_functions.len()],
+                &self.event_functions_ahead,
+            );
             renewed.other = event_functions.or(differ(any, end)).and(renewed.any);
         }
         renewed
@@ -658,7 +666,11 @@ impl<'a, T: Several> Run<'a, T> {
         let past = T::Part::select(goes_on, self.step.h.part(0), T::Part::from_f64(0.0));
         self.past = T::Part::select(accepted, past, self.past);
         replace(going, &mut self.event_functions_past, &self.event_functions);
-        replace(going, &mut self.event_functions, &self.event_functions_ahead);
+        replace(
+            going,
+            &mut self.event_functions,
+            &self.event_functions_ahead,
+        );
         self.leave_watch(going, known.and(arrived.not()), smooth);
         self.count_steps(whole.not().and(going));
     }

@@ -17,7 +17,7 @@
 use super::tableau::Tableau;
 use super::tableau::dormand_prince::Dop853;
 use super::{Rate, combine_into};
-use crate::{Change, Model, Real, OutputWriter, Task, Vector};
+use crate::{Change, Model, OutputWriter, Real, Task, Vector};
 
 /// Takes `steps` steps of length `h` \[s\] from time `t` \[s\] and state `y`. It leaves the last state in `y` and returns its time \[s\].
 ///

@@ -162,7 +162,11 @@ impl Entry {
         y: &[f64],
         event_functions: &mut [f64],
     ) -> Result<(), RunError> {
-        let lengths = [("event_functions", event_functions.len(), self.info.event_functions.len())];
+        let lengths = [(
+            "event_functions",
+            event_functions.len(),
+            self.info.event_functions.len(),
+        )];
         let model = self.at(parameters, y, &lengths)?;
         model.event_functions(t, y, event_functions);
         Ok(())
@@ -271,9 +275,13 @@ pub fn run_job_observed(
         Scalar::F64 => execute_in_double(family.over(), job, balanced, writer, observer),
         Scalar::F32 => execute(family.over::<f32>(), job, balanced, writer, observer),
         Scalar::Fast => execute(family.over::<Fast>(), job, balanced, writer, observer),
-        Scalar::DoubleDouble => {
-            execute(family.over::<DoubleDouble>(), job, balanced, writer, observer)
-        }
+        Scalar::DoubleDouble => execute(
+            family.over::<DoubleDouble>(),
+            job,
+            balanced,
+            writer,
+            observer,
+        ),
     }
 }
 
@@ -311,7 +319,10 @@ pub fn run<T: Real, M: Model<T> + 'static>(
 }
 
 /// [`run`] with a watch: where the energy went, and whether the run can be trusted.
-pub fn run_balanced<T: Real, M: Model<T> + 'static>(job: &Job, writer: &mut SampleWriter<'_>) -> Outcome {
+pub fn run_balanced<T: Real, M: Model<T> + 'static>(
+    job: &Job,
+    writer: &mut SampleWriter<'_>,
+) -> Outcome {
     execute(
         made_differentiable::<T, M>(),
         job,
@@ -475,7 +486,11 @@ struct Numbers {
 
 impl Numbers {
     /// Passes a sample to `writer`, which may stop the run.
-    fn send<T: Real>(&mut self, sample: Sample<'_, T>, writer: &mut SampleWriter<'_>) -> ControlFlow<()> {
+    fn send<T: Real>(
+        &mut self,
+        sample: Sample<'_, T>,
+        writer: &mut SampleWriter<'_>,
+    ) -> ControlFlow<()> {
         for (numbers, scalars) in [
             (&mut self.state, sample.state),
             (&mut self.outputs, sample.outputs),

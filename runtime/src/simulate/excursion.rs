@@ -276,7 +276,8 @@ mod tests {
             for share in [0.0, 0.5, 0.99, 1.01] {
                 for k in 1..100 {
                     let (place, speed) = (0.01 * f64::from(k) + 1e-3, 3.7f64);
-                    let event_function = |theta: f64| near - (speed * (theta - place)).hypot(share * near);
+                    let event_function =
+                        |theta: f64| near - (speed * (theta - place)).hypot(share * near);
                     if event_function(0.0) > 0.0 || event_function(1.0) > 0.0 {
                         continue;
                     }

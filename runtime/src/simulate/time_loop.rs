@@ -193,7 +193,12 @@ pub(super) const fn length(info: &Info) -> usize {
 /// How many values of event functions or kinks are kept at the same time.
 const fn values(info: &Info) -> usize {
     let (event_functions, kinks) = (info.event_functions.len(), info.kinks.len());
-    PLACES * if event_functions > kinks { event_functions } else { kinks }
+    PLACES
+        * if event_functions > kinks {
+            event_functions
+        } else {
+            kinks
+        }
 }
 
 impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
@@ -308,7 +313,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.arrive_at(start, State::Reached, false);
         self.renew(false);
         self.onsets.advance();
-        self.event_functions.copy_from_slice(self.event_functions_ahead);
+        self.event_functions
+            .copy_from_slice(self.event_functions_ahead);
         if let Some(watch) = &mut self.watch {
             let spare = [&mut *self.inside, &mut *self.spare];
             watch.open(self.model, self.y, &self.settings, spare);
@@ -402,7 +408,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             watch.renew(landing.begin);
         }
         core::mem::swap(&mut self.event_functions_past, &mut self.event_functions);
-        self.event_functions.copy_from_slice(self.event_functions_ahead);
+        self.event_functions
+            .copy_from_slice(self.event_functions_ahead);
         let latest = self.f.latest;
         let goes_on = self.begin(step, &reach, &landing, renewed)?;
         if let (Some(watch), Pace::Fixed(_)) = (&mut self.watch, self.settings.method.pace) {

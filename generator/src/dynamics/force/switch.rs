@@ -123,7 +123,9 @@ pub fn complete<'g>(
         let Remembered { fired, acts, .. } = loads.states.switches[index];
         let memory = |index: usize| graph.symbol(Symbol::Memory(index as u32));
         // rests at 1 once it has come
-        let waiting = |index: usize, event_function: Expr<'g>| choose(memory(index), ever, one, event_function);
+        let waiting = |index: usize, event_function: Expr<'g>| {
+            choose(memory(index), ever, one, event_function)
+        };
         let above = |threshold, quantity: Option<Expr<'g>>| {
             number(graph, threshold) - quantity.unwrap_or(zero)
         };

@@ -89,7 +89,9 @@ impl Writer<'_> {
             let (part, of) = (part_name(part), self.part_type(part));
             quote!(#part: &#of<T>)
         });
-        let writer = self.puts(i).then(|| quote!(, writer: &mut impl OutputWriter<T>));
+        let writer = self
+            .puts(i)
+            .then(|| quote!(, writer: &mut impl OutputWriter<T>));
         let returned = arrow(&self.returned(i));
         with_body(
             self.body(i, sources),

@@ -242,8 +242,8 @@ impl State {
         let Self {
             split, arguments, ..
         } = self;
-        let by_event_functions =
-            table::renews_by_event_functions(equations).then(|| quote!(, &self.event_functions_at(#arguments)));
+        let by_event_functions = table::renews_by_event_functions(equations)
+            .then(|| quote!(, &self.event_functions_at(#arguments)));
         let renew = match equations.charts {
             0 => quote! {
                 let renewed = self.renewed_memory(#arguments #by_event_functions);

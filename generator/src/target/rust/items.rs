@@ -84,7 +84,11 @@ pub(crate) fn sizes(equations: &Equations) -> TokenStream {
         size("Length of q.", "COORDINATES", equations.coordinates.len()),
         size("Length of v.", "VELOCITIES", equations.velocities.len()),
         size("Number of outputs.", "OUTPUTS", equations.outputs.len()),
-        size("Number of event functions.", "EVENT_FUNCTIONS", equations.event_functions.len()),
+        size(
+            "Number of event functions.",
+            "EVENT_FUNCTIONS",
+            equations.event_functions.len(),
+        ),
         size("Number of kinks.", "KINKS", equations.kinks.len()),
         size("Number of powers.", "POWERS", equations.powers.len()),
         size(

@@ -1,7 +1,7 @@
 //! A method as calls: the subroutines that like elements share as functions, and the function that calls them.
 
 use super::expression::{Printer, ident, number};
-use super::function::{WriterOfTask, Writer, arrow, with_body};
+use super::function::{Writer, WriterOfTask, arrow, with_body};
 use super::results;
 use super::subroutine_names::{Called, CommonWords, Places, Word};
 use crate::expression::{Node, NodeId};
@@ -366,7 +366,9 @@ impl Writer<'_> {
     ) -> ImplItemFn {
         let name = &function.function;
         let returned = arrow(&returned(subroutine, function));
-        let writer = subroutine.puts().then(|| quote!(writer: &mut impl OutputWriter<T>));
+        let writer = subroutine
+            .puts()
+            .then(|| quote!(writer: &mut impl OutputWriter<T>));
         let owners = subroutine
             .blocks
             .iter()

@@ -152,9 +152,14 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     }
 
     /// An event function that changes its sign within a step, with a part of the step at which it has, 1 where it shows at the end.
-    pub(super) fn event_function_within(&mut self, step: &mut dyn Stepper<T>) -> Option<(usize, f64)> {
+    pub(super) fn event_function_within(
+        &mut self,
+        step: &mut dyn Stepper<T>,
+    ) -> Option<(usize, f64)> {
         let zero = Which::EventFunctions.zero();
-        if let Some(event_function) = event::changed(zero, self.event_functions, self.event_functions_ahead) {
+        if let Some(event_function) =
+            event::changed(zero, self.event_functions, self.event_functions_ahead)
+        {
             return Some((event_function, 1.0));
         }
         let lengths = [self.past, step.span().h];
@@ -184,6 +189,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     /// The part of a step that lies before the first change of an event function, which has changed at `end`, and a trifle.
     pub(super) fn way_to_event_function(&mut self, step: &mut dyn Stepper<T>, end: f64) -> f64 {
         step.complete(&mut self.f);
-        self.within(step, Which::EventFunctions).first_change(end, WIDTH)
+        self.within(step, Which::EventFunctions)
+            .first_change(end, WIDTH)
     }
 }

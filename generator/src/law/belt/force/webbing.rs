@@ -183,7 +183,12 @@ impl<'g> Webbing<'g> {
             false => lengthens + graph.constant(NOISE),
         };
         let event_function = choose(limiter.pays, half, -limiter.beyond, ends);
-        let begins = choose(event_function, zero, choose(zero, lengthens, one, zero), zero);
+        let begins = choose(
+            event_function,
+            zero,
+            choose(zero, lengthens, one, zero),
+            zero,
+        );
         let ends = choose(event_function, zero, zero, one);
         loads.states.memory[limiter.paying].next = choose(limiter.pays, half, begins, ends);
         loads.event_function(format!("belt {name}: limiter"), event_function);
