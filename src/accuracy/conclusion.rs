@@ -11,7 +11,7 @@ use super::study::Study;
 pub struct Conclusion {
     /// Indices of the points on the front; the error falls.
     pub front: Vec<usize>,
-    /// The cheapest point for [`Finding::wanted`] that all finer points of its series confirm.
+    /// The cheapest point for [`Conclusion::wanted`] that all finer points of its series confirm.
     pub cheapest: Option<usize>,
     /// The error that the sentence names.
     pub wanted: f64,

@@ -244,3 +244,87 @@ impl<T: Real> Task for Steps<'_, T> {
         }
     }
 }
+
+// the lists and their evaluation are those of the tests of machine code
+#[cfg(all(test, target_arch = "x86_64", unix))]
+mod tests {
+    use super::{Steps, encode};
+    use crate::call::Library;
+    use crate::interpret::Layout;
+    use crate::tests::evaluate::evaluate;
+    use crate::tests::random::{INPUTS, Mix, Random, list};
+    use bryant_generator::expression::Function;
+    use bryant_generator::program::{List, Operation, Value};
+    use bryant_runtime::Task as _;
+    use std::collections::HashMap;
+
+    /// Appends a call of Coulomb's law with any values, and a product with its result.
+    fn append_call(list: &mut List, random: &mut Random) {
+        let first = list.arguments.len() as u32;
+        let values = list.values();
+        let mut any = || Value(random.below(values) as u32);
+        list.arguments.extend([any(), any(), any()]);
+        let (factor, result) = (any(), Value(values as u32));
+        list.operations.push(Operation::Call {
+            function: Function::Coulomb,
+            first,
+        });
+        list.operations.push(Operation::Mul(result, factor));
+        list.results.extend([result, Value(values as u32 + 1)]);
+    }
+
+    #[test]
+    fn the_plain_loop_has_the_bits_of_each_operation_alone() {
+        let mix = Mix {
+            length: 60,
+            calls: 0,
+            reach: 20,
+        };
+        for seed in 0..50 {
+            let random = &mut Random::new(seed);
+            let mut list = list(random, mix);
+            append_call(&mut list, random);
+            let places = (0..).zip(&list.constants);
+            let constants: HashMap<u64, u32> = places.map(|(i, c)| (c.to_bits(), i)).collect();
+            let [state, accelerations, guards, parameters, derived] = INPUTS.map(|n| n as u32);
+            let parameters_at = list.constants.len() as u32;
+            let time = parameters_at + parameters + derived;
+            let layout = Layout {
+                parameters: parameters_at,
+                derived: parameters_at + parameters,
+                time,
+                state: time + 1,
+                before: time + 1 + state,
+                rest: time + 1 + state + accelerations.max(guards),
+            };
+            let code = encode(&list, &layout, &constants);
+            let mut frame: Vec<f64> = (0..code.end).map(|_| random.ordinary()).collect();
+            frame[..list.constants.len()].copy_from_slice(&list.constants);
+
+            let inputs = list.inputs.iter();
+            let inputs = inputs.map(|input| frame[layout.place(*input) as usize]);
+            let mut values = list.constants.clone();
+            values.extend(inputs);
+            for &operation in &list.operations {
+                let defined = evaluate(&list, &values, operation);
+                values.extend(defined);
+            }
+
+            Steps {
+                code: &code,
+                library: &Library::new(&[], None),
+                frame: &mut frame,
+                arguments: &mut vec![0.0; code.most_arguments()],
+            }
+            .run();
+            for (value, &place) in list.results.iter().zip(&code.results) {
+                let (found, expected) = (frame[place as usize], values[value.0 as usize]);
+                let same = found.to_bits() == expected.to_bits();
+                assert!(
+                    same || found.is_nan() && expected.is_nan(),
+                    "list {seed}: {found} for {expected}"
+                );
+            }
+        }
+    }
+}

@@ -3,6 +3,6 @@
 mod c;
 mod emulated;
 mod emulator;
-mod evaluate;
+pub(crate) mod evaluate;
 mod native;
-mod random;
+pub(crate) mod random;

@@ -46,6 +46,26 @@ pub fn section(
             why.lines().next().unwrap_or_default()
         );
     }
+    front(&mut text, study, conclusion);
+    let count = |of: fn(&Status) -> bool| study.points.iter().filter(|p| of(&p.status)).count();
+    let failed = count(|status| matches!(status, Status::Failed(_)));
+    let skipped = count(|status| matches!(status, Status::Skipped(_)));
+    let environment = &study.environment;
+    let _ = writeln!(
+        text,
+        "\nOf {} settings {failed} failed and {skipped} were skipped as too slow. bryant {} ({}), {}, {}.",
+        study.points.len(),
+        environment.version,
+        environment.commit,
+        environment.engine,
+        environment.target
+    );
+    text
+}
+
+/// Appends the table of the settings on the front.
+fn front(text: &mut String, study: &Study, conclusion: &Conclusion) {
+    let of = study.of.name(&study.reference.readings);
     // the error in the state stands beside the error asked for, unless they are the same
     let state = !matches!(study.of, Measure::State);
     let (heading, rule) = match state {
@@ -76,18 +96,4 @@ pub fn section(
             digits(done.report.t / done.timing.median),
         );
     }
-    let count = |of: fn(&Status) -> bool| study.points.iter().filter(|p| of(&p.status)).count();
-    let failed = count(|status| matches!(status, Status::Failed(_)));
-    let skipped = count(|status| matches!(status, Status::Skipped(_)));
-    let environment = &study.environment;
-    let _ = writeln!(
-        text,
-        "\nOf {} settings {failed} failed and {skipped} were skipped as too slow. bryant {} ({}), {}, {}.",
-        study.points.len(),
-        environment.version,
-        environment.commit,
-        environment.engine,
-        environment.target
-    );
-    text
 }
