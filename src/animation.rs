@@ -19,7 +19,7 @@ const SIDES: usize = 10;
 /// Radius of bones and of belts \[m\].
 const RADII: [f64; 2] = [0.008, 0.01];
 
-/// Colours, safe for the colour-blind: of systems, vehicles, planes, and belts and springs.
+/// Colours, safe for the colour-blind: of systems, vehicles, planes, and belts, springs and bushings.
 const COLOURS: [[f64; 4]; 4] = [
     [0.0, 0.29, 0.48, 1.0],
     [0.70, 0.35, 0.0, 1.0],
@@ -326,7 +326,7 @@ impl File {
         }
     }
 
-    /// Adds belts and springs.
+    /// Adds belts, springs and bushings.
     fn lines(&mut self, scene: &Value) {
         let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
         for line in list(&scene["lines"]) {

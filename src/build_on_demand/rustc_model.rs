@@ -153,8 +153,8 @@ impl Dynamics<f64> for At<'_> {
         self.fill(What::Renew, t, &[], y);
     }
 
-    fn guards(&self, t: f64, y: &[f64], guards: &mut [f64]) {
-        self.fill(What::Guards, t, y, guards);
+    fn event_functions(&self, t: f64, y: &[f64], event_functions: &mut [f64]) {
+        self.fill(What::EventFunctions, t, y, event_functions);
     }
 
     fn kinks(&self, t: f64, y: &[f64], kinks: &mut [f64]) {

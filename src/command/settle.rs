@@ -225,7 +225,7 @@ fn text(settled: &Settled, worst: &str, rests: &[(String, f64)]) -> String {
         let _ = writeln!(text, "  {name:width$}  {force:>8.1} N");
     }
     if rests.is_empty() {
-        text.push_str("  no contact, belt or spring carries it\n");
+        text.push_str("  no contact, belt, spring or bushing carries it\n");
     }
     text
 }
@@ -233,7 +233,7 @@ fn text(settled: &Settled, worst: &str, rests: &[(String, f64)]) -> String {
 /// The model with outputs for the quantities of interest.
 struct Watched {
     model: Model,
-    /// Contacts, belts and springs by name, and the index of the first of three outputs of each.
+    /// Contacts, belts, springs and bushings by name, and the index of the first of three outputs of each.
     forces: Vec<(String, usize)>,
     /// Elements by name, and the index of the output of the first.
     elements: (usize, Vec<String>),
@@ -322,7 +322,7 @@ impl Watched {
         worst
     }
 
-    /// Contacts, belts and springs that carry load, with their forces \[N\].
+    /// Contacts, belts, springs and bushings that carry load, with their forces \[N\].
     fn rests_on(&self, outputs: &[f64]) -> Vec<(String, f64)> {
         let force = |first: usize| {
             outputs[first..first + 3]

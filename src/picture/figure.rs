@@ -31,6 +31,8 @@ pub struct Figure {
     pub belts: Vec<Belt>,
     /// Ends of springs.
     pub springs: Vec<[Point; 2]>,
+    /// Origins of both frames of bushings.
+    pub bushings: Vec<[Point; 2]>,
 }
 
 /// Outline of an ellipsoid.
@@ -117,6 +119,11 @@ pub fn figures(
         figure.springs = springs(model)
             .map(|spring| [&spring.from, &spring.to].map(|end| side(pose.point(&numbers, end))))
             .collect();
+        figure.bushings = bushings(model)
+            .map(|bushing| {
+                [&bushing.from.on, &bushing.to.on].map(|end| side(pose.point(&numbers, end)))
+            })
+            .collect();
         figure
     };
     poses.iter().map(figure).collect()
@@ -145,6 +152,14 @@ pub fn belts(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Be
 pub fn springs(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Spring> {
     model.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring(spring) => Some(&**spring),
+        _ => None,
+    })
+}
+
+/// The bushings of a model.
+pub fn bushings(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Bushing> {
+    model.forces.iter().filter_map(|force| match &force.kind {
+        ForceKind::Bushing(bushing) => Some(&**bushing),
         _ => None,
     })
 }

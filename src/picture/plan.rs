@@ -56,6 +56,11 @@ impl Window {
                 .iter()
                 .flatten()
                 .for_each(|end| include(*end, 0.0));
+            figure
+                .bushings
+                .iter()
+                .flatten()
+                .for_each(|end| include(*end, 0.0));
             for corner in figure.faces.iter().flatten() {
                 include(*corner, 0.0);
             }

@@ -55,6 +55,17 @@ function ghost(t, shapes) {
   for (const line of scene.lines) shapes.strokes.push({ from: pointOf(frames, ...line.from), to: pointOf(frames, ...line.to), colour: grey, width: 2, above: scene.planar });
 }
 
+// A bushing: a cross in the axes of its first body, and a line to the origin of its second frame.
+function cross(frames, line) {
+  const [from, to] = [pointOf(frames, ...line.from), pointOf(frames, ...line.to)];
+  const colour = rgb("#7a5195"), arm = 0.025 * home.half, above = scene.planar;
+  const arms = [0, 1, 2].map((i) => turned(frameOf(frames, line.from[0]).turn, [0, 1, 2].map((j) => (i === j ? arm : 0))));
+  return [
+    ...arms.map((a) => ({ from: sub(from, a), to: sub(from, scale(a, -1)), colour, width: 3, above })),
+    { from, to, colour, width: 2, above },
+  ];
+}
+
 // The points that can be traced: the origin of each body, and the points of outputs.
 const traceable = scene ? [...scene.bodies.map((body, index) => ({ name: body.name, body: index, at: [0, 0, 0] })), ...scene.points] : [];
 
@@ -85,8 +96,10 @@ function shapesAt(t) {
     const colour = mixed(colourOf(a), ink, scene.planar && !bare ? 0.45 : 0.1);
     shapes.strokes.push({ from: pointOf(frames, a, p), to: pointOf(frames, b, q), colour, width: bare ? 6 : 4, above: scene.planar || bare });
   }
-  const most = Math.max(0, ...scene.lines.flatMap((line) => line.force));
+  const pulling = scene.lines.filter((line) => line.kind !== "bushing");
+  const most = Math.max(0, ...pulling.flatMap((line) => line.force));
   for (const line of scene.lines) {
+    if (line.kind === "bushing") { shapes.strokes.push(...cross(frames, line)); continue; }
     const force = line.force[k] || 0;
     const colour = line.kind === "belt" ? tensionColour(force, most) : rgb("#7a5195");
     const [from, to] = [pointOf(frames, ...line.from), pointOf(frames, ...line.to)];

@@ -47,7 +47,7 @@ pub fn with_forces(model: &Model) -> Model {
 /// The number of lines along which a force acts between bodies: a belt acts along each of its segments.
 pub fn lines(kind: &ForceKind) -> usize {
     match kind {
-        ForceKind::Contact(_) | ForceKind::Spring(_) => 1,
+        ForceKind::Contact(_) | ForceKind::Spring(_) | ForceKind::Bushing(_) => 1,
         ForceKind::Belt(belt) => belt.rings.len() + 1,
         _ => 0,
     }
@@ -281,7 +281,7 @@ impl<'a> Scene<'a> {
         [json!(self.index(attachment.on)), at]
     }
 
-    /// Belts and springs: both ends, and the force at each time, positive where it pulls.
+    /// Belts, springs and bushings: both ends, and the force at each time, positive where it pulls.
     fn lines(&self, forces: &[Vec<f64>]) -> Value {
         let lengths = belt_lengths(self.numbers, &self.poses);
         let mut columns = Columns::new(self.model, forces);
@@ -291,6 +291,9 @@ impl<'a> Scene<'a> {
             let (kind, points): (_, Vec<&Attachment>) = match &force.kind {
                 ForceKind::Belt(belt) => ("belt", belt.points().collect()),
                 ForceKind::Spring(spring) => ("spring", vec![&spring.from, &spring.to]),
+                ForceKind::Bushing(bushing) => {
+                    ("bushing", vec![&bushing.from.on, &bushing.to.on])
+                }
                 other => {
                     columns.skip(other);
                     continue;
@@ -400,7 +403,7 @@ struct Columns<'a> {
     next: usize,
 }
 
-/// The force of one contact, belt or spring, along x, y, z.
+/// The force of one contact, belt, spring or bushing, along x, y, z.
 struct Column<'a>(&'a [Vec<f64>]);
 
 impl<'a> Columns<'a> {
