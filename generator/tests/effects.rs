@@ -1249,6 +1249,7 @@ fn every_effect_has_a_case() {
     assert!(unknown.is_empty(), "no effect is called {unknown:?}");
 }
 
+// Long: a model, and what is out in it.
 #[test]
 fn what_is_out_is_listed_with_the_line_that_switches_it_off() {
     let text = "model: m

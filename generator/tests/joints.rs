@@ -411,6 +411,7 @@ fn element(joint: &str, rest: &str) -> String {
     )
 }
 
+// Long: a line for each mistake.
 #[test]
 fn mistakes_are_told_with_their_remedy() {
     let joints = [

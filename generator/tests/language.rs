@@ -52,6 +52,7 @@ fn model(text: &str) -> Model {
         .0
 }
 
+// Long: every key of the sample.
 #[test]
 fn the_sample_means_what_it_says() {
     let model = model(SAMPLE);

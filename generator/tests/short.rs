@@ -202,6 +202,7 @@ outputs:
 ";
 
 /// Joints with axes: sliders are polar, hinges axial, a screw gets the other hand, and a follower follows the image of its leader.
+// Long: each model twice, in short and in full, in space and in the plane.
 #[test]
 fn joints_with_axes_have_mirror_images() {
     let element = |name: &str, on: &str, y: &str, joint: &str, inertia: &str, mirror: &str| {
@@ -651,6 +652,7 @@ fn paths_in_the_long_form_are_those_of_the_model() {
 }
 
 /// Every mistake in a short form has a message with a place.
+// Long: a few lines for each mistake.
 #[test]
 fn mistakes_are_told() {
     let none = Files::new();

@@ -66,6 +66,7 @@ fn joint(kind: &str, inside: &str) -> String {
     )
 }
 
+// Long: a line for each file.
 #[test]
 fn what_urdfdom_refuses_is_refused_with_its_place() {
     let long = "type=\"revolute\"";

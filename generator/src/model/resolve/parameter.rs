@@ -25,26 +25,9 @@ pub(super) fn parameter(
     let value_at = at.key("value");
     let (value, measure) =
         resolver.constant(&written.value, value_at, "the value of a parameter")?;
-    let bound = |quantity: &Option<Quantity>, key: &str| match quantity {
+    let bound = |quantity: &Option<Quantity>, key| match quantity {
         None => Some(None),
-        Some(quantity) => {
-            let (bound, of_bound) =
-                resolver.constant(quantity, at.key(key), "a bound of a parameter")?;
-            if let (Measure::Known(a), Measure::Known(b)) = (measure, of_bound)
-                && a != b
-            {
-                resolver.problems.add(at.key(key).problem(
-                    format!(
-                        "the bound is {}, but the value is {}",
-                        describe(b),
-                        describe(a)
-                    ),
-                    "give both in the same kind of unit",
-                ));
-                return None;
-            }
-            Some(Some(bound))
-        }
+        Some(quantity) => bound(resolver, quantity, measure, at.key(key)).map(Some),
     };
     let (min, max) = (bound(&written.min, "min"), bound(&written.max, "max"));
     let (min, max) = (min?, max?);
@@ -91,4 +74,28 @@ pub(super) fn parameter(
             measure => measure,
         },
     ))
+}
+
+/// A bound of a parameter whose value is this.
+fn bound(
+    resolver: &Resolver<'_>,
+    quantity: &Quantity,
+    of_value: Measure,
+    at: At<'_>,
+) -> Option<f64> {
+    let (bound, of_bound) = resolver.constant(quantity, at, "a bound of a parameter")?;
+    if let (Measure::Known(a), Measure::Known(b)) = (of_value, of_bound)
+        && a != b
+    {
+        resolver.problems.add(at.problem(
+            format!(
+                "the bound is {}, but the value is {}",
+                describe(b),
+                describe(a)
+            ),
+            "give both in the same kind of unit",
+        ));
+        return None;
+    }
+    Some(bound)
 }

@@ -217,6 +217,7 @@ pub(super) fn is_smooth(
     smooth
 }
 
+/// The value of a component at t = 0; `None` where it has none.
 fn value_at_start(resolver: &Resolver<'_>, component: &FieldComponent) -> Option<f64> {
     match component {
         FieldComponent::Constant(number) => Some(number.value(&resolver.defaults)),

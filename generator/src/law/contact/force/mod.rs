@@ -169,8 +169,13 @@ fn apply<'g>(
         },
     );
     if let (Some(weight), false) = (&weight, touch.moving.is_empty()) {
+        let (first, second) = (motion.body(on), motion.body(on_second));
+        let relative = [
+            first.velocity_at(touch.centre) - second.velocity_at(touch.centre_on_second),
+            first.omega - second.omega,
+        ];
         let stored = gate.of(stored);
-        let push = push_of_edge(contact, motion, loads, &owner, weight, stored, &touch);
+        let push = push_of_edge(contact, loads, &owner, weight, stored, &touch, relative);
         on_first = force + push;
         resultant = on_first.squared().sqrt();
     }
@@ -187,19 +192,14 @@ fn apply<'g>(
 /// Applies what a fading edge pushes with, and returns the force on the first body.
 fn push_of_edge<'g>(
     contact: &Contact,
-    motion: &Motion<'g>,
     loads: &mut Loads<'g>,
     owner: &str,
     weight: &edge::Weight<'g>,
     stored: Expr<'g>,
     touch: &Touch<'g>,
+    relative: [Vec3<'g>; 2],
 ) -> Vec3<'g> {
     let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
-    let (first, second) = (motion.body(on), motion.body(on_second));
-    let relative = [
-        first.velocity_at(touch.centre) - second.velocity_at(touch.centre_on_second),
-        first.omega - second.omega,
-    ];
     let push = edge::push(loads, owner, weight, stored, &touch.moving, relative);
     loads.apply(on, touch.centre, push.force);
     loads.apply(on_second, touch.centre_on_second, -push.force);
