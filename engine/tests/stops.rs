@@ -432,8 +432,7 @@ fn lanes_stop_one_by_one() {
         rows.push([speed, braking]);
     }
     rows.extend([[0.0, 3.0], [0.0, 0.0], [-6.0, -4.0]]);
-    // in steps of 0.2 s the estimate of errors raises a false alarm: over 5 % of the largest speed, where 0.6 % is true (docs/accuracy.md)
-    let step = 0.1;
+    let step = 0.2;
     let method = batch::Method::Dopri5;
     for fixed in [true, false] {
         let pace = match fixed {
@@ -441,10 +440,12 @@ fn lanes_stop_one_by_one() {
             false => Pace::Adaptive(Tolerances::of(1e-9)),
         };
         for width in Width::ALL.into_iter().filter(|width| width.there()) {
-            let job = Job {
+            let mut job = Job {
                 width,
                 ..job(&engine, pace, &[0, 1, 2, 3, 4])
             };
+            // where braking is hard, the pulled block errs by more than is trusted
+            job.settings.energy_limit = f64::INFINITY;
             let found = engine.rows(&job, rows.as_flattened()).expect("registers");
             for (i, [speed, braking]) in rows.iter().enumerate() {
                 assert_eq!(found.rows[i].status, Status::Done, "{speed}, {braking}");
@@ -466,6 +467,35 @@ fn lanes_stop_one_by_one() {
                 }
             }
         }
+    }
+}
+
+/// In steps of 0.2 s the pulled block errs by 1.2 % of the largest speed behind a car that brakes softly, and by 6.9 % behind one that brakes hard, compared
+/// with steps of 1 ms. What is told begins at 5 %.
+#[test]
+fn steps_too_long_for_a_hard_braking_are_told() {
+    let engine = stopping();
+    let of = |speed: f64, braking: f64, step: f64| {
+        let method = Method::fixed(Formula::Dopri5, step);
+        end_of(&engine, &[speed, braking], 4.0, method).0
+    };
+    let pace = Pace::Fixed(Fixed {
+        method: batch::Method::Dopri5,
+        step: 0.2,
+    });
+    for (speed, braking, told) in [(15.3, 3.1, false), (16.7, 8.3, true)] {
+        let job = job(&engine, pace, &[4]);
+        let found = engine.rows(&job, &[speed, braking]).expect("registers");
+        let expected = match told {
+            true => Status::Doubtful,
+            false => Status::Done,
+        };
+        assert_eq!(found.rows[0].status, expected, "{speed} {braking}");
+        // the largest speed is about that of the car at first
+        let [long, short] = [0.2, 1e-3].map(|step| of(speed, braking, step));
+        let velocities = long.iter().zip(&short).skip(4);
+        let apart = velocities.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        assert_eq!(apart > 0.05 * speed, told, "{apart}");
     }
 }
 

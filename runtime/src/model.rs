@@ -382,7 +382,8 @@ pub enum CurveKind {
     /// A curve of the state.
     Curve,
     /// The bearing of a bent joint \[rad\], from −π to π: the direction, seen along the long axis of the carrying element, to which the other long
-    /// axis is bent. [`CurveInfo::last`] where the bend is less than 90°.
+    /// axis is bent. [`CurveInfo::last`] where the bend is less than 90°. Of a bushing it is the angle about x, [`CurveInfo::last`] where the angle about y
+    /// is far from ±90°.
     Bearing,
     /// A component of the direction in which two ellipsoids push each other; [`CurveInfo::last`] where they do not. The components of one contact
     /// follow each other, one for each dimension of the model. Their vector has the length 1, or less where no direction is determined.
@@ -418,6 +419,21 @@ pub struct CurveInfo {
 }
 
 impl CurveInfo {
+    /// Whether it belongs to a bushing: its name begins with the kind of its law.
+    pub(crate) fn is_of_bushing(&self) -> bool {
+        self.name.starts_with("bushing ")
+    }
+
+    /// Of a [bearing](CurveKind::Bearing) that leapt, what became of its law.
+    pub fn singular(&self) -> &'static str {
+        match self.is_of_bushing() {
+            true => {
+                "is turned through ±90° about y, where its angles about x and z are not defined"
+            }
+            false => "is bent through 180°, where flexion has no direction and torsion no angle",
+        }
+    }
+
     /// Number of pieces of a step in which a bearing or a direction is checked for a leap. Each piece is then halved [`CurveInfo::HALVINGS`] times,
     /// to a thousandth of the step.
     pub(crate) const PIECES: u32 = 4;

@@ -2,7 +2,7 @@
 
 pub mod singular;
 
-use bryant_generator::model::{Active, Dimension, ForceKind, JointTorque, Model};
+use bryant_generator::model::{Active, Dimension, Direction, ForceKind, JointTorque, Model};
 use std::f64::consts::FRAC_PI_2;
 
 /// The middle one of three relative angles is critical within this distance of ±90°: 10° \[rad\].
@@ -11,6 +11,7 @@ const NEAR: f64 = 10.0 * std::f64::consts::PI / 180.0;
 /// The warnings, each a sentence with a remedy.
 pub fn cautions(model: &Model) -> Vec<String> {
     let mut all = middle_angles(model);
+    all.extend(bushings(model));
     all.extend(singular::cautions(model));
     all
 }
@@ -53,6 +54,29 @@ fn middle_angles(model: &Model) -> Vec<String> {
             ))
         })
         .collect()
+}
+
+/// Warns of bushings with laws about x or z if nothing elastic ends the rotation about y.
+fn bushings(model: &Model) -> Vec<String> {
+    if model.dimension == Dimension::Plane {
+        return Vec::new();
+    }
+    let none = Direction::default();
+    let mut all = Vec::new();
+    for force in &model.forces {
+        let ForceKind::Bushing(bushing) = &force.kind else {
+            continue;
+        };
+        let [x, y, z] = &bushing.about;
+        if (*x != none || *z != none) && y.elastic.is_none() {
+            all.push(format!(
+                "bushing \"{}\" has laws about x or z, and nothing ends the rotation about y: at ±90° these have no direction\n  \
+                 help: give it a stiffness about y, or turn its frames so that the widest rotation is about x or z",
+                force.name
+            ));
+        }
+    }
+    all
 }
 
 /// How far from 0 the middle angle may go \[rad\]; `None` if that is not within 10° of ±90°, infinite if nothing ends the rotation. If

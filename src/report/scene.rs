@@ -291,9 +291,7 @@ impl<'a> Scene<'a> {
             let (kind, points): (_, Vec<&Attachment>) = match &force.kind {
                 ForceKind::Belt(belt) => ("belt", belt.points().collect()),
                 ForceKind::Spring(spring) => ("spring", vec![&spring.from, &spring.to]),
-                ForceKind::Bushing(bushing) => {
-                    ("bushing", vec![&bushing.from.on, &bushing.to.on])
-                }
+                ForceKind::Bushing(bushing) => ("bushing", vec![&bushing.from.on, &bushing.to.on]),
                 other => {
                     columns.skip(other);
                     continue;

@@ -26,7 +26,7 @@ pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
     if let Some((parameter, value)) = infinite.find(|(_, value)| !value.is_finite()) {
         let name = parameter.name;
         return Some(format!(
-            "the parameter \"{name}\" must be finite, but is {value}"
+            "the parameter \"{name}\" is {value}, but must be finite"
         ));
     }
     let mut model = engine.in_double();
@@ -39,10 +39,10 @@ pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
 pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
     let info = engine.info();
     Some(match doubt? {
-        Doubt::Bent(bearing) => format!(
-            "\"{}\" is bent through 180°, where flexion has no direction and torsion no angle",
-            info.curves.get(bearing)?.name
-        ),
+        Doubt::Bent(bearing) => {
+            let curve = info.curves.get(bearing)?;
+            format!("\"{}\" {}", curve.name, curve.singular())
+        }
         Doubt::Sunk(contact) => format!(
             "the bodies of \"{}\" have sunk into each other so far that the direction of the force is not determined",
             info.curves.get(contact)?.name
@@ -65,7 +65,7 @@ pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
             "the balance of momentum of freely moving bodies has a gap: the fixed steps are too long".to_owned()
         }
         Doubt::Error(index) => format!(
-            "\"{}\" errs by too much, as estimated from the rates within the fixed steps",
+            "\"{}\" errs by too much, as a comparison with steps half as long shows: the fixed steps are too long",
             info.state_name(index)?
         ),
         Doubt::Left(curve) if info.curves.get(curve)?.kind == CurveKind::Volume => format!(

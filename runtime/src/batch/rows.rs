@@ -372,8 +372,8 @@ struct Table<'a, T: Several> {
     /// How often each row was run again, and the rows that are, one after the other as they are found.
     sharpened: Vec<u32>,
     again: Vec<usize>,
-    /// The error of each row before its last run.
-    before: Vec<f64>,
+    /// What the last two comparisons of each row that is run again found, the last one first.
+    before: Vec<[Apart; 2]>,
     scratch: Vec<T::One>,
     /// What both runs of a row differ by is about so many times the error of the finer one.
     surely: f64,
@@ -390,8 +390,10 @@ const LONGER: f64 = 2.0;
 /// A coarser run that takes this many times the steps of the finer one is given up, for it would hold up its lane. The error of the row is
 /// then not known. Of the 256 rows of the occupant's study (benches/scenes) two are.
 const PATIENCE: u64 = 10;
-/// A row is run again at so many times the tolerances, as often as this, as long as two of these runs take the error to less than so much of what it
-/// was: at the worst it falls like the root of the tolerances. A motion that is smaller than what tolerances let pass needs more than one.
+/// A row is run again at so many times the tolerances, as often as this, as long as two of these runs take the difference of a response that is not
+/// accurate enough to less than so much of what it was: at the worst it falls like the root of the tolerances. A motion that is smaller than what
+/// tolerances let pass needs more than one. Differences are taken as they are, not relative to the response: of a response that goes to 0, they
+/// go to 0 with it.
 const SHARPER: f64 = 0.1;
 const AGAIN: u32 = 5;
 const HELPS: f64 = 0.5;
@@ -424,7 +426,7 @@ impl<'a, T: Several> Table<'a, T> {
             scratch: vec![nan; scratch],
             sharpened: vec![0; if job.estimate { count } else { 0 }],
             again: Vec::new(),
-            before: vec![f64::NAN; if job.estimate { count } else { 0 }],
+            before: vec![Default::default(); if job.estimate { count } else { 0 }],
             surely: f64::NAN,
             hear: None,
             keeps: false,
@@ -560,12 +562,22 @@ struct Reduced<S> {
 /// Of each response its value, and the least that a difference is taken relative to.
 type Judged = Vec<Answer>;
 
-/// What two runs of a row differ by, relatively, the largest over all responses; NaN where either has none.
-fn difference(fine: &Judged, coarse: &Judged) -> f64 {
+/// What two runs of a row differ by: of each response, as it is and relatively; NaN where either has none.
+type Apart = Vec<[f64; 2]>;
+
+/// What two runs of a row differ by.
+fn apart(fine: &Judged, coarse: &Judged) -> Apart {
     let pairs = fine.iter().zip(coarse);
-    pairs.fold(0.0, |worst, (fine, coarse)| {
+    pairs
+        .map(|(fine, coarse)| [(fine.value - coarse.value).abs(), fine.apart(coarse)])
+        .collect()
+}
+
+/// The largest relative difference; NaN where one is.
+fn largest(apart: &Apart) -> f64 {
+    apart.iter().fold(0.0, |worst, [_, difference]| {
         // a difference that is no number stays one
-        match fine.apart(coarse) {
+        match *difference {
             difference if difference <= worst => worst,
             difference => difference,
         }
@@ -635,8 +647,15 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
         let coarse = turn == Turn::Coarser && matches!(self.job.settings.pace, Pace::Fixed(_));
         let done = ended.status == Status::Done || coarse && ended.status == Status::Doubtful;
         if turn == Turn::Sharper && !done {
-            // what was there before stays
             self.pairs[row] = [None, None];
+            // what was there before stays, unless the better run says that the row cannot be trusted
+            if ended.status == Status::Doubtful {
+                let nothing = self.nothing().responses;
+                let start = row * nothing.len();
+                self.responses[start..start + nothing.len()].copy_from_slice(&nothing);
+                self.ended[row] = Some(*ended);
+                self.errors[row] = f64::NAN;
+            }
             return;
         }
         let Reduced { responses, judged } = match done {
@@ -695,18 +714,28 @@ impl<T: Several> Table<'_, T> {
             return;
         };
         let rounded = 0.5 * T::EPSILON * f64::from(ended.steps);
-        let error = difference(fine, coarse) / self.surely + rounded;
-        let before = core::mem::replace(&mut self.errors[row], error);
-        let twice_before = core::mem::replace(&mut self.before[row], before);
+        let apart = apart(fine, coarse);
+        let error_of = |difference: f64| difference / self.surely + rounded;
+        let error = error_of(largest(&apart));
+        self.errors[row] = error;
         pair[1] = None;
         self.sharpened[row] += u32::from(turn == Turn::Sharper);
-        // what is not known helps, and is not good enough
-        let helps = error.is_nan() || twice_before.is_nan() || error < HELPS * twice_before;
         let wanted = self.job.wanted;
+        // what is not known helps, and is not good enough
+        let [_, twice_before] = &self.before[row];
+        let helps = |([now, relative], [then, _]): (&[f64; 2], &[f64; 2])| {
+            let unknown = then.is_nan() || *then == 0.0;
+            error_of(*relative) > wanted && (unknown || *now < HELPS * then)
+        };
+        let helps =
+            error.is_nan() || twice_before.is_empty() || apart.iter().zip(twice_before).any(helps);
         let sharper = helps && wanted < f64::INFINITY && (error.is_nan() || error > wanted);
         if sharper && ended.status == Status::Done && self.may_be_sharper(row) {
+            let [before, twice_before] = &mut self.before[row];
+            *twice_before = core::mem::replace(before, apart);
             self.again.push(row);
         } else {
+            self.before[row] = Default::default();
             self.pairs[row] = [None, None];
         }
     }

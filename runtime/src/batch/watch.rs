@@ -11,7 +11,7 @@ use crate::simulate::balance::{NODES, Rule};
 use crate::simulate::watch::account::{
     Account, Energies, Entry, Stability, Unstable, rate_squared,
 };
-use crate::simulate::watch::error::{Errors, Estimated, GAUSS};
+use crate::simulate::watch::error::{Errors, Estimated, over_halves};
 use crate::{Info, Real, StateKind};
 
 /// How powers are summed up: fixed steps may be as long as they like.
@@ -34,13 +34,11 @@ pub(super) struct Watch<T: Several> {
     works: Box<[OfLanes]>,
     /// Momentum at the start, what forces gave, and the sum of their magnitudes.
     momentum: [[OfLanes; 3]; 6],
-    /// The start, how far each entry is off by the estimate, what the step leaves unexplained of it, and a derivative.
+    /// The start, and how far each entry is from the solution in steps half as long.
     start: Box<[T]>,
     error: Box<[T]>,
-    defect: Box<[T]>,
-    rates: Box<[T]>,
-    /// A step from the corrected solution.
-    corrected: Step<T>,
+    /// A step of that solution.
+    halved: Step<T>,
     /// Whether coordinates may change their charts.
     charts: bool,
     /// In which lanes the exchange at the beginning of the step is known.
@@ -71,9 +69,7 @@ impl<T: Several> Watch<T> {
             momentum: [[[0.0; MOST_LANES]; 3]; 6],
             start: zeros(entries),
             error: zeros(entries),
-            defect: zeros(entries),
-            rates: zeros(entries),
-            corrected: Step::new(method, entries),
+            halved: Step::new(method, entries),
             charts: info.memory.iter().any(|name| name.ends_with(": chart")),
             known: T::Mask::of_lanes(0),
             powers: core::array::from_fn(|_| zeros(info.powers.len())),
@@ -341,22 +337,10 @@ impl<T: Several> Run<'_, T> {
     #[inline(always)]
     fn estimate_error(&mut self, watch: &mut Watch<T>, accepted: T::Mask, part: T) {
         let model = &*self.models.all;
-        let length = part * self.step.h;
-        for (i, defect) in watch.defect.iter_mut().enumerate() {
-            *defect = self.end[i] - self.step.y[i];
-        }
-        for (x, weight) in GAUSS {
-            let theta = part * T::from_f64(x);
-            self.step.inside(model, theta, &mut self.state);
-            let t = theta * self.step.h + self.step.t;
-            model.derivative(t, &self.state, &mut watch.rates);
-            let weight = T::from_f64(weight) * length;
-            for (defect, rate) in watch.defect.iter_mut().zip(&watch.rates) {
-                *defect += -(weight * *rate);
-            }
-        }
-        let step = &mut watch.corrected;
-        (step.t, step.h, step.latest) = (self.step.t, length, self.step.latest);
+        let method = self.settings.pace.method();
+        let step = &mut watch.halved;
+        let half = T::from_f64(0.5) * part * self.step.h;
+        (step.t, step.h, step.latest) = (self.step.t, half, self.step.latest);
         for ((state, y), error) in step.y.iter_mut().zip(&self.step.y).zip(&watch.error) {
             *state = *y - *error;
         }
@@ -364,12 +348,22 @@ impl<T: Several> Run<'_, T> {
         let [first, ..] = &mut step.k;
         model.derivative(step.t.min(step.latest), &step.y, first);
         step.take(model);
+        step.t += half;
+        step.y.copy_from_slice(&step.end);
+        model.normalize(&mut step.y);
+        let [first, .., last] = &mut step.k;
+        match method.ends_with_its_rate() {
+            true => first.copy_from_slice(last),
+            false => model.derivative(step.t.min(step.latest), &step.y, first),
+        }
+        step.take(model);
+        model.normalize(&mut step.end);
         let integrated = self.info.varying_length();
         for (i, error) in watch.error.iter_mut().enumerate().take(integrated) {
-            let found = self.end[i] - (step.end[i] - watch.defect[i]);
-            *error = T::select(accepted, found, *error);
+            *error = T::select(accepted, self.end[i] - step.end[i], *error);
         }
         let coordinates = self.info.coordinates.len();
+        let over = over_halves(method.formula().order());
         for lane in each(accepted.lanes()).take_while(|lane| *lane < T::LANES) {
             let of = |value: T| value.lane(lane).to_f64();
             let entry = |i: usize| Estimated {
@@ -377,7 +371,7 @@ impl<T: Several> Run<'_, T> {
                     true => of(self.end[i] - watch.start[i]),
                     false => of(self.end[i]),
                 },
-                error: of(watch.error[i]),
+                error: over * of(watch.error[i]),
             };
             watch.errors[lane].observe(of(self.step.t), self.info, entry);
         }

@@ -33,11 +33,14 @@ impl Answer {
         }
     }
 
-    /// The difference from the response of a less accurate run, relative to the larger of both; NaN where either is NaN.
+    /// The difference from the response of a less accurate run, relative to the larger of both; NaN where either is NaN. Where both are
+    /// equal, it is that of the largest samples: two runs that are both far off may agree in a value that is a bound, such as the smallest value of a
+    /// force that is never negative.
     pub fn apart(&self, other: &Answer) -> f64 {
         let scale = self.value.abs().max(other.value.abs()).max(self.floor);
         match (self.value - other.value).abs() {
-            0.0 => 0.0,
+            0.0 if self.largest == other.largest => 0.0,
+            0.0 => (self.largest - other.largest).abs() / self.largest.max(other.largest),
             difference => difference / scale,
         }
     }
@@ -62,5 +65,18 @@ mod tests {
         assert!((time(0.0).apart(&time(1e-3)) - 0.2).abs() < 1e-15);
         let hic = |value| answer(Response::Hic { window: 15e-3 }, value);
         assert_eq!(hic(1e-3).apart(&hic(2e-3)), 0.5);
+    }
+
+    #[test]
+    fn equal_responses_of_signals_that_differ_are_apart() {
+        let smallest = |largest| Answer::new(Response::Minimum, 0.0, largest, 0.5);
+        assert_eq!(smallest(200.0).apart(&smallest(200.0)), 0.0);
+        assert_eq!(smallest(200.0).apart(&smallest(50.0)), 0.75);
+        assert_eq!(smallest(50.0).apart(&smallest(200.0)), 0.75);
+        assert_eq!(smallest(0.0).apart(&smallest(0.0)), 0.0);
+        let peak = |value| Answer::new(Response::Peak, value, value, 0.5);
+        assert_eq!(peak(200.0).apart(&peak(50.0)), 0.75);
+        let none = Answer::new(Response::Peak, f64::NAN, 0.0, 0.5);
+        assert!(none.apart(&peak(1.0)).is_nan());
     }
 }

@@ -44,7 +44,7 @@ pub enum Problem {
         /// The number of such steps.
         steps: u64,
     },
-    /// A flexion went through 180°.
+    /// A flexion went through 180°, or a bushing through ±90° about y.
     Flexion {
         /// The direction of bending that jumped, an index in [`Info::curves`].
         bearing: usize,
@@ -121,12 +121,19 @@ impl Diagnostic {
             Problem::Curve { curve, .. } if self.is_volume(curve) => "volume",
             Problem::Curve { .. } => "curve",
             Problem::Missed { .. } => "missed",
+            Problem::Flexion { bearing } if self.is_bushing(bearing) => "bushing",
             Problem::Flexion { .. } => "flexion",
             Problem::Sunk { .. } => "sunk",
             Problem::Energy { .. } => "energy",
             Problem::Momentum { .. } => "momentum",
             Problem::Error { .. } => "error",
         }
+    }
+
+    /// Whether an entry of [`Info::curves`] belongs to a bushing.
+    fn is_bushing(&self, bearing: usize) -> bool {
+        let curve = self.info.curves.get(bearing);
+        curve.is_some_and(CurveInfo::is_of_bushing)
     }
 
     /// Whether an entry of [`Info::curves`] is the volume of an airbag.
@@ -149,6 +156,9 @@ impl Diagnostic {
             }
             Problem::Missed { .. } | Problem::Error { .. } => {
                 "give --tolerance instead of --step, which ends steps where something begins; or a smaller --step"
+            }
+            Problem::Flexion { bearing } if self.is_bushing(bearing) => {
+                "give it a stiffness about y that ends the rotation before 90°, or turn its frames so that the widest rotation is about x or z"
             }
             Problem::Flexion { .. } => {
                 "let a stop or a stiffer curve end the bending before 180°, start the joint straighter, or give it laws `about` x, y, z"
@@ -236,11 +246,11 @@ impl fmt::Display for Diagnostic {
                     "{which} passed over an event that begins and ends within the step: \"{onset}\""
                 )
             }
-            Problem::Flexion { bearing } => write!(
-                f,
-                "\"{}\" is bent through 180°, where flexion has no direction and torsion no angle",
-                name_of_curve(bearing)
-            ),
+            Problem::Flexion { bearing } => {
+                let curve = self.info.curves.get(bearing);
+                let singular = curve.map_or("?", CurveInfo::singular);
+                write!(f, "\"{}\" {singular}", name_of_curve(bearing))
+            }
             Problem::Sunk { contact } => write!(
                 f,
                 "the bodies of \"{}\" have sunk into each other so far that the direction of the force is not determined",
@@ -267,7 +277,7 @@ impl fmt::Display for Diagnostic {
             ),
             Problem::Error { .. } => write!(
                 f,
-                "\"{name}\" errs by too much, as estimated from the rates within the steps: they are too long for this motion"
+                "\"{name}\" errs by too much, as a comparison with steps half as long shows: the steps are too long for this motion"
             ),
         }
     }

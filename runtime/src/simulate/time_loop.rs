@@ -378,7 +378,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             let landing = self.land(step, &reach);
             let energy = self.watch.as_mut().map(|watch| {
                 step.complete(&mut self.f);
-                watch.add_work(self.model, step, landing.length, self.y, self.inside)
+                watch.add_work(self.model, step, landing.length, self.inside)
             });
             self.accept(step, &landing);
             return Ok(Landed {

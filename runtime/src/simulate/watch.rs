@@ -9,6 +9,7 @@
 //! | fixed step | h \|λ\| of the fastest motion | the method's limit of stability |
 //! | curves of the state, while their force acts | how far the argument is outside of the points | the interval in which the curve means something |
 //! | flexion beyond 90° | by how much the direction of bending leaps | a quarter turn |
+//! | bushings beyond 60° about y | by how much the angle about x leaps | a quarter turn |
 //! | two ellipsoids that push each other | by how much the direction of the force leaps | a quarter turn |
 //!
 //! What disagrees becomes a [`Diagnostic`], which has the words.
@@ -42,12 +43,13 @@ mod tests;
 use super::balance::{NODES, Rule};
 use super::event::inside;
 use super::{Balance, Buffer, Diagnostic, Pace, Problem, Settings};
+use crate::failure::Reason;
 use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper};
 use crate::model::{CurveInfo, CurveKind, Turning};
 use crate::{AccountArrival, Dynamics, Formula, Info, Real, StateKind};
 use account::{Account, Energies, Entry, Stability, rate_squared};
-use error::{Errors, Estimated, GAUSS};
+use error::{Errors, Estimated, over_halves};
 
 /// The default of the share of the energy that may be missing: 2 %.
 ///
@@ -110,10 +112,8 @@ pub struct Watch<'a, T: Real> {
     powers: Buffer<'a, T>,
     /// The state at the start.
     start: Buffer<'a, T>,
-    /// The estimated error of each entry of the state.
+    /// How far each entry of the state is from the solution in steps half as long.
     error: Buffer<'a, T>,
-    /// The defect of a step: its change of the state less the integral of the derivative.
-    defect: Buffer<'a, T>,
     /// Room for a derivative.
     rates: Buffer<'a, T>,
     /// Whether the model has coordinates that change their charts, and whether they may have changed them just now.
@@ -176,7 +176,7 @@ impl<'a, T: Real> Watch<'a, T> {
 
     /// The number of scalars that the watch of a model keeps.
     pub const fn length(info: &Info) -> usize {
-        (1 + NODES) * info.powers.len() + 6 * info.curves.len() + 4 * info.state_length()
+        (1 + NODES) * info.powers.len() + 6 * info.curves.len() + 3 * info.state_length()
     }
 
     /// A watch for one run. `memory` gives a buffer of the length that it is called with.
@@ -207,7 +207,6 @@ impl<'a, T: Real> Watch<'a, T> {
             powers: memory(NODES * powers),
             start: memory(info.state_length()),
             error: memory(info.state_length()),
-            defect: memory(info.state_length()),
             rates: memory(info.state_length()),
             charts: [
                 info.memory.iter().any(|name| name.ends_with(": chart")),
@@ -396,7 +395,6 @@ impl<'a, T: Real> Watch<'a, T> {
         model: &dyn Dynamics<T>,
         step: &dyn Stepper<T>,
         length: f64,
-        y: &[T],
         state: &mut [T],
     ) -> [f64; 2] {
         let before = self.balance.exchanged;
@@ -421,37 +419,10 @@ impl<'a, T: Real> Watch<'a, T> {
         if let Some(history) = &mut self.history {
             history.note(span.t + length, &self.balance.works);
         }
-        if self.fixed.is_some() {
-            self.look_at_defect(model, step, length, y, state);
-        }
         [kinetic, self.balance.exchanged - before].map(T::to_f64)
     }
 
-    /// Computes the defect of a step of this length that ends at `y`. `state` is room for a state.
-    fn look_at_defect(
-        &mut self,
-        model: &dyn Dynamics<T>,
-        step: &dyn Stepper<T>,
-        length: f64,
-        y: &[T],
-        state: &mut [T],
-    ) {
-        let span = step.span();
-        let changes = self.defect.iter_mut().zip(span.y.iter().zip(y));
-        for (defect, (begin, end)) in changes {
-            *defect = *end - *begin;
-        }
-        for (x, weight) in GAUSS {
-            inside(model, step, x * length / span.h, state);
-            let weight = T::from_f64(weight * length);
-            model.derivative(T::from_f64(span.t + x * length), state, &mut self.rates);
-            for (defect, rate) in self.defect.iter_mut().zip(self.rates.iter()) {
-                *defect += -(weight * *rate);
-            }
-        }
-    }
-
-    /// Carries the estimated error over a step of this length that ended at `y`. It overwrites the step. `state` is room for a state.
+    /// Carries the estimate of the error over a step of this length, which ended at `y`. It overwrites the step. `state` is room for a state.
     pub(super) fn estimate_error(
         &mut self,
         step: &mut dyn Stepper<T>,
@@ -460,6 +431,9 @@ impl<'a, T: Real> Watch<'a, T> {
         y: &[T],
         state: &mut [T],
     ) {
+        let Some(formula) = self.fixed else {
+            return;
+        };
         let integrated = self.info.varying_length();
         let t = step.span().t;
         if core::mem::take(&mut self.charts[1]) {
@@ -473,25 +447,50 @@ impl<'a, T: Real> Watch<'a, T> {
         }
         f.model.normalize(state);
         let counts = (f.count, f.jacobians);
-        f.at(t, state, &mut self.rates);
-        step.begin(t, state, &self.rates);
-        let taken = step.take(f, length);
+        let taken = self.step_twice(step, f, [t, length], state);
         (f.count, f.jacobians) = counts;
         if taken.is_err() {
             return;
         }
         for (i, error) in self.error.iter_mut().enumerate().take(integrated) {
-            *error = y[i] - (step.span().end[i] - self.defect[i]);
+            *error = y[i] - state[i];
         }
         let coordinates = self.info.coordinates.len();
+        let over = over_halves(formula.order());
         let entry = |i: usize| Estimated {
             size: match i < coordinates {
                 true => (y[i] - self.start[i]).to_f64(),
                 false => y[i].to_f64(),
             },
-            error: self.error[i].to_f64(),
+            error: over * self.error[i].to_f64(),
         };
         self.errors.observe(t, self.info, entry);
+    }
+
+    /// Takes a state at `t` as far as `length` in two steps.
+    fn step_twice(
+        &mut self,
+        step: &mut dyn Stepper<T>,
+        f: &mut Evaluator<'_, T>,
+        [t, length]: [f64; 2],
+        state: &mut [T],
+    ) -> Result<(), Reason> {
+        let half = 0.5 * length;
+        f.at(t, state, &mut self.rates);
+        step.begin(t, state, &self.rates);
+        step.take(f, half)?;
+        state.copy_from_slice(step.span().end);
+        f.model.normalize(state);
+        match step.end_rate() {
+            // putting a state back on its manifold moves it by no more than the error of the step
+            Some(rate) => self.rates.copy_from_slice(rate),
+            None => f.at(t + half, state, &mut self.rates),
+        }
+        step.begin(t + half, state, &self.rates);
+        step.take(f, half)?;
+        state.copy_from_slice(step.span().end);
+        f.model.normalize(state);
+        Ok(())
     }
 
     /// Closes a step that began at `t` and ended at `y`, after [`Watch::add_work`]. The last argument has the kinetic energy at its beginning and

@@ -130,3 +130,72 @@ fn a_bushing_without_dampers_keeps_the_energy() {
         );
     }
 }
+
+/// A body of 0.5 kg m² that begins to turn in a bushing at these rates.
+fn turned(rates: &str, laws: &str) -> Vec<String> {
+    let rest = format!(
+        "    start: {{ rates: {{ body: [{rates}] }} }}\nforces: [BUSHING]\noutputs: [{{ name: angle, of: bushing mount, what: angle, component: y }}]\n"
+    );
+    let run = on_a_bushing(3, laws, &rest);
+    run.doubts
+        .iter()
+        .map(|doubt| doubt.message.clone())
+        .collect()
+}
+
+#[test]
+fn a_bushing_through_its_singular_angle_says_so() {
+    // 3 rad/s for 1 s about y, with next to no law
+    for laws in [
+        "about: { x: { damping: 1e-3 } }",
+        "about: { y: { damping: 1e-3 } }",
+        "about: { z: { stiffness: 1e-3 } }",
+    ] {
+        for rates in ["0, 3, 0", "0, -3, 0"] {
+            let found = turned(rates, laws);
+            let said = found.iter().any(|said| {
+                said.contains("\"bushing mount\" is turned through ±90° about y")
+                    && said.contains("since t = ")
+            });
+            assert!(said, "{laws} {rates}: {found:?}");
+        }
+    }
+    // ½ J ω² < ½ k (π/2)²: it turns back before; or it turns about another axis, passes beside, or no law asks for an angle
+    let about_y = "about: { x: { damping: 1e-3 }, y: { stiffness: 3 } }";
+    for (rates, laws) in [
+        ("0, 3, 0", about_y),
+        (
+            "3, 0, 0",
+            "about: { x: { damping: 1e-3 }, z: { damping: 1e-3 } }",
+        ),
+        (
+            "0, 0, 3",
+            "about: { x: { damping: 1e-3 }, z: { damping: 1e-3 } }",
+        ),
+        ("0.6, 3, 0", "about: { x: { damping: 1e-3 } }"),
+        ("0, 3, 0", "along: { x: { stiffness: 5 } }"),
+    ] {
+        let found = turned(rates, laws);
+        assert!(found.is_empty(), "{laws} {rates}: {found:?}");
+    }
+}
+
+#[test]
+fn a_bushing_that_may_come_to_its_singular_angle_is_named() {
+    let warned = |about: &str| {
+        let bushing = format!(
+            "{{ bushing: mount, from: {{ on: frame, at: [0, 0, 0] }}, to: {{ on: one/body, at: [0, 0, 0] }}, about: {{ {about} }} }}"
+        );
+        let text = format!(
+            "model: mount\ndimension: 3\nsystems:\n  - name: one\n    elements: [{{ name: body, mass: 2, cg: [0, 0, 0], inertia: [1, 1, 1] }}]\nforces: [{bushing}]\nrun: {{ duration: 1 s, every: 1 s }}\n"
+        );
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("mount.yaml"), text).expect("a file");
+        let (stdout, stderr) = super::called::call(folder.path(), &["check", "mount.yaml"], 0);
+        (stdout + &stderr).contains("nothing ends the rotation about y")
+    };
+    assert!(warned("x: { stiffness: 1 }"));
+    assert!(warned("z: { damping: 1 }, y: { damping: 1 }"));
+    assert!(!warned("x: { stiffness: 1 }, y: { stiffness: 1 }"));
+    assert!(!warned("y: { damping: 1 }"));
+}

@@ -1,10 +1,16 @@
-//! Every number of every law at −1, 0, what is no number, and extremes, as a constant and as a parameter: what is refused of one is refused
-//! of the other, in the same words, and what is not refused gives finite results or says that it cannot.
+//! Every number of every law at −1, 0, what is no number, and extremes, as a constant and as a parameter, in single runs, in rows of a study and in
+//! gradients: what is refused of one is refused of the others, in the same words, and what is not refused gives finite results or says that it cannot.
 
 use super::{read, run, sound};
+use bryant::equations::Engine;
 use bryant::simulation::Recording;
+use bryant::sweep;
 use bryant_generator::model::Model;
+use bryant_runtime::batch::rows::{Asked, Job as RowsJob};
+use bryant_runtime::batch::{Pace, Settings, Status};
 use bryant_runtime::program::ErrorKind;
+use bryant_runtime::simulate::ENERGY_LIMIT;
+use bryant_runtime::{Response, Tolerances, Width};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -386,6 +392,94 @@ fn samples(recording: &Recording) -> Vec<Vec<f64>> {
     columns.map(|column| column.values.clone()).collect()
 }
 
+/// A study over the only parameter that asks for the last sample of each output.
+fn study(engine: &Engine) -> RowsJob {
+    let info = engine.info();
+    let settings = Settings {
+        duration: info.duration,
+        samples: 11,
+        pace: Pace::Adaptive(Tolerances::default()),
+        locate: false,
+        // what needs more says so
+        max_steps: 10_000,
+        time_limit: None,
+        energy_limit: ENERGY_LIMIT,
+    };
+    let outputs = 0..info.outputs.len();
+    RowsJob {
+        settings,
+        varied: vec![0],
+        fixed: Vec::new(),
+        responses: outputs.map(|of| Asked::of(of, Response::Final)).collect(),
+        estimate: false,
+        wanted: f64::INFINITY,
+        width: Width::widest(),
+    }
+}
+
+/// A row of a study at this value, between two rows at the default, and a gradient there: refused if and only if a single run is, in its words; what they
+/// have of a row that is done.
+fn in_rows(
+    engine: &Engine,
+    [default, number]: [f64; 2],
+    refused: Option<&str>,
+) -> Result<Option<Vec<f64>>, String> {
+    let job = study(engine);
+    let found = engine.rows(&job, &[default, number, default]);
+    let found = found.expect("registers");
+    let [before, row, after] = found.rows[..] else {
+        panic!("{found:?}")
+    };
+    let gradients = engine.gradients(&job, &[number], &[1.0]);
+    let slopes = gradients.expect("registers");
+    let expected = refused.is_some();
+    for (what, row) in [("row", row), ("gradient", slopes.rows[0])] {
+        if (row.status == Status::Refused) != expected {
+            return Err(format!(
+                "the {what} is {:?}, the run {refused:?}",
+                row.status
+            ));
+        }
+    }
+    let reason = sweep::refusal(engine, &job, &[number]);
+    if reason.as_deref().map(sentence) != refused.map(sentence) {
+        return Err(format!(
+            "the row is refused for {reason:?}, the run for {refused:?}"
+        ));
+    }
+    let outputs = job.responses.len();
+    let of = |row: usize| &found.responses[row * outputs..][..outputs];
+    let same = of(0)
+        .iter()
+        .zip(of(2))
+        .all(|(a, b)| a.to_bits() == b.to_bits());
+    if before.status != after.status || !same {
+        return Err("the rows beside it differ".into());
+    }
+    let all = slopes.values.iter().chain(&slopes.slopes);
+    let finite = |status, mut values: std::slice::Iter<'_, f64>| {
+        status != Status::Done || values.all(|x| x.is_finite())
+    };
+    if !finite(row.status, of(1).iter())
+        || slopes.rows[0].status == Status::Done && !all.clone().all(|x| x.is_finite())
+    {
+        return Err("the row or its gradient is done and not finite".into());
+    }
+    Ok((row.status == Status::Done).then(|| of(1).to_vec()))
+}
+
+/// The responses of a row that may be run again; `None` where it says that it is not accurate.
+fn accurate(engine: &Engine, number: f64) -> Option<Vec<f64>> {
+    let job = RowsJob {
+        estimate: true,
+        wanted: 1e-3,
+        ..study(engine)
+    };
+    let found = engine.rows(&job, &[number]).expect("registers");
+    let row = found.rows[0];
+    (row.status == Status::Done && row.error <= job.wanted).then_some(found.responses)
+}
+
 /// Everything about one number at one value.
 fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> {
     let constant = read(&text(scene, path, value, ""));
@@ -403,6 +497,11 @@ fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> 
         _ => None,
     };
     let fault = |what: String| Some(format!("{path} = {value}: {what}"));
+    let usual: f64 = default.parse().expect("a default is a number");
+    let row = match in_rows(&engine, [usual, number], refused.as_deref()) {
+        Ok(row) => row,
+        Err(what) => return fault(what),
+    };
     let finite = |recording: &Recording| {
         recording.result.is_err() || samples(recording).iter().flatten().all(|x| x.is_finite())
     };
@@ -445,6 +544,22 @@ fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> 
                 if most > 2e-2 * size {
                     return fault(format!("{most} apart of {size}"));
                 }
+            }
+            // the first column is the time
+            let columns = samples(&given);
+            let apart = |row: &[f64]| {
+                let pairs = columns.iter().skip(1).zip(row);
+                let shares = pairs.map(|(column, last)| {
+                    let size = column.iter().fold(1e-6, |m: f64, x| m.max(x.abs()));
+                    (column.last().expect("there are samples") - last).abs() / size
+                });
+                shares.fold(0.0, f64::max)
+            };
+            // one that is far off is run again in a study, or says that it is not accurate
+            let off = row.filter(|row| apart(row) > 2e-2);
+            let off = off.and_then(|_| accurate(&engine, number));
+            if let Some(off) = off.map(|row| apart(&row)).filter(|off| *off > 2e-2) {
+                return fault(format!("the row is off by {off} of the output"));
             }
             None
         }
@@ -506,6 +621,9 @@ fn infinite_parameters_are_refused() {
             for value in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
                 let error = run(&engine, &[("p", value)]).result.unwrap_err();
                 assert_eq!(error.kind, ErrorKind::Job, "{path}: {error:?}");
+                let usual = default.parse().expect("a default is a number");
+                let row = in_rows(&engine, [usual, value], Some(&error.message));
+                assert_eq!(row, Ok(None), "{path} = {value}");
             }
         }
     }
@@ -546,5 +664,30 @@ fn expressions_are_judged_by_their_value() {
         let error = run(&engine, &[parameter]).result.unwrap_err();
         assert_eq!(error.kind, ErrorKind::Job, "{path}: {error:?}");
         assert_eq!(sentence(&error.message), bad);
+    }
+}
+
+#[test]
+fn run_and_gradient_refuse_with_the_same_words() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let parameters = "parameters: { p: 5 }\n";
+    let scene = text(SCENES[0], "damping", "p", parameters);
+    std::fs::write(folder.path().join("scene.yaml"), scene).expect("a file");
+    let words = "`damping` of belt \"a\" must not be negative";
+    for command in [
+        &["run", "scene.yaml", "--no-files", "--set", "p=-1"][..],
+        &[
+            "gradient",
+            "scene.yaml",
+            "--of",
+            "peak of a",
+            "--wrt",
+            "p",
+            "--set",
+            "p=-1",
+        ],
+    ] {
+        let (stdout, stderr) = super::called::call(folder.path(), command, 2);
+        assert!(stdout.is_empty() && stderr.contains(words), "{stderr}");
     }
 }

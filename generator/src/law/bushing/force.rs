@@ -10,20 +10,25 @@
 //!
 //! M = −Σ (g_i(θ_i) + e_i θ̇_i) n_i,   θ̇_i = n_i · (ω₂ − ω₁)
 //!
-//! For small angles n_i are the axes. At θ₂ = ±90° the first and the third angle are not defined. In the plane there are d₁, d₃ and θ₂.
+//! For small angles n_i are the axes. At θ₂ = ±90° the first and the third angle are not defined: they leap by half a turn, and θ₂ turns back. A run that
+//! goes through that says so by the [bearing]. In the plane there are d₁, d₃ and θ₂, and nothing is singular.
 
 use super::check::{Bushing, Direction, Mount};
 use super::outputs::BushingMeasures;
-use crate::dynamics::force::{Acts, Loads, Product};
+use crate::dynamics::force::{Acts, Loads, Product, choose};
 use crate::dynamics::kinematics::constant_rotation;
 use crate::dynamics::numbers::{curve, number};
-use crate::expression::Expr;
+use crate::equations::NO_BEARING;
 use crate::expression::vector::{Mat3, Vec3};
+use crate::expression::{Expr, Graph};
 use crate::law::joint::force::bryant;
 use crate::law::{Equations, Measures, Setting};
 use crate::model::Dimension;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// cos² of the second angle at which the bearing begins to be looked at: 60°.
+const NEAR: f64 = 0.25;
 
 impl Equations for Bushing {
     fn apply<'g>(
@@ -34,7 +39,14 @@ impl Equations for Bushing {
         let curves = loads.curves_so_far();
         let (displacement, force) = push(self, setting, loads);
         let (angles, moment) = turn(self, setting, loads);
-        let Setting { graph, gate, .. } = setting;
+        let Setting {
+            graph, gate, name, ..
+        } = setting;
+        let turns = self.about.iter().any(|law| *law != Direction::default());
+        if turns && setting.model.dimension == Dimension::Space {
+            let frames = [&self.from, &self.to].map(|end| axes(setting, end));
+            loads.bearing(&format!("bushing {name}"), move || bearing(graph, frames));
+        }
         if gate.waits() {
             loads.curves_act(curves, gate.of(graph.constant(1.0)));
         }
@@ -102,6 +114,15 @@ fn turn<'g>(
     loads.turn(first, moment);
     loads.turn(second, -moment);
     (angles, moment)
+}
+
+/// The first angle \[rad\] where the second is beyond ±60°, elsewhere [`NO_BEARING`]. It leaps by half a turn where the second angle goes through ±90°.
+fn bearing<'g>(graph: &'g Graph, [inboard, outboard]: [Mat3<'g>; 2]) -> Expr<'g> {
+    let sine = inboard.column(0).dot(outboard.column(2));
+    let cosine_squared = graph.constant(1.0) - sine.squared();
+    let (angle, _) = bryant(graph, [&inboard, &outboard], 0);
+    let none = graph.constant(NO_BEARING);
+    choose(cosine_squared, graph.constant(NEAR), angle, none)
 }
 
 /// The axes of a frame in absolute axes.

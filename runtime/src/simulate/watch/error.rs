@@ -1,36 +1,32 @@
 //! How far fixed steps err, estimated along with them, the same for a single run and for a lane.
 //!
-//! Let u be the interpolant of a run. What a step leaves unexplained, its *defect*
+//! Beside the run u goes a second solution w, by the same method in steps half as long. It begins as the run did, and each of its pairs of steps covers
+//! one step of the run. Where the motion is smooth, a method of order p errs like the power p of the step, and
 //!
-//! d = u(t + h) − u(t) − ∫ f(s, u(s)) ds,
+//! e = (u − w) 2^p/(2^p − 1)
 //!
-//! is its own error, but for terms of the next order. Errors of earlier steps are carried on by the motion: from a solution w that began as
-//! the run did, a step ψ of the same method leads to
+//! is the error of the run, up to terms of the next order (Richardson's extrapolation of the whole run: E. Hairer, S. P. Nørsett & G. Wanner, *Solving
+//! ODEs I*, II.4 and II.8). Where it is not smooth, or the steps are long, w is still the better solution of both, and e is as large as the error. A motion
+//! that dies out in the run dies out in w, too. A step that is above the limit of stability is less so at half its length.
 //!
-//! w⁺ = ψ(w) − d
+//! The interpolant of the step takes no part in it. Of a method of order 5 or more it errs in the same power of the step as its end, so that the integral
+//! of the rates on it does not tell the error: on an oscillator that integral is the step of `tsit5` itself, but for rounding.
 //!
-//! and e = u − w is the error of the run (Zadunaisky's idea, as *solving for the correction*: R. D. Skeel, Thirteen ways to estimate global error, Numer.
-//! Math. 48, 1986). Where ψ is stable at u, it is so at w, and what dies out in the run dies out in its estimate.
-//!
-//! It takes the evaluations of a step once more, and three for the integral. Each switch, stop or turn of a hysteresis is taken at the time at which
-//! the run met it.
+//! It takes the evaluations of two steps. Each switch, stop or turn of a hysteresis is taken at the time at which the run met it.
 
 use super::account::Gap;
 use crate::integrate::control::Tolerances;
 use crate::{Info, StateKind};
 
-/// Places in a step, and their weights, at which rates are summed up: Gauss's rule of three points, exact for a polynomial of degree 5. It errs by
-/// (h λ)⁷/2 016 000 of a motion e^(λt), less than a step of any method here but `dop853`.
-pub(crate) const GAUSS: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_31, 5.0 / 18.0),
-    (0.5, 8.0 / 18.0),
-    (0.887_298_334_620_741_7, 5.0 / 18.0),
-];
-
 /// How far an entry of the state may be off, over the share of energy that may be missing: 5 % where that is 2 %. That is half of what the check of a
-/// run with a step of one's own lets pass, so that an estimate that is right within a factor of two, as of the methods up to order 4, tells whatever is
-/// beyond.
+/// run with a step of one's own lets pass, so that an estimate that is right within a factor of two tells whatever is beyond.
 const OFF: f64 = 2.5;
+
+/// What the error of a method of this order is over the difference of its results in steps of some length and of half of it: 2^p/(2^p − 1).
+pub(crate) fn over_halves(order: u32) -> f64 {
+    let power = f64::from(1_u32 << order);
+    power / (power - 1.0)
+}
 
 /// An entry of the state at the end of a step.
 #[derive(Clone, Copy, Debug)]
