@@ -8,7 +8,7 @@ use crate::simulate::{Diagnostic, OutOfRange, Watch};
 pub struct Finding {
     /// Time since which it holds \[s\].
     pub since: f64,
-    /// "step", "curve", "energy", "momentum" or "singular".
+    /// A word for programs: that of [`Diagnostic::kind`], or "singular".
     pub kind: String,
     /// Its size: the step over the largest stable one, the argument of a curve, or the missing share.
     pub amount: f64,
