@@ -69,7 +69,7 @@ impl Notation {
             Function::CurveInverse(i) => curve(i, "_inverse"),
             Function::CurveIntegral(i) => curve(i, "_integral"),
             Function::CurveDoubleIntegral(i) => curve(i, "_double_integral"),
-            Function::CurveZigzag(i) => curve(i, "_zigzag"),
+            Function::CurveBreakpoints(i) => curve(i, "_breakpoint_indicator"),
             Function::CurveStop(i) => curve(i, "_stop"),
             Function::User(call) => {
                 let results = self.users.get(usize::from(call.force));

@@ -47,7 +47,7 @@ impl Library {
     /// needs.
     #[inline(never)]
     pub fn call<T: Real>(&self, function: Function, arguments: &[T], results: &mut [T]) {
-        T::enable(Call {
+        T::dispatch(Call {
             library: self,
             function,
             arguments,
@@ -65,7 +65,7 @@ impl Library {
             Function::CurveInverse(index) => curve(index).inverse(a[0]),
             Function::CurveIntegral(index) => curve(index).integral(a[0]),
             Function::CurveDoubleIntegral(index) => curve(index).double_integral(a[0]),
-            Function::CurveZigzag(index) => curve(index).zigzag(a[0]),
+            Function::CurveBreakpoints(index) => curve(index).breakpoint_indicator(a[0]),
             Function::CurveStop(index) => curve(index).stop(a[0], a[1]),
             Function::Coulomb => friction::coulomb(a[0], a[1], a[2]),
             Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),

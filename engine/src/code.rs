@@ -210,7 +210,7 @@ impl<T: Real> Task for Atan2<T> {
 extern "sysv64" fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
     // SAFETY: code passes one argument and room for two results.
     unsafe {
-        let (sine, cosine) = T::enable(SinCos(*arguments));
+        let (sine, cosine) = T::dispatch(SinCos(*arguments));
         *results = sine;
         *results.add(1) = cosine;
     }
@@ -218,7 +218,7 @@ extern "sysv64" fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, resul
 
 extern "sysv64" fn atan2<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
     // SAFETY: code passes two arguments and room for one result.
-    unsafe { *results = T::enable(Atan2(*arguments, *arguments.add(1))) };
+    unsafe { *results = T::dispatch(Atan2(*arguments, *arguments.add(1))) };
 }
 
 extern "sysv64" fn any<T: Real, C: Call<T>>(

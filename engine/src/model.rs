@@ -440,7 +440,7 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
 
     fn normalize(&self, y: &mut [T]) {
         for range in &self.machine().shared.lists.quaternions {
-            T::enable(Normalize(&mut y[range.clone()]));
+            T::dispatch(Normalize(&mut y[range.clone()]));
         }
     }
 
@@ -540,7 +540,7 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
         let stretched = &self.machine().shared.lists.stretched;
         let rates = &mut results[..stretched.len()];
         self.machine().of_parameters(Method::KinkRates, rates);
-        T::enable(KinkAfter {
+        T::dispatch(KinkAfter {
             library: &self.machine().shared.library,
             stretched,
             rates,

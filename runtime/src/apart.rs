@@ -113,7 +113,7 @@ unsafe extern "C" fn call<F: Adapter<A, R>, T: Real, const A: usize, const R: us
         )
     };
     caught(|| {
-        T::enable(Evaluation::<F, T, A, R> {
+        T::dispatch(Evaluation::<F, T, A, R> {
             arguments,
             results,
             of: PhantomData,

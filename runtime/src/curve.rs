@@ -6,13 +6,13 @@
 //! Slopes and coefficients are doubles, whatever the scalar. So a scalar of more digits evaluates the same function as `f64`, only with less
 //! rounding on the way. At a point that function may jump by a few ε of its ordinates.
 
+mod breakpoint_indicator;
 mod cubic;
 mod kink;
 mod lines;
 mod stop;
 #[cfg(feature = "std")]
 mod table;
-mod zigzag;
 
 pub use cubic::Cubic;
 #[cfg(feature = "std")]
@@ -140,8 +140,8 @@ impl<const N: usize> Curve<N> {
     /// The breakpoint indicator: a function whose sign changes where the curve is not smooth. Its slope is ±1 and its magnitude is the
     /// distance to the nearest such point; it is 1 where there is none. NaN only where `x` is NaN.
     #[inline(always)]
-    pub fn zigzag<T: Real>(&self, x: T) -> T {
-        zigzag::zigzag(self.lines().kinks, x)
+    pub fn breakpoint_indicator<T: Real>(&self, x: T) -> T {
+        breakpoint_indicator::breakpoint_indicator(self.lines().kinks, x)
     }
 
     /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this time, each with its own

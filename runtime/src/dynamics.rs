@@ -225,7 +225,7 @@ impl Info {
 /// costs 5 % with 18 entries. With a hundred entries, returning it as a whole is 2 % slower than entry by entry.
 const SHORT: usize = 32;
 
-/// A function of a model, compiled for the instructions that its scalar needs ([`Real::enable`]).
+/// A function of a model, compiled for the instructions that its scalar needs ([`Real::dispatch`]).
 macro_rules! enabled {
     ($($task:ident { $($field:ident: $type:ty),* } -> $output:ty, |$model:ident| $body:expr;)*) => {
         $(
@@ -357,7 +357,7 @@ macro_rules! stepping {
         }
 
         fn initial_state(&self, y: &mut [T]) {
-            T::enable(InitialState {
+            T::dispatch(InitialState {
                 model: self.model(),
                 of: PhantomData,
                 y,
@@ -365,7 +365,7 @@ macro_rules! stepping {
         }
 
         fn derivative(&self, t: T, y: &[T], rate: &mut [T]) {
-            T::enable(Derivative {
+            T::dispatch(Derivative {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -375,7 +375,7 @@ macro_rules! stepping {
         }
 
         fn coordinate_rates(&self, y: &[T], rate: &mut [T]) {
-            T::enable(CoordinateRates {
+            T::dispatch(CoordinateRates {
                 model: self.model(),
                 of: PhantomData,
                 y,
@@ -384,7 +384,7 @@ macro_rules! stepping {
         }
 
         fn outputs(&self, t: T, y: &[T], out: &mut [T]) {
-            T::enable(Outputs {
+            T::dispatch(Outputs {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -394,7 +394,7 @@ macro_rules! stepping {
         }
 
         fn normalize(&self, y: &mut [T]) {
-            T::enable(Normalize {
+            T::dispatch(Normalize {
                 model: self.model(),
                 of: PhantomData,
                 y,
@@ -402,7 +402,7 @@ macro_rules! stepping {
         }
 
         fn renew(&self, t: T, y: &mut [T]) {
-            T::enable(Renew {
+            T::dispatch(Renew {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -411,7 +411,7 @@ macro_rules! stepping {
         }
 
         fn event_functions(&self, t: T, y: &[T], out: &mut [T]) {
-            T::enable(EventFunctions {
+            T::dispatch(EventFunctions {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -421,7 +421,7 @@ macro_rules! stepping {
         }
 
         fn kinks(&self, t: T, y: &[T], out: &mut [T]) {
-            T::enable(Kinks {
+            T::dispatch(Kinks {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -431,7 +431,7 @@ macro_rules! stepping {
         }
 
         fn onsets(&self, t: T, y: &[T], out: &mut [T]) {
-            T::enable(Onsets {
+            T::dispatch(Onsets {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -445,7 +445,7 @@ macro_rules! stepping {
         }
 
         fn kink_after(&self, t: f64) -> T {
-            T::enable(KinkAfter {
+            T::dispatch(KinkAfter {
                 model: self.model(),
                 of: PhantomData,
                 t,
@@ -458,7 +458,7 @@ macro_rules! stepping {
 macro_rules! accounts {
     () => {
         fn kinetic_energy(&self, t: T, y: &[T]) -> T {
-            T::enable(KineticEnergy {
+            T::dispatch(KineticEnergy {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -467,7 +467,7 @@ macro_rules! accounts {
         }
 
         fn powers(&self, t: T, y: &[T], out: &mut [T]) {
-            T::enable(Powers {
+            T::dispatch(Powers {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -477,7 +477,7 @@ macro_rules! accounts {
         }
 
         fn momentum(&self, t: T, y: &[T]) -> [T; 6] {
-            T::enable(Momentum {
+            T::dispatch(Momentum {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -486,7 +486,7 @@ macro_rules! accounts {
         }
 
         fn external_wrench(&self, t: T, y: &[T]) -> [T; 6] {
-            T::enable(ExternalWrench {
+            T::dispatch(ExternalWrench {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -508,7 +508,7 @@ macro_rules! dynamics {
             }
 
             fn curves(&self, t: T, y: &[T], out: &mut [T]) {
-                T::enable(Curves {
+                T::dispatch(Curves {
                     model: self.model(),
                     of: PhantomData,
                     t: &t,
@@ -518,7 +518,7 @@ macro_rules! dynamics {
             }
 
             fn smallest_pivot(&self, t: T, y: &[T]) -> Option<(usize, T)> {
-                T::enable(SmallestPivot {
+                T::dispatch(SmallestPivot {
                     model: self.model(),
                     of: PhantomData,
                     t: &t,
@@ -565,7 +565,7 @@ pub fn made_differentiable<T: Real, M: Model<T> + 'static>() -> std::boxed::Box<
 #[cfg(feature = "std")]
 fn with_defaults<T: Real, M: Model<T>>() -> M {
     let parameters = M::Parameters::defaults();
-    T::enable(Made::<T, M> { parameters })
+    T::dispatch(Made::<T, M> { parameters })
 }
 
 fn set_parameters<T: Real, M: Model<T>>(model: &mut M, values: &[T]) {
@@ -573,7 +573,7 @@ fn set_parameters<T: Real, M: Model<T>>(model: &mut M, values: &[T]) {
     for (index, value) in values.iter().enumerate() {
         parameters.set(index, *value);
     }
-    *model = T::enable(Made::<T, M> { parameters });
+    *model = T::dispatch(Made::<T, M> { parameters });
 }
 
 /// [`Dynamics::jacobian`] column by column: one evaluation over dual numbers for each entry that varies, and one for the time.
@@ -666,7 +666,7 @@ impl<T: Real, M: Model<T>> Dynamics<T> for Batched<M> {
 
     fn curves(&self, t: T, y: &[T], out: &mut [T]) {
         if const { !M::INFO.curves.is_empty() } {
-            T::enable(Curves {
+            T::dispatch(Curves {
                 model: self.model(),
                 of: PhantomData,
                 t: &t,
@@ -705,7 +705,7 @@ impl<T: Real, M: Model<T>> Schedule<T> for Scheduled<M> {
     }
 
     fn kink_after(&self, t: f64) -> T {
-        T::enable(KinkAfter {
+        T::dispatch(KinkAfter {
             model: &self.0,
             of: PhantomData,
             t,

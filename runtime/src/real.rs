@@ -79,13 +79,13 @@ pub trait Real:
     /// calls unless they are inlined into a function that is compiled for them. So each evaluation of a model is a task, and all of it is
     /// inlined. Every other scalar just runs the task.
     #[inline(always)]
-    fn enable<W: Task>(task: W) -> W::Output {
+    fn dispatch<W: Task>(task: W) -> W::Output {
         task.run()
     }
-    /// [`Real::enable`] in a function of its own, for a part of a task that is too long to be compiled as one.
+    /// [`Real::dispatch`] in a function of its own, for a part of a task that is too long to be compiled as one.
     #[inline(never)]
-    fn enable_apart<W: Task>(task: W) -> W::Output {
-        Self::enable(task)
+    fn dispatch_apart<W: Task>(task: W) -> W::Output {
+        Self::dispatch(task)
     }
     /// Runs the time loop over this scalar to its end, or until it is stopped. For `f64` the time loop is compiled with this crate, and
     /// crates that use it only call it.
@@ -218,7 +218,7 @@ pub trait Real:
     }
 }
 
-/// Work that uses the instructions of a scalar: [`Real::enable`]. It is no closure, because a closure cannot be marked to be inlined.
+/// Work that uses the instructions of a scalar: [`Real::dispatch`]. It is no closure, because a closure cannot be marked to be inlined.
 pub trait Task {
     /// Its result.
     type Output;

@@ -38,7 +38,7 @@ files! {
     "curve/lines.rs",
     "curve/stop.rs",
     "curve/table.rs",
-    "curve/zigzag.rs",
+    "curve/breakpoint_indicator.rs",
     "dynamics.rs",
     "equations.rs",
     "failure.rs",

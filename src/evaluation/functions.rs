@@ -27,7 +27,7 @@ pub fn functions_with<'a>(
         Function::CurveInverse(index) => curve(index).inverse(a[0]),
         Function::CurveIntegral(index) => curve(index).integral(a[0]),
         Function::CurveDoubleIntegral(index) => curve(index).double_integral(a[0]),
-        Function::CurveZigzag(index) => curve(index).zigzag(a[0]),
+        Function::CurveBreakpoints(index) => curve(index).breakpoint_indicator(a[0]),
         Function::CurveStop(index) => stop(curve(index), a[0], a[1]),
         Function::Coulomb => friction::coulomb(a[0], a[1], a[2]),
         Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),

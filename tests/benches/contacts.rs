@@ -91,7 +91,7 @@ impl<T: Real> Task for All<'_, T> {
 /// The same in a separate function.
 #[inline(never)]
 fn all<T: Real>(calls: &[[T; 8]], what: What) -> T {
-    T::enable(All(calls, what))
+    T::dispatch(All(calls, what))
 }
 
 struct OfWidth<'a>(&'a str, &'a [[f64; 8]], What);

@@ -174,8 +174,16 @@ fn the_kinks_of_a_curve_are_the_same_to_the_interpreter() {
         let edged = Curve::new(points, extrapolate);
         for i in -20..=60 {
             let x = f64::from(i) / 10.0;
-            assert_eq!(edged.zigzag(x), lines.zigzag(x), "{points:?} at {x}");
-            assert_eq!(smooth.zigzag(x), cubics.zigzag(x), "{points:?} at {x}");
+            assert_eq!(
+                edged.breakpoint_indicator(x),
+                lines.breakpoint_indicator(x),
+                "{points:?} at {x}"
+            );
+            assert_eq!(
+                smooth.breakpoint_indicator(x),
+                cubics.breakpoint_indicator(x),
+                "{points:?} at {x}"
+            );
         }
         // points where the slope of the lines changes
         for (k, point) in points.iter().enumerate().skip(1).take(4) {

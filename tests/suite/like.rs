@@ -87,7 +87,7 @@ fn bits<T: Several<One = f64>, S: Scene>() -> Vec<Vec<u64>> {
             y[i] += T::from_f64(random.uniform(-0.5, 0.5));
         }
         model.0.normalize(&mut y);
-        let values = T::enable(Everything {
+        let values = T::dispatch(Everything {
             model: &model,
             y: &y,
         });
@@ -124,7 +124,7 @@ fn like_elements_share_functions_and_nothing_changes() {
 fn shared(text: &str, method: &str, type_of_task: &str) -> (usize, usize) {
     let functions = text.matches(&format!("    fn {method}_like_")).count();
     let calls = text
-        .matches(&format!("T::enable_apart({type_of_task}LikeTask"))
+        .matches(&format!("T::dispatch_apart({type_of_task}LikeTask"))
         .count();
     (functions, calls)
 }

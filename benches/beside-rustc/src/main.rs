@@ -117,7 +117,7 @@ fn times<C: Compiled, T: Real>(engine: &Engine) -> [f64; 2] {
     for _ in 0..ROUNDS {
         took[0].push(measured(|| {
             let (y, rate) = (black_box(&y), &mut by_rustc);
-            T::enable_apart(Derivative {
+            T::dispatch_apart(Derivative {
                 model: &model,
                 y,
                 rate,

@@ -179,7 +179,7 @@ impl<T: Real> Execute<T> for Interpreter<T> {
         frame[layout.before as usize..][..given.before.len()].copy_from_slice(given.before);
         match program {
             Program::Runs(code) => {
-                T::enable(Runs {
+                T::dispatch(Runs {
                     code,
                     library,
                     frame: Frame::new(frame, arguments, code),
@@ -189,7 +189,7 @@ impl<T: Real> Execute<T> for Interpreter<T> {
                 }
             }
             Program::Plain(code) => {
-                T::enable(plain::Steps {
+                T::dispatch(plain::Steps {
                     code,
                     library,
                     frame,

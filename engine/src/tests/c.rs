@@ -97,7 +97,7 @@ fn functions() -> Vec<Callee> {
             Function::CurveInverse(curve),
             Function::CurveIntegral(curve),
             Function::CurveDoubleIntegral(curve),
-            Function::CurveZigzag(curve),
+            Function::CurveBreakpoints(curve),
             Function::CurveStop(curve),
         ]);
     }

@@ -119,7 +119,9 @@ pub fn called<T: Real>(callee: Callee, arguments: &[T]) -> Vec<T> {
         Callee::Function(Function::Choose) => vec![switch::choose(a[0], a[1], a[2], a[3])],
         Callee::Function(Function::Curve(index)) => vec![table(index).value(a[0])],
         Callee::Function(Function::CurveSlope(index)) => vec![table(index).slope(a[0])],
-        Callee::Function(Function::CurveZigzag(index)) => vec![table(index).zigzag(a[0])],
+        Callee::Function(Function::CurveBreakpoints(index)) => {
+            vec![table(index).breakpoint_indicator(a[0])]
+        }
         Callee::Function(Function::Approach(call)) if call.early => {
             let mut found = vec![a[0]; callee.results()];
             crate::call::approach(call, a, &mut found);

@@ -144,7 +144,7 @@ fn call(random: &mut Random, list: &mut List, mix: Mix) -> Operation {
         3 => return Operation::Atan2(a, b),
         4..8 => Function::Curve(curve),
         8..10 => Function::CurveSlope(curve),
-        10 => Function::CurveZigzag(curve),
+        10 => Function::CurveBreakpoints(curve),
         11 => Function::Coulomb,
         12 => Function::CoulombScale,
         13 => Function::ContactNormalForce,

@@ -8,7 +8,7 @@
 //!
 //! Systems with other joints get r_k from the [power of wrenches](super::spatial).
 
-use super::force::Loads;
+use super::force::AppliedForces;
 use super::kinematics::{path, reference_acceleration};
 use super::spatial::{self, Spatial};
 use crate::expression::Expr;
@@ -17,22 +17,22 @@ use crate::model::ElementId;
 /// r_k, by row.
 pub fn applied_forces<'g>(
     systems: &[Spatial<'g, '_>],
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
     zero: Expr<'g>,
     size: usize,
 ) -> Vec<Expr<'g>> {
     let mut forces = vec![zero; size];
     for spatial in systems {
         match spatial.has_balls_alone() {
-            true => of_balls(spatial, loads, &mut forces),
-            false => spatial::applied_forces(spatial, loads, &mut forces),
+            true => of_balls(spatial, applied, &mut forces),
+            false => spatial::applied_forces(spatial, applied, &mut forces),
         }
     }
     forces
 }
 
 /// Sets the rows of a system whose joints are all balls.
-fn of_balls<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: &mut [Expr<'g>]) {
+fn of_balls<'g>(spatial: &Spatial<'g, '_>, applied: &AppliedForces<'g>, forces: &mut [Expr<'g>]) {
     let Spatial {
         graph,
         model,
@@ -42,8 +42,8 @@ fn of_balls<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: &mut [Expr
         tree,
     } = *spatial;
     let system = spatial.of_system();
-    let field = loads.wrenches.fields[s] - reference_acceleration(graph, system, motion);
-    let mut outboard: Vec<_> = loads.wrenches.elements[s]
+    let field = applied.wrenches.fields[s] - reference_acceleration(graph, system, motion);
+    let mut outboard: Vec<_> = applied.wrenches.elements[s]
         .iter()
         .map(|load| load.force)
         .collect();
@@ -54,7 +54,7 @@ fn of_balls<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: &mut [Expr
         };
         graph.section(format!("r_k[{}]", path(model, id)));
         let mut moment =
-            loads.wrenches.elements[s][k].moment + tree.bodies[k].first_moment.cross(field);
+            applied.wrenches.elements[s][k].moment + tree.bodies[k].first_moment.cross(field);
         for &c in &tree.children[k] {
             moment = moment + motion.systems[s][c].offset.cross(outboard[c]);
             outboard[k] = outboard[k] + outboard[c];

@@ -44,7 +44,7 @@ fn turning_power<'g>(
 pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
     let graph = scene.graph;
     let mut powers: Vec<(String, Expr<'g>)> = Vec::new();
-    for work in &scene.loads.works {
+    for work in &scene.applied.works {
         graph.section(format!("power of {}", work.name));
         let power = sum(
             graph,
@@ -76,9 +76,9 @@ pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
             };
             let motion = scene.motion.element(id);
             let offset = motion.rotation.times(vector(graph, &element.cg));
-            let acceleration = scene.acceleration(id, offset) - scene.loads.wrenches.fields[s];
+            let acceleration = scene.acceleration(id, offset) - scene.applied.wrenches.fields[s];
             let force = number(graph, &element.mass) * acceleration;
-            reaction = reaction + force - scene.loads.wrenches.elements[s][k].force;
+            reaction = reaction + force - scene.applied.wrenches.elements[s][k].force;
         }
         let mut power = reaction.dot(scene.motion.references[s]);
         if let Reference::Riding { vehicle, .. } = system.reference {
@@ -90,7 +90,7 @@ pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
         .model
         .vehicles
         .iter()
-        .zip(&scene.loads.wrenches.vehicles);
+        .zip(&scene.applied.wrenches.vehicles);
     for ((vehicle, load), motion) in vehicles.zip(&scene.motion.vehicles) {
         let name = format!("vehicle {}: prescribed motion", vehicle.name);
         graph.section(format!("power of {name}"));

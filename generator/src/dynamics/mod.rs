@@ -56,7 +56,7 @@ use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
 use crate::model::{Model, System};
 use augmented::{AugmentedTree, Omitted};
-use force::Loads;
+use force::AppliedForces;
 use kinematics::{Motion, State};
 use layout::Layout;
 use outputs::Scene;
@@ -174,7 +174,7 @@ fn in_graph(
         omitted.omit(&mut trees);
     }
     let charts = chart::memory(model, &layout, &started, &state);
-    let mut loads = force::loads(graph, model, &motion, &start, charts);
+    let mut applied = force::applied_forces(graph, model, &motion, &start, charts);
 
     let zero = graph.constant(0.0).id();
     let of_system = |(system, tree)| Spatial {
@@ -187,11 +187,11 @@ fn in_graph(
     };
     let systems: Vec<Spatial<'_, '_>> = trees.iter().enumerate().map(of_system).collect();
     let matrices = match options.matrices || route == Route::MassMatrix {
-        true => Matrices::of(graph, &layout, &systems, &loads),
+        true => Matrices::of(graph, &layout, &systems, &applied),
         false => Matrices::default(),
     };
     let pivots = pivots(graph, model, &layout, &systems, &matrices.mass);
-    let accelerations = accelerations(graph, &layout, route, &systems, &loads, &matrices);
+    let accelerations = accelerations(graph, &layout, route, &systems, &applied, &matrices);
     let rates = layout.coordinate_rates(graph, model, &state);
     let scene = Scene {
         graph,
@@ -199,7 +199,7 @@ fn in_graph(
         layout: &layout,
         motion: &motion,
         start: &start,
-        loads: &loads,
+        applied: &applied,
         accelerations: &accelerations,
     };
     let outputs = outputs::outputs(&scene);
@@ -208,19 +208,19 @@ fn in_graph(
     let momentum = momentum::momentum(&scene);
     let external_wrench = momentum::external_wrench(&scene);
     let triggers = scene.triggers();
-    force::switch::complete(graph, model, &mut loads, &triggers);
-    let kinks = loads.kinks(graph);
-    let onsets = loads.onsets(graph);
-    let curves = loads.curves(graph);
+    force::switch::complete(graph, model, &mut applied, &triggers);
+    let kinks = applied.kinks(graph);
+    let onsets = applied.onsets(graph);
+    let curves = applied.curves(graph);
     let conditions = conditions::of(graph, model, &start);
     let renewed = chart::renewed(graph, model, &layout, &motion, &state);
-    for (memory, chart) in loads.states.memory.iter_mut().zip(&renewed.charts) {
+    for (memory, chart) in applied.states.memory.iter_mut().zip(&renewed.charts) {
         memory.next = *chart;
     }
 
     let mut needed = [&accelerations[..], &outputs, &matrices.applied_forces].concat();
     needed.extend(powers.iter().map(|(_, power)| *power));
-    needed.extend(loads.states.auxiliaries.iter().map(|state| state.next));
+    needed.extend(applied.states.auxiliaries.iter().map(|state| state.next));
     Equations {
         initial_coordinates: ids(&started.q),
         initial_velocities: ids(&started.v),
@@ -232,12 +232,12 @@ fn in_graph(
         applied_forces: ids(&matrices.applied_forces),
         accelerations: ids(&accelerations),
         route,
-        auxiliaries: states(&loads.states.auxiliaries),
-        memory: states(&loads.states.memory),
+        auxiliaries: states(&applied.states.auxiliaries),
+        memory: states(&applied.states.memory),
         charts: layout.charts(),
         renewed_coordinates: ids(&renewed.q),
         renewed_velocities: ids(&renewed.v),
-        event_functions: named(&loads.events.event_functions),
+        event_functions: named(&applied.events.event_functions),
         kinks: named(&kinks),
         corners: onsets[1].len(),
         onsets: (onsets.iter().flatten())
@@ -279,20 +279,20 @@ impl<'g> Matrices<'g> {
         graph: &'g Graph,
         layout: &Layout,
         systems: &[Spatial<'g, '_>],
-        loads: &Loads<'g>,
+        applied: &AppliedForces<'g>,
     ) -> Self {
         let (none, size) = (graph.constant(0.0), layout.velocities.len());
         let mut matrices = Matrices {
             mass: mass_matrix::mass_matrix(systems, size),
             velocity_forces: bias_forces::velocity_forces(systems, none, size),
-            applied_forces: applied_forces::applied_forces(systems, loads, none, size),
+            applied_forces: applied_forces::applied_forces(systems, applied, none, size),
         };
         for spatial in with_axes(systems) {
             let forces = [
                 &mut matrices.velocity_forces[..],
                 &mut matrices.applied_forces[..],
             ];
-            link::cheaper_matrices(spatial, loads, &mut matrices.mass, forces);
+            link::cheaper_matrices(spatial, applied, &mut matrices.mass, forces);
         }
         matrices
     }
@@ -332,12 +332,12 @@ fn accelerations<'g>(
     layout: &Layout,
     route: Route,
     systems: &[Spatial<'g, '_>],
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
     matrices: &Matrices<'g>,
 ) -> Vec<Expr<'g>> {
     let (none, size) = (graph.constant(0.0), layout.velocities.len());
     if route == Route::Elimination {
-        return elimination::accelerations(systems, loads, none, size);
+        return elimination::accelerations(systems, applied, none, size);
     }
     let mut accelerations = factorization::accelerations(
         graph,
@@ -347,7 +347,7 @@ fn accelerations<'g>(
         &matrices.applied_forces,
     );
     for spatial in with_axes(systems) {
-        link::cheaper_accelerations(spatial, loads, &mut accelerations);
+        link::cheaper_accelerations(spatial, applied, &mut accelerations);
     }
     accelerations
 }

@@ -53,14 +53,14 @@ pub fn external_wrench<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
     let (mut force, mut moment) = (Vec3::zero(graph), Vec3::zero(graph));
     for s in free {
         // laws act by their resultants at the joints; a field of the whole system acts on all centres of gravity at once
-        let field = scene.loads.wrenches.fields[s];
+        let field = scene.applied.wrenches.fields[s];
         let (mut mass, mut first_moment) = (graph.constant(0.0), Vec3::zero(graph));
         for (k, element) in scene.model.systems[s].elements.iter().enumerate() {
             let motion = scene.motion.element(ElementId {
                 system: s,
                 element: k,
             });
-            let load = &scene.loads.wrenches.elements[s][k];
+            let load = &scene.applied.wrenches.elements[s][k];
             force = force + load.force;
             moment = moment + load.moment + motion.position.cross(load.force);
             let own = number(graph, &element.mass);

@@ -53,8 +53,12 @@ pub fn derivative<'g>(
 }
 
 /// The breakpoint indicator of a scaled curve at an argument: its sign changes where the curve is not smooth.
-pub fn zigzag<'g>(graph: &'g Graph, curve: &ScaledCurve, argument: Expr<'g>) -> Expr<'g> {
-    let function = Function::CurveZigzag(curve.curve as u32);
+pub fn breakpoint_indicator<'g>(
+    graph: &'g Graph,
+    curve: &ScaledCurve,
+    argument: Expr<'g>,
+) -> Expr<'g> {
+    let function = Function::CurveBreakpoints(curve.curve as u32);
     graph.call(function, &[argument * rate(graph, curve)])
 }
 

@@ -14,7 +14,7 @@
 //! Σ (r × (m a − m g − F) + I α + ω × I ω − M), with r from the element's origin.
 
 use super::augmented::{own_inertia, rotated};
-use super::force::Loads;
+use super::force::AppliedForces;
 use super::kinematics::{ElementMotion, Motion, reference_acceleration};
 use super::layout::{Layout, Orientation};
 use super::numbers::{number, vector};
@@ -52,7 +52,7 @@ pub struct Scene<'g, 'a> {
     /// The motion at the start of a run.
     pub start: &'a Motion<'g>,
     /// The applied forces.
-    pub loads: &'a Loads<'g>,
+    pub applied: &'a AppliedForces<'g>,
     /// v̇
     pub accelerations: &'a [Expr<'g>],
 }
@@ -120,12 +120,12 @@ impl<'g> Scene<'g, '_> {
                 on_second,
                 projection,
             } => {
-                let on = self.loads.measures[*force].on();
+                let on = self.applied.measures[*force].on();
                 let on_first = on.first().copied();
                 let on_first = on_first.unwrap_or_else(|| Vec3::zero(self.graph));
                 self.of(*projection, if *on_second { -on_first } else { on_first })
             }
-            Quantity::OfForce { force, what } => match self.loads.measures[*force].value(what) {
+            Quantity::OfForce { force, what } => match self.applied.measures[*force].value(what) {
                 Some(Value::Scalar(value)) => value,
                 Some(Value::Along(projection, vector)) => self.of(projection, vector),
                 None => zero,
@@ -135,7 +135,7 @@ impl<'g> Scene<'g, '_> {
                 points,
                 projection,
             } => {
-                let on = self.loads.measures[*force].on();
+                let on = self.applied.measures[*force].on();
                 let on = points.iter().filter_map(|&point| on.get(point).copied());
                 let on = on.reduce(|sum, force| sum + force);
                 let on = on.unwrap_or_else(|| Vec3::zero(self.graph));
@@ -144,7 +144,7 @@ impl<'g> Scene<'g, '_> {
             Quantity::Switch { switch, what } => {
                 let (one, switch) = (
                     self.graph.constant(1.0),
-                    self.loads.states.switches[*switch],
+                    self.applied.states.switches[*switch],
                 );
                 match what {
                     SwitchQuantity::Acts => switch.once(one, zero),
@@ -285,8 +285,8 @@ impl<'g> Scene<'g, '_> {
 
     /// The sum of all fields that act on an element.
     fn fields(&self, id: ElementId) -> Vec3<'g> {
-        self.loads.wrenches.fields[id.system]
-            + self.loads.wrenches.partial_fields[id.system][id.element]
+        self.applied.wrenches.fields[id.system]
+            + self.applied.wrenches.partial_fields[id.system][id.element]
     }
 
     /// The force on an element from its carrier.
@@ -312,9 +312,9 @@ impl<'g> Scene<'g, '_> {
     /// m a − m g − F of an element: the force that its joints must provide.
     fn needed(&self, id: ElementId) -> Vec3<'g> {
         let element = &self.model.systems[id.system].elements[id.element];
-        // the loads contain the fields that do not act on the whole system
-        let free = self.acceleration(id, self.center(id)) - self.loads.wrenches.fields[id.system];
-        let load = self.loads.wrenches.elements[id.system][id.element].force;
+        // the applied forces contain the fields that do not act on the whole system
+        let free = self.acceleration(id, self.center(id)) - self.applied.wrenches.fields[id.system];
+        let load = self.applied.wrenches.elements[id.system][id.element].force;
         number(self.graph, &element.mass) * free - load
     }
 
@@ -327,7 +327,7 @@ impl<'g> Scene<'g, '_> {
 
     /// The moment on an element from its carrier, about its origin.
     pub fn joint_moment(&self, carried: ElementId) -> Vec3<'g> {
-        let moments = &self.loads.wrenches.in_joints[carried.system][carried.element];
+        let moments = &self.applied.wrenches.in_joints[carried.system][carried.element];
         let none = Vec3::zero(self.graph);
         let mut sum = moments.iter().fold(none, |sum, moment| sum + *moment);
         if !self.motion.element(carried).turns_with_carrier {
@@ -339,9 +339,9 @@ impl<'g> Scene<'g, '_> {
             let element = &self.model.systems[id.system].elements[id.element];
             let own = own_inertia(self.graph, self.model.dimension, element);
             let inertia = rotated(self.graph, &motion.rotation, &own);
-            let load = &self.loads.wrenches.elements[id.system][id.element];
+            let load = &self.applied.wrenches.elements[id.system][id.element];
             let free =
-                self.acceleration(id, self.center(id)) - self.loads.wrenches.fields[id.system];
+                self.acceleration(id, self.center(id)) - self.applied.wrenches.fields[id.system];
             let inertial = number(self.graph, &element.mass) * free;
             let arm = motion.position - origin;
             sum = sum

@@ -123,12 +123,12 @@ fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) 
         forces: vec![force.clone()],
         ..model.clone()
     };
-    let loads = force::loads(graph, &alone, motion, motion, Vec::new());
+    let applied = force::applied_forces(graph, &alone, motion, motion, Vec::new());
     let systems = model.systems.iter().enumerate();
     let felt = systems.map(|(s, system)| {
-        if !is_zero(&loads.wrenches.fields[s]) {
+        if !is_zero(&applied.wrenches.fields[s]) {
             Felt::All(system.elements.len())
-        } else if loads.wrenches.partial_fields[s].iter().all(is_zero) {
+        } else if applied.wrenches.partial_fields[s].iter().all(is_zero) {
             Felt::None
         } else {
             Felt::Some

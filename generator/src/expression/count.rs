@@ -281,7 +281,7 @@ fn kind(function: Function) -> &'static str {
         Function::CurveInverse(_) => "curve inverse",
         Function::CurveIntegral(_) => "curve integral",
         Function::CurveDoubleIntegral(_) => "curve double integral",
-        Function::CurveZigzag(_) => "curve zigzag",
+        Function::CurveBreakpoints(_) => "curve breakpoint indicator",
         Function::CurveStop(_) => "curve stop",
         Function::Coulomb => "coulomb",
         Function::CoulombScale => "coulomb_scale",

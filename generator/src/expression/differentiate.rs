@@ -117,7 +117,7 @@ fn rule<'g>(
                 graph.call(Function::CurveSecondDerivative(curve), &[e(a)]) * d(a)
             }
             Function::CurveSecondDerivative(_) => return refuse("a second derivative of a curve"),
-            Function::CurveZigzag(_) => return refuse("a zigzag"),
+            Function::CurveBreakpoints(_) => return refuse("a breakpoint indicator"),
             Function::CurveStop(_) => return refuse("a stop"),
             Function::CurveIntegral(curve) => graph.call(Function::Curve(curve), &[e(a)]) * d(a),
             Function::CurveDoubleIntegral(curve) => {

@@ -205,7 +205,7 @@ fn own_dependence(node: &Node) -> Dependence {
             | Function::CurveInverse(_)
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_)
-            | Function::CurveZigzag(_)
+            | Function::CurveBreakpoints(_)
             | Function::CurveStop(_),
             _,
         ) => Dependence::PARAMETERS,

@@ -37,7 +37,7 @@ pub enum Function {
     /// ∬ of the curve from 0 to one argument.
     CurveDoubleIntegral(u32),
     /// The breakpoint indicator of the curve at one argument: its sign changes where the curve is not smooth.
-    CurveZigzag(u32),
+    CurveBreakpoints(u32),
     /// Function of velocity and factor: the first argument above 0 at which velocity + factor · ∫ of the curve from 0 reaches 0;
     /// 0 where it never does.
     CurveStop(u32),
@@ -125,7 +125,7 @@ impl Function {
             | Function::CurveInverse(_)
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_)
-            | Function::CurveZigzag(_) => 1,
+            | Function::CurveBreakpoints(_) => 1,
             Function::CurveStop(_) | Function::Power => 2,
             Function::Coulomb
             | Function::CoulombScale
@@ -158,7 +158,7 @@ impl Function {
             | Function::CurveInverse(_)
             | Function::CurveIntegral(_)
             | Function::CurveDoubleIntegral(_)
-            | Function::CurveZigzag(_)
+            | Function::CurveBreakpoints(_)
             | Function::CurveStop(_)
             | Function::Coulomb
             | Function::CoulombScale

@@ -26,7 +26,7 @@ use crate::description::expand::{Expander, Node};
 use crate::description::output::Output as WrittenOutput;
 use crate::description::place::At;
 use crate::description::shape::{Key, Problems, Record, check_record};
-use crate::dynamics::force::Loads;
+use crate::dynamics::force::AppliedForces;
 use crate::dynamics::force::switch::Gate;
 use crate::dynamics::kinematics::Motion;
 use crate::expression::vector::Vec3;
@@ -139,7 +139,7 @@ pub trait Equations {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g>;
 
     /// What must not be negative for it to have a meaning in a run that starts with this motion, and how a message says so.

@@ -163,7 +163,7 @@ impl Curve {
     }
 
     /// A function whose sign changes at the kinks: the distance to the nearest one, 1 where there is none.
-    pub fn zigzag(&self, x: f64) -> f64 {
+    pub fn breakpoint_indicator(&self, x: f64) -> f64 {
         let kinks = self.kinks();
         if x.is_nan() {
             return x;

@@ -111,7 +111,7 @@ fn call(model: &Model, function: Function, arguments: &[f64]) -> f64 {
         Function::CurveInverse(i) => curve(i, "inverse"),
         Function::CurveIntegral(i) => curve(i, "integral"),
         Function::CurveDoubleIntegral(i) => curve(i, "double_integral"),
-        Function::CurveZigzag(i) => curve(i, "zigzag"),
+        Function::CurveBreakpoints(i) => curve(i, "breakpoint_indicator"),
         Function::CurveStop(i) => curve(i, "stop"),
         Function::Coulomb => "force::friction::coulomb".into(),
         Function::CoulombScale => "force::friction::coulomb_scale".into(),
@@ -365,7 +365,7 @@ fn only_very_long_methods_are_compiled_in_calls() {
     };
     let calls = |path, merged| {
         let text = text(&model(path), &options(merged));
-        let of = |method, task| text.contains(&format!("T::enable_apart({method}{task}1 {{"));
+        let of = |method, task| text.contains(&format!("T::dispatch_apart({method}{task}1 {{"));
         (of("Motion", "LikeTask"), of("Motion", "Task"))
     };
     let always = Options::default().merged;

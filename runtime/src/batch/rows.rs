@@ -513,7 +513,7 @@ impl<'a, T: Several> Table<'a, T> {
         for asked in &self.job.responses {
             let response = asked.response;
             let mut of_samples = |samples: &[T::One]| {
-                T::enable(Reduce {
+                T::dispatch(Reduce {
                     response,
                     samples,
                     every,

@@ -54,7 +54,7 @@ pub(super) fn run_models<T: Several>(
     settings: &Settings,
     scenarios: &mut dyn Scenarios<T::One>,
 ) {
-    T::enable(Run::new(models, settings, scenarios));
+    T::dispatch(Run::new(models, settings, scenarios));
 }
 
 /// What is known of a lane apart from its state.
@@ -258,7 +258,7 @@ impl<'a, T: Several> Run<'a, T> {
     /// Does a section.
     #[inline(always)]
     pub(super) fn apart<S: Section<T>>(&mut self, section: S) -> S::Output {
-        T::enable_apart(Apart { run: self, section })
+        T::dispatch_apart(Apart { run: self, section })
     }
 
     fn new(

@@ -85,14 +85,14 @@ impl<T: Several> Step<T> {
     /// Takes it.
     #[inline(always)]
     pub fn take(&mut self, model: &dyn Dynamics<T>) {
-        by_tableau!(self.method, B => T::enable_apart(Take::<T, B>::new(self, model)));
+        by_tableau!(self.method, B => T::dispatch_apart(Take::<T, B>::new(self, model)));
     }
 
     /// Evaluates what [`Step::inside`] needs of all lanes, once a step.
     #[inline(always)]
     pub fn complete(&mut self, model: &dyn Dynamics<T>) {
         if !self.complete {
-            by_tableau!(self.method, B => T::enable_apart(Complete::<T, B>::new(self, model)));
+            by_tableau!(self.method, B => T::dispatch_apart(Complete::<T, B>::new(self, model)));
             self.complete = true;
         }
     }
@@ -113,7 +113,7 @@ impl<T: Several> Step<T> {
         order: Option<T::Order>,
         to: &mut [T],
     ) {
-        by_tableau!(self.method, B => T::enable_apart(Cubic::<T, B> {
+        by_tableau!(self.method, B => T::dispatch_apart(Cubic::<T, B> {
             step: self,
             theta,
             order,
@@ -127,7 +127,7 @@ impl<T: Several> Step<T> {
     /// end, as [`Stepper::neighbour`](crate::integrate::Stepper::neighbour) of a single run.
     #[inline(always)]
     pub fn neighbour(&self, to: &mut [T], rate: &mut [T]) {
-        by_tableau!(self.method, B => T::enable_apart(Neighbour::<T, B> {
+        by_tableau!(self.method, B => T::dispatch_apart(Neighbour::<T, B> {
             step: self,
             to: &mut *to,
             rate: &mut *rate,
@@ -138,7 +138,7 @@ impl<T: Several> Step<T> {
     /// Writes the state at t + θh, θ in 0..=1, on its manifold. Call [`Step::complete`] before, unless every θ is 1.
     #[inline(always)]
     pub fn inside(&self, model: &dyn Dynamics<T>, theta: T, to: &mut [T]) {
-        by_tableau!(self.method, B => T::enable_apart(Inside::<T, B> {
+        by_tableau!(self.method, B => T::dispatch_apart(Inside::<T, B> {
             step: self,
             theta,
             to: &mut *to,
@@ -156,7 +156,7 @@ impl<T: Several> Step<T> {
         order: T::Order,
         to: &mut [T],
     ) {
-        by_tableau!(self.method, B => T::enable_apart(InsideInOrder::<T, B> {
+        by_tableau!(self.method, B => T::dispatch_apart(InsideInOrder::<T, B> {
             step: self,
             theta,
             order,

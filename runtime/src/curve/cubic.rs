@@ -5,8 +5,8 @@
 //! where h is the length and Δ the secant of the piece. The slopes are given with the points. The caller chooses them such that the curve is
 //! monotone where the points are (Fritsch and Carlson 1980).
 
+use super::breakpoint_indicator::{breakpoint_indicator, rounding};
 use super::stop::{Searched, stop};
-use super::zigzag::{rounding, zigzag};
 use super::{Extrapolate, candidates, guard, kink};
 use crate::real::Real;
 
@@ -116,8 +116,8 @@ impl<const N: usize> Cubic<N> {
     /// The breakpoint indicator: a function whose sign changes where the curve is not smooth. Its slope is ±1 and its magnitude is the
     /// distance to the nearest such point; it is 1 where there is none. NaN only where `x` is NaN.
     #[inline(always)]
-    pub fn zigzag<T: Real>(&self, x: T) -> T {
-        zigzag(self.cubics().kinks, x)
+    pub fn breakpoint_indicator<T: Real>(&self, x: T) -> T {
+        breakpoint_indicator(self.cubics().kinks, x)
     }
 
     /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this time, each with its own

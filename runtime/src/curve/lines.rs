@@ -1,7 +1,7 @@
 //! Piecewise linear functions. Curves with a fixed number of points and tables of any length both evaluate these.
 
+use super::breakpoint_indicator::rounding;
 use super::stop::{Searched, stop};
-use super::zigzag::rounding;
 use super::{Extrapolate, candidates, guard};
 use crate::real::Real;
 

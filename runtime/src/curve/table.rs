@@ -2,7 +2,7 @@
 
 use super::cubic::{self, Cubics};
 use super::lines::{self, Lines};
-use super::{Extrapolate, kink, zigzag};
+use super::{Extrapolate, breakpoint_indicator, kink};
 use crate::real::Real;
 use std::vec::Vec;
 
@@ -141,8 +141,8 @@ impl Table {
 
     /// The breakpoint indicator: a function whose sign changes where the curve is not smooth.
     #[inline(always)]
-    pub fn zigzag<T: Real>(&self, x: T) -> T {
-        zigzag::zigzag(&self.kinks, x)
+    pub fn breakpoint_indicator<T: Real>(&self, x: T) -> T {
+        breakpoint_indicator::breakpoint_indicator(&self.kinks, x)
     }
 
     /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this time, each with its
@@ -199,14 +199,17 @@ mod tests {
                 same(curve.integral(x), table.integral(x));
                 same(curve.double_integral(x), table.double_integral(x));
                 same(curve.inverse(x), table.inverse(x));
-                same(curve.zigzag(x), table.zigzag(x));
+                same(curve.breakpoint_indicator(x), table.breakpoint_indicator(x));
                 same(curve.stop(x, -0.3), table.stop(x, -0.3));
                 same(curve.kink_after(0.3, x), table.kink_after(0.3, x));
                 same(cubic.value(x), cubics.value(x));
                 same(cubic.second_derivative(x), cubics.second_derivative(x));
                 same(cubic.integral(x), cubics.integral(x));
                 same(cubic.inverse(x), cubics.inverse(x));
-                same(cubic.zigzag(x), cubics.zigzag(x));
+                same(
+                    cubic.breakpoint_indicator(x),
+                    cubics.breakpoint_indicator(x),
+                );
                 same(cubic.stop(x, -0.3), cubics.stop(x, -0.3));
                 let there = Dual::variable(x);
                 same(cubic.slope(there).slope, cubics.slope(there).slope);

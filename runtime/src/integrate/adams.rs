@@ -44,7 +44,7 @@ pub fn march_adams<T: Real, M: Model<T>>(model: &M, t: T, h: T, steps: u32, y: &
         "march_adams is for models without memory, and {} has some: take march_dop853",
         M::INFO.name
     );
-    T::enable(MarchAdams {
+    T::dispatch(MarchAdams {
         model,
         t,
         h,
@@ -80,7 +80,7 @@ impl<T: Real, M: Model<T>> Task for MarchAdams<'_, T, M, M::State> {
         for step in 0..steps {
             let t = number(f64::from(step)) * h + start;
             let latest = step as usize % ORDER;
-            T::enable_apart(Rate {
+            T::dispatch_apart(Rate {
                 model,
                 t,
                 y,

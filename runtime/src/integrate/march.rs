@@ -35,7 +35,7 @@ use crate::{Change, Model, OutputWriter, Real, Task, Vector};
 /// ```
 #[inline(always)]
 pub fn march<T: Real, M: Model<T>>(model: &M, t: T, h: T, steps: u32, y: &mut M::State) -> T {
-    T::enable(March {
+    T::dispatch(March {
         model,
         t,
         h,
@@ -75,7 +75,7 @@ impl<T: Real, M: Model<T>> Task for March<'_, T, M, M::State> {
             let middle = number(f64::from(step) + 0.5) * h + start;
             let end = number(f64::from(step) + 1.0) * h + start;
             let stage = |t, at: &M::State, from: *const M::State, length, to: *mut M::State| {
-                T::enable(Stage {
+                T::dispatch(Stage {
                     model,
                     t,
                     at,
@@ -124,7 +124,7 @@ pub fn march_dop853<T: Real, M: Model<T>>(
     steps: u32,
     y: &mut M::State,
 ) -> T {
-    T::enable(MarchDop853 {
+    T::dispatch(MarchDop853 {
         model,
         t,
         h,
@@ -165,7 +165,7 @@ impl<T: Real, M: Model<T>> Task for MarchDop853<'_, T, M, M::State> {
                 ($($i:literal)*) => {$({
                     combine_into(y, h, Dop853::A[$i], &k, &mut at);
                     let (t, y, rate) = (number(Dop853::C[$i]).mul_add(h, t), &at, &mut k[$i]);
-                    T::enable_apart(Rate { model, t, y, rate });
+                    T::dispatch_apart(Rate { model, t, y, rate });
                 })*};
             }
             stages!(0 1 2 3 4 5 6 7 8 9 10 11);

@@ -109,7 +109,7 @@ impl<'a, T: Real> Signals<'a, T> {
                 response => response,
             };
             scratch.resize(response.scratch(samples.len()), nothing);
-            let value = T::enable(Reduce {
+            let value = T::dispatch(Reduce {
                 response,
                 samples,
                 every,

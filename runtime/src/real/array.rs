@@ -115,10 +115,10 @@ macro_rules! array {
             const FORM: Option<Form> = Some(Form::of(Base::Double).times($lanes));
 
             #[inline(always)]
-            fn enable<W: Task>(task: W) -> W::Output {
+            fn dispatch<W: Task>(task: W) -> W::Output {
                 #[cfg(target_arch = "x86_64")]
                 if $instructions::there() {
-                    return $instructions::enable(task);
+                    return $instructions::dispatch(task);
                 }
                 task.run()
             }

@@ -149,8 +149,8 @@ impl<T: Real> Real for Dual<T> {
     }
 
     #[inline(always)]
-    fn enable<W: Task>(task: W) -> W::Output {
-        T::enable(task)
+    fn dispatch<W: Task>(task: W) -> W::Output {
+        T::dispatch(task)
     }
 
     #[inline(always)]

@@ -41,7 +41,7 @@ impl bryant_runtime::real::lanes::OfAnyWidth for OfAny {
     fn run<T: Several<One = f64>>(self) -> f64 {
         let model = Mechanism::<T>::new(bryant_runtime::ParameterSet::defaults());
         let y = model.initial_state();
-        let rates = T::enable(Derivative { model: &model, y: &y });
+        let rates = T::dispatch(Derivative { model: &model, y: &y });
         rates.iter().map(|rate| rate.lane(0)).sum()
     }
 }

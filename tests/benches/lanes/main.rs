@@ -106,7 +106,7 @@ fn time<T: Real, M: Model<T>>() -> f64 {
     measured(|| {
         let (model, y) = (black_box(&model), black_box(&y));
         let rate = black_box(&mut rate);
-        T::enable(Derivative { model, t, y, rate });
+        T::dispatch(Derivative { model, t, y, rate });
     })
 }
 
@@ -151,7 +151,7 @@ impl OfAnyWidth for Peak {
 
     fn run<T: Several<One = f64>>(self) -> f64 {
         let time = measured(|| {
-            black_box(T::enable(Chains(black_box(T::from_f64(1.0)))));
+            black_box(T::dispatch(Chains(black_box(T::from_f64(1.0)))));
         });
         (2 * CHAINS * LENGTH * T::LANES) as f64 / time
     }

@@ -71,7 +71,7 @@ impl<M: Model<f64>> OfAnyWidth for Accelerations<'_, M> {
         let times = time::batches(y.len() * T::LANES, || {
             for (y, rate) in y.iter().zip(&mut rates) {
                 let model = &model;
-                T::enable(Rate { model, y, rate });
+                T::dispatch(Rate { model, y, rate });
             }
             std::hint::black_box(&mut rates);
         });

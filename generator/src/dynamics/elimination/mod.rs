@@ -28,7 +28,7 @@ mod tip;
 
 use super::augmented::AugmentedTree;
 use super::factorization::Ldl;
-use super::force::{Loads, Wrench};
+use super::force::{AppliedForces, Wrench};
 use super::kinematics::{
     ElementMotion, Motion, identifier, inverse_rates, path, reference_acceleration,
 };
@@ -48,17 +48,17 @@ use tip::Tip;
 /// v̇ of all systems, by row.
 pub fn accelerations<'g>(
     systems: &[Spatial<'g, '_>],
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
     zero: Expr<'g>,
     size: usize,
 ) -> Vec<Expr<'g>> {
     let mut accelerations = vec![zero; size];
     for spatial in systems {
         if !spatial.has_balls_alone() {
-            with_axes(spatial, loads, &mut accelerations);
+            with_axes(spatial, applied, &mut accelerations);
             continue;
         }
-        let mut elimination = Elimination::new(spatial, loads);
+        let mut elimination = Elimination::new(spatial, applied);
         let eliminated = elimination.leaves_to_root();
         elimination.root_to_leaves(&eliminated, &mut accelerations);
     }
@@ -67,17 +67,21 @@ pub fn accelerations<'g>(
 
 /// Sets the rows of a system that has joints other than balls, in absolute axes or in the frames of links, whichever takes fewer
 /// operations.
-fn with_axes<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, accelerations: &mut [Expr<'g>]) {
+fn with_axes<'g>(
+    spatial: &Spatial<'g, '_>,
+    applied: &AppliedForces<'g>,
+    accelerations: &mut [Expr<'g>],
+) {
     let mut rates = match spatial.is_coupled() {
         true => {
-            spatial::coupled_accelerations(spatial, loads, accelerations);
-            link_frames::cheaper_accelerations(spatial, loads, accelerations);
+            spatial::coupled_accelerations(spatial, applied, accelerations);
+            link_frames::cheaper_accelerations(spatial, applied, accelerations);
             let rows = spatial.layout.system_velocities(spatial.system);
             rows.map(|row| (row, accelerations[row])).collect()
         }
-        false => spatial::accelerations(spatial, loads),
+        false => spatial::accelerations(spatial, applied),
     };
-    if let Some(in_links) = link_frames::accelerations(spatial, loads) {
+    if let Some(in_links) = link_frames::accelerations(spatial, applied) {
         let cost = |rates: &[(usize, Expr<'g>)]| {
             let ids: Vec<_> = rates.iter().map(|(_, rate)| rate.id()).collect();
             factor::cost(&Count::of(spatial.graph, &ids))
@@ -156,7 +160,7 @@ struct Elimination<'g, 'a> {
     system: usize,
     motion: &'a Motion<'g>,
     tree: &'a AugmentedTree<'g>,
-    loads: &'a Loads<'g>,
+    applied: &'a AppliedForces<'g>,
     /// The child of a floating root at whose joint the root is taken.
     center: Option<usize>,
     /// For each element, u of its joint from the origin of its parent.
@@ -168,7 +172,7 @@ struct Elimination<'g, 'a> {
 }
 
 impl<'g, 'a> Elimination<'g, 'a> {
-    fn new(spatial: &Spatial<'g, 'a>, loads: &'a Loads<'g>) -> Self {
+    fn new(spatial: &Spatial<'g, 'a>, applied: &'a AppliedForces<'g>) -> Self {
         let Spatial {
             graph,
             model,
@@ -184,7 +188,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
             .flatten();
         let at = |k: usize| vector(graph, &elements[k].at);
         let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
-        let idle = idle(elements, &loads.wrenches.elements[system]);
+        let idle = idle(elements, &applied.wrenches.elements[system]);
         let body = |k: usize| {
             let id = ElementId { system, element: k };
             Body {
@@ -238,7 +242,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
             system,
             motion,
             tree,
-            loads,
+            applied,
             center,
             offsets,
             betas,
@@ -285,7 +289,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
                     motion: self.motion.element(id),
                     gyroscopic: self.tree.bodies[k].gyroscopic,
                 },
-                load: &self.loads.wrenches.elements[system][k],
+                load: &self.applied.wrenches.elements[system][k],
                 origin: origin(k),
                 beta: self.betas[k],
                 children: children.collect(),
@@ -322,10 +326,10 @@ impl<'g, 'a> Elimination<'g, 'a> {
             layout,
             system,
             motion,
-            loads,
+            applied,
             ..
         } = *self;
-        let field = loads.wrenches.fields[system];
+        let field = applied.wrenches.fields[system];
         let elements = &model.systems[system].elements;
         let reference = format!("system {}: reference joint", model.systems[system].name);
 
@@ -449,8 +453,8 @@ fn center(graph: &Graph, elements: &[Element], children: &[usize]) -> Option<usi
 }
 
 /// For each element, whether no force acts on it and on the elements outboard of it.
-fn idle(elements: &[Element], loads: &[Wrench<'_>]) -> Vec<bool> {
-    let mut idle: Vec<bool> = loads.iter().map(Wrench::is_zero).collect();
+fn idle(elements: &[Element], applied: &[Wrench<'_>]) -> Vec<bool> {
+    let mut idle: Vec<bool> = applied.iter().map(Wrench::is_zero).collect();
     for (k, element) in elements.iter().enumerate().rev() {
         if let (Some(parent), false) = (element.parent, idle[k]) {
             idle[parent] = false;

@@ -1,8 +1,8 @@
 //! Where laws change their branch (event functions, which end steps), where they are not smooth (kinks), when they begin to act (onsets), and how
 //! far the corners and ends of their curves are.
 
-use super::{Loads, choose, onset};
-use crate::dynamics::numbers::{rate, zigzag};
+use super::{AppliedForces, choose, onset};
+use crate::dynamics::numbers::{breakpoint_indicator, rate};
 use crate::equations;
 use crate::expression::passes::recall;
 use crate::expression::{ApproachCall, Expr, Function, Graph, Node};
@@ -74,7 +74,7 @@ pub enum Acts {
     AboveFirst,
 }
 
-impl<'g> Loads<'g> {
+impl<'g> AppliedForces<'g> {
     /// Ends steps where an expression changes its sign.
     pub fn event_function(&mut self, name: impl Into<String>, expression: Expr<'g>) {
         if expression.as_constant().is_none() {
@@ -89,7 +89,7 @@ impl<'g> Loads<'g> {
     }
 
     /// Tells of a curve of the state: what it is evaluated at, and where it is not smooth, if it is not. `which` it is of the
-    /// `owner`; `argument` as in [`Loads::kink`].
+    /// `owner`; `argument` as in [`AppliedForces::kink`].
     pub fn curve_of_state(
         &mut self,
         owner: &str,
@@ -122,7 +122,7 @@ impl<'g> Loads<'g> {
             let curve = curve.clone();
             self.kink(format!("{owner}: kink of the {which}"), move || {
                 let argument = argument();
-                zigzag(argument.graph(), &curve, argument)
+                breakpoint_indicator(argument.graph(), &curve, argument)
             });
         }
     }

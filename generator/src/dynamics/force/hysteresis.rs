@@ -16,7 +16,7 @@
 //! event function ends steps where the rate changes its sign, because a turning point inside a step would be forgotten.
 
 use super::switch::Gate;
-use super::{Acts, Loads, choose};
+use super::{Acts, AppliedForces, choose};
 use crate::dynamics::numbers::{curve, number};
 use crate::expression::Expr;
 use crate::model::Hysteresis;
@@ -36,7 +36,7 @@ const APART: f64 = 1e-6;
     reason = "whose, what law, when, and where on it"
 )]
 pub fn apply<'g>(
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     unit: &'static str,
     law: &Hysteresis,
@@ -52,7 +52,7 @@ pub fn apply<'g>(
         None => format!("{owner}: permanent set"),
     };
     let fresh = number(graph, &law.foot);
-    let (index, foot) = loads.memory(name, unit, fresh);
+    let (index, foot) = applied.memory(name, unit, fresh);
     let kept = gate.either(foot, fresh);
     let unloading = match &law.unloading {
         Some(unloading) => curve(graph, unloading, abscissa),
@@ -67,30 +67,35 @@ pub fn apply<'g>(
         Some(_) => furthest.max(kept.min(abscissa - unloading / slope)),
         None => furthest.max(kept),
     };
-    loads.states.memory[index].next = renewed;
+    applied.states.memory[index].next = renewed;
     // the line is above a curve while that drags the foot, below after a turn
-    loads.kink(
+    applied.kink(
         format!("{owner}: the line meets the loading curve"),
         move || (1.0 + APART) * below() - loading / slope - foot,
     );
     match &law.unloading {
         Some(curve) => {
-            loads.kink(
+            applied.kink(
                 format!("{owner}: the line meets the unloading curve"),
                 move || (1.0 - APART) * below() - unloading / slope - foot,
             );
-            loads.curve_of_state(owner, "unloading curve", curve, Acts::AboveFirst, below);
+            applied.curve_of_state(owner, "unloading curve", curve, Acts::AboveFirst, below);
         }
-        None => loads.kink(format!("{owner}: the line ends"), move || below() - foot),
+        None => applied.kink(format!("{owner}: the line ends"), move || below() - foot),
     }
     (force, renewed)
 }
 
 /// Ends steps where an abscissa turns, whose rate has the sign of `rate`. At 0 and below nothing touches, and the rate does not count.
-pub fn watch_turns<'g>(loads: &mut Loads<'g>, owner: &str, abscissa: Expr<'g>, rate: Expr<'g>) {
+pub fn watch_turns<'g>(
+    applied: &mut AppliedForces<'g>,
+    owner: &str,
+    abscissa: Expr<'g>,
+    rate: Expr<'g>,
+) {
     let graph = abscissa.graph();
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-    loads.event_function(
+    applied.event_function(
         format!("{owner}: turns from loading to unloading"),
         choose(zero, abscissa, rate, one),
     );
@@ -105,7 +110,7 @@ pub fn watch_turns<'g>(loads: &mut Loads<'g>, owner: &str, abscissa: Expr<'g>, r
     reason = "whose, what law, when, and where on it"
 )]
 pub fn apply_both_ways<'g>(
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     unit: &'static str,
     law: &Hysteresis,
@@ -117,24 +122,24 @@ pub fn apply_both_ways<'g>(
     let graph = loading.graph();
     let (abscissa, zero) = (argument(), graph.constant(0.0));
     let slope = number(graph, &law.slope);
-    loads.event_function(format!("{owner}: turns from loading to unloading"), rate);
+    applied.event_function(format!("{owner}: turns from loading to unloading"), rate);
     let furthest = abscissa - loading / slope;
     let Some(unloading) = &law.unloading else {
         // on each side of 0 the line of the other side has the wrong sign, so the clamp makes it 0
         let mut side = |which: &str, above: bool| {
             let name = format!("{owner}: permanent set {which}");
-            let (index, foot) = loads.memory(name, unit, zero);
+            let (index, foot) = applied.memory(name, unit, zero);
             let (line, kept) = (slope * (abscissa - foot), gate.of(foot));
             let (force, renewed) = match above {
                 true => (loading.min(line).max(zero), furthest.max(kept)),
                 false => (loading.max(line).min(zero), furthest.min(kept)),
             };
-            loads.states.memory[index].next = renewed;
-            loads.kink(
+            applied.states.memory[index].next = renewed;
+            applied.kink(
                 format!("{owner}: the line {which} meets the loading curve"),
                 move || (1.0 + APART) * argument() - loading / slope - foot,
             );
-            loads.kink(format!("{owner}: the line {which} ends"), move || {
+            applied.kink(format!("{owner}: the line {which} ends"), move || {
                 argument() - foot
             });
             (force, renewed)
@@ -144,7 +149,7 @@ pub fn apply_both_ways<'g>(
     };
     let back = curve(graph, unloading, abscissa);
     let name = format!("{owner}: foot of the unloading line");
-    let (index, foot) = loads.memory(name, unit, zero);
+    let (index, foot) = applied.memory(name, unit, zero);
     let (line, kept) = (slope * (abscissa - foot), gate.of(foot));
     let returns = abscissa - back / slope;
     // keep this order of operands: `max` and `min` pass on a NaN of their left operand, so leaving the curve shows as NaN
@@ -156,19 +161,19 @@ pub fn apply_both_ways<'g>(
         furthest.max(kept.min(returns)),
         furthest.min(kept.max(returns)),
     );
-    loads.states.memory[index].next = renewed;
-    loads.kink(
+    applied.states.memory[index].next = renewed;
+    applied.kink(
         format!("{owner}: the line meets the loading curve"),
         move || (1.0 + APART) * argument() - loading / slope - foot,
     );
-    loads.kink(
+    applied.kink(
         format!("{owner}: the line meets the unloading curve"),
         move || (1.0 - APART) * argument() - back / slope - foot,
     );
-    loads.kink(format!("{owner}: passes the zero of its curves"), argument);
+    applied.kink(format!("{owner}: passes the zero of its curves"), argument);
     let which = "unloading curve";
-    loads.curve_of_state(owner, which, unloading, Acts::Everywhere, argument);
-    loads.corners(owner, which, gate, unloading, argument, move || rate);
+    applied.curve_of_state(owner, which, unloading, Acts::Everywhere, argument);
+    applied.corners(owner, which, gate, unloading, argument, move || rate);
     let force = choose(zero, abscissa, above, below);
     (force, [renewed.max(zero), renewed.min(zero)])
 }

@@ -25,7 +25,7 @@ use crate::law::{Measures, Setting};
 use crate::model::{FieldComponent, Model};
 
 /// Everything that acts.
-pub struct Loads<'g> {
+pub struct AppliedForces<'g> {
     /// The forces and moments on bodies.
     pub wrenches: Wrenches<'g>,
     /// What laws keep besides q and v.
@@ -38,16 +38,16 @@ pub struct Loads<'g> {
     pub measures: Vec<Box<dyn Measures<'g> + 'g>>,
 }
 
-/// The loads of a model in motion; `start` is its motion where a run starts, from which belts take their length, `charts` is
+/// The forces applied in a model in motion; `start` is its motion where a run starts, from which belts take their length, `charts` is
 /// the memory that comes before that of force laws.
-pub fn loads<'g>(
+pub fn applied_forces<'g>(
     graph: &'g Graph,
     model: &Model,
     motion: &Motion<'g>,
     start: &Motion<'g>,
     charts: Vec<LawState<'g>>,
-) -> Loads<'g> {
-    let mut loads = Loads {
+) -> AppliedForces<'g> {
+    let mut applied = AppliedForces {
         wrenches: Wrenches::none(graph, model),
         states: States {
             auxiliaries: Vec::new(),
@@ -58,7 +58,7 @@ pub fn loads<'g>(
         works: Vec::new(),
         measures: Vec::new(),
     };
-    loads.declare_switches(graph, model);
+    applied.declare_switches(graph, model);
     for (index, force) in model.forces.iter().enumerate() {
         graph.section(format!("{} {}", force.kind.key(), force.name));
         let setting = Setting {
@@ -68,12 +68,12 @@ pub fn loads<'g>(
             start,
             index,
             name: &force.name,
-            gate: loads.gate(force.active),
+            gate: applied.gate(force.active),
         };
-        let measures = force.kind.apply(setting, &mut loads);
-        loads.measures.push(measures);
+        let measures = force.kind.apply(setting, &mut applied);
+        applied.measures.push(measures);
     }
-    loads
+    applied
 }
 
 /// `then` where a < b, `otherwise` elsewhere. Both are computed: neither may be infinite or no number where it is not

@@ -19,9 +19,9 @@
 
 use super::events::exact;
 use super::switch::Gate;
-use super::{ElementMotion, Loads, Motion};
+use super::{AppliedForces, ElementMotion, Motion};
 use crate::dynamics::kinematics::Point;
-use crate::dynamics::numbers::{number, rate, vector, zigzag};
+use crate::dynamics::numbers::{breakpoint_indicator, number, rate, vector};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Against, Contact, Dimension, Ellipsoid, Number, ScaledCurve};
@@ -41,7 +41,7 @@ pub struct Onset<'g> {
     pub speed: Expr<'g>,
 }
 
-impl<'g> Loads<'g> {
+impl<'g> AppliedForces<'g> {
     /// Tells when a law begins to act. `onset` is called when everything else is derived.
     pub(crate) fn onset(&mut self, name: impl Into<String>, onset: impl Fn() -> Onset<'g> + 'g) {
         self.events.onsets.push((name.into(), Box::new(onset)));
@@ -99,7 +99,7 @@ impl<'g> Loads<'g> {
             let (argument, speed) = (argument(), speed());
             let graph = argument.graph();
             gate.of_onset(Onset {
-                gap: zigzag(graph, &curve, argument),
+                gap: breakpoint_indicator(graph, &curve, argument),
                 speed: absolute(speed * rate(graph, &curve)),
             })
         };

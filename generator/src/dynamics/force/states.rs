@@ -1,6 +1,6 @@
 //! What laws keep besides q and v: continuous states z, memory m that is renewed when a step is accepted, and what has fired.
 
-use super::Loads;
+use super::AppliedForces;
 use super::switch::Remembered;
 use crate::expression::{Expr, Symbol};
 
@@ -30,7 +30,7 @@ pub struct LawState<'g> {
     pub next: Expr<'g>,
 }
 
-impl<'g> Loads<'g> {
+impl<'g> AppliedForces<'g> {
     /// A new state z of a force law, and its index, by which the law sets the rate.
     pub fn auxiliary(
         &mut self,

@@ -8,7 +8,7 @@
 //! does not fire again, and its event function rests at 1.
 
 use super::onset::{FAR, Onset};
-use super::{Loads, NEVER, choose};
+use super::{AppliedForces, NEVER, choose};
 use crate::dynamics::numbers::number;
 use crate::dynamics::time;
 use crate::expression::vector::Vec3;
@@ -80,7 +80,7 @@ impl<'g> Gate<'g> {
     }
 }
 
-impl<'g> Loads<'g> {
+impl<'g> AppliedForces<'g> {
     /// Makes room for the memory of all switches; what it becomes is said by [`complete`], once the quantities are known
     /// that they wait for.
     pub(crate) fn declare_switches(&mut self, graph: &'g Graph, model: &Model) {
@@ -109,7 +109,7 @@ impl<'g> Loads<'g> {
 pub fn complete<'g>(
     graph: &'g Graph,
     model: &Model,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     quantities: &[Option<Expr<'g>>],
 ) {
     let (zero, one, ever) = (
@@ -120,7 +120,7 @@ pub fn complete<'g>(
     let now = time(graph);
     for (index, switch) in model.switches.iter().enumerate() {
         graph.section(format!("switch {}", switch.name));
-        let Remembered { fired, acts, .. } = loads.states.switches[index];
+        let Remembered { fired, acts, .. } = applied.states.switches[index];
         let memory = |index: usize| graph.symbol(Symbol::Memory(index as u32));
         // rests at 1 once it has come
         let waiting = |index: usize, event_function: Expr<'g>| {
@@ -136,15 +136,15 @@ pub fn complete<'g>(
             Trigger::Below(_, threshold) => (-above(threshold, quantities[index]), false),
         };
         let event_function = waiting(fired, event_function);
-        loads.states.memory[fired].next = match inclusive {
+        applied.states.memory[fired].next = match inclusive {
             true => choose(zero, event_function, memory(fired), now),
             false => choose(event_function, zero, now, memory(fired)),
         };
-        loads.event_function(format!("switch {}: fires", switch.name), event_function);
+        applied.event_function(format!("switch {}: fires", switch.name), event_function);
         if let Some(after) = &switch.after {
             let event_function = waiting(acts, memory(fired) + number(graph, after) - now);
-            loads.states.memory[acts].next = choose(zero, event_function, memory(acts), now);
-            loads.event_function(format!("switch {}: acts", switch.name), event_function);
+            applied.states.memory[acts].next = choose(zero, event_function, memory(acts), now);
+            applied.event_function(format!("switch {}: acts", switch.name), event_function);
         }
     }
 }

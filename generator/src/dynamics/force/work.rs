@@ -1,6 +1,6 @@
 //! The powers of laws, by effect, for the balance of energy.
 
-use super::Loads;
+use super::AppliedForces;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::model::ElementId;
@@ -25,7 +25,7 @@ pub enum Product<'g> {
     Field(Vec3<'g>, ElementId),
 }
 
-impl<'g> Loads<'g> {
+impl<'g> AppliedForces<'g> {
     /// Counts a power to an effect.
     pub fn work(&mut self, name: impl Into<String>, product: Product<'g>) {
         let name = name.into();

@@ -1,6 +1,6 @@
 //! The forces and moments on bodies.
 
-use super::Loads;
+use super::AppliedForces;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Body, ElementId, Model, System};
@@ -72,7 +72,7 @@ impl<'g> Wrenches<'g> {
     }
 }
 
-impl<'g> Loads<'g> {
+impl<'g> AppliedForces<'g> {
     /// Applies a force at an offset from the body's joint.
     pub(crate) fn apply(&mut self, body: Body, offset: Vec3<'g>, force: Vec3<'g>) {
         if let Some(wrench) = self.on(body) {

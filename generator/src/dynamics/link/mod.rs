@@ -38,7 +38,7 @@ mod turn;
 mod wrench;
 
 use super::factorization;
-use super::force::Loads;
+use super::force::AppliedForces;
 use super::kinematics::{inverse_rates, reference_acceleration};
 use super::layout::Orientation;
 use super::spatial::Spatial;
@@ -56,26 +56,26 @@ use wrench::Written;
 /// v̇ of the system, by row, without S; `None` if link frames do not apply.
 pub fn accelerations<'g>(
     spatial: &Spatial<'g, '_>,
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
 ) -> Option<Vec<(usize, Expr<'g>)>> {
-    let tree = Tree::of(spatial, Some(loads))?;
+    let tree = Tree::of(spatial, Some(applied))?;
     shared::heads(&tree)?;
     let choice = search::choice(&tree, Aim::Elimination);
     let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
     let name = |link: &tree::Link<'g>| spatial.label(link.element);
     let solved = elimination::accelerations(&tree, &framed, &choice, &name);
-    Some(rates(spatial, loads, &tree, &solved))
+    Some(rates(spatial, applied, &tree, &solved))
 }
 
 /// Replaces S, r_s and r_k of a system by those in link frames where these take fewer operations: S and r_s together, r_k by itself.
 pub fn cheaper_matrices<'g>(
     spatial: &Spatial<'g, '_>,
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
     matrix: &mut [Vec<Option<Expr<'g>>>],
     [velocity_forces, applied_forces]: [&mut [Expr<'g>]; 2],
 ) {
     let choose = |tree: &Tree<'g>| search::choice(tree, Aim::Matrices);
-    let Some(found) = matrices(spatial, loads, choose) else {
+    let Some(found) = matrices(spatial, applied, choose) else {
         return;
     };
     let (graph, size) = (spatial.graph, velocity_forces.len());
@@ -116,13 +116,13 @@ pub fn cheaper_matrices<'g>(
 /// Replaces v̇ of the system by v̇ from S in link frames, if this takes fewer operations.
 pub fn cheaper_accelerations<'g>(
     spatial: &Spatial<'g, '_>,
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
     accelerations: &mut [Expr<'g>],
 ) {
     let mut in_links = accelerations.to_vec();
     let rows = spatial.layout.system_velocities(spatial.system);
     let choose = |tree: &Tree<'g>| search::choice(tree, Aim::Factorization);
-    if accelerations_by_factors(spatial, loads, choose, &mut in_links)
+    if accelerations_by_factors(spatial, applied, choose, &mut in_links)
         && cost(spatial.graph, &in_links[rows.clone()])
             < cost(spatial.graph, &accelerations[rows.clone()])
     {
@@ -176,7 +176,7 @@ impl<'g> Needs<'g> {
 /// S, r_s and r_k of the system; `None` if link frames do not apply.
 fn matrices<'g>(
     spatial: &Spatial<'g, '_>,
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
     choose: impl FnOnce(&Tree<'g>) -> Choice,
 ) -> Option<Matrices<'g>> {
     let tree = Tree::of(spatial, None)?;
@@ -191,12 +191,12 @@ fn matrices<'g>(
     let needs = Needs::of(&written, Reference::Rest, &name);
     let velocity_forces = needs.forces.into_iter().map(|(row, power)| (row, -power));
 
-    let loaded = Tree::of(spatial, Some(loads))?;
+    let loaded = Tree::of(spatial, Some(applied))?;
     let acting = loaded.links.iter().zip(&framed.links).enumerate();
     let acting = acting.map(|(k, (link, frame))| frame.load(link, &choice, k == 0 && loaded.free));
     let mut applied_forces = forces::powers(&written, acting.collect(), &name).terms;
     let reference = reference_acceleration(spatial.graph, spatial.of_system(), spatial.motion);
-    let field = loads.wrenches.fields[spatial.system] - reference;
+    let field = applied.wrenches.fields[spatial.system] - reference;
     applied_forces.extend(forces::of_field(&written, &needs.composites, field));
     applied_forces.extend(loaded.on_coordinates());
     Some(Matrices {
@@ -209,11 +209,11 @@ fn matrices<'g>(
 /// Sets the rows of v̇ of the system, computed from its S; returns false if link frames do not apply.
 fn accelerations_by_factors<'g>(
     spatial: &Spatial<'g, '_>,
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
     choose: impl FnOnce(&Tree<'g>) -> Choice,
     accelerations: &mut [Expr<'g>],
 ) -> bool {
-    let Some(tree) = Tree::of(spatial, Some(loads)) else {
+    let Some(tree) = Tree::of(spatial, Some(applied)) else {
         return false;
     };
     let choice = choose(&tree);
@@ -250,7 +250,7 @@ fn accelerations_by_factors<'g>(
         accelerations[link.row] = accelerations[link.row] + reference;
     }
     if let Some(rows) = spatial.layout.reference_velocities(spatial.system) {
-        let field = loads.wrenches.fields[spatial.system];
+        let field = applied.wrenches.fields[spatial.system];
         for (row, &direction) in rows.zip(spatial.layout.directions) {
             accelerations[row] = accelerations[row] + field.0[direction];
         }
@@ -271,7 +271,7 @@ fn add_entries<'g>(matrix: &mut [Vec<Option<Expr<'g>>>], terms: &[(usize, usize,
 /// v̇ of the joints of all links, by row.
 fn rates<'g>(
     spatial: &Spatial<'g, '_>,
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
     tree: &Tree<'g>,
     solved: &[Solved<'g>],
 ) -> Vec<(usize, Expr<'g>)> {
@@ -305,7 +305,7 @@ fn rates<'g>(
         );
     }
     if let Some(rows) = spatial.layout.reference_velocities(spatial.system) {
-        let field = loads.wrenches.fields[spatial.system];
+        let field = applied.wrenches.fields[spatial.system];
         for (row, &direction) in rows.zip(spatial.layout.directions) {
             rates.push((row, solved[0].base.0[direction] + field.0[direction]));
         }

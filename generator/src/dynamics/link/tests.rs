@@ -278,7 +278,7 @@ fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'sta
     let motion = Motion::of(&graph, &model, &layout, &state);
     let augmented = AugmentedTree::of(&graph, &model, 0, &motion);
     let charts = chart::memory(&model, &layout, &started, &state);
-    let loads = force::loads(&graph, &model, &motion, &start, charts);
+    let applied = force::applied_forces(&graph, &model, &motion, &start, charts);
     let spatial = Spatial {
         graph: &graph,
         model: &model,
@@ -287,7 +287,7 @@ fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'sta
         motion: &motion,
         tree: &augmented,
     };
-    let said = said(&spatial, &loads, numbers, (text, kind, all));
+    let said = said(&spatial, &applied, numbers, (text, kind, all));
 
     let mut q: Vec<f64> = layout
         .coordinates
@@ -342,7 +342,7 @@ fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'sta
 // Long: each result in turn, which is derived in the frames of links and then compared.
 fn said<'g>(
     spatial: &Spatial<'g, '_>,
-    loads: &force::Loads<'g>,
+    applied: &force::AppliedForces<'g>,
     numbers: &mut Numbers,
     (text, kind, all): (&str, Kind, bool),
 ) -> Vec<Said> {
@@ -367,16 +367,16 @@ fn said<'g>(
     spatial::mass_matrix(spatial, &mut matrix);
     let (mut r_s, mut r_k, mut rates) = (none.clone(), none.clone(), none.clone());
     spatial::velocity_forces(spatial, &mut r_s);
-    spatial::applied_forces(spatial, loads, &mut r_k);
+    spatial::applied_forces(spatial, applied, &mut r_k);
     match spatial.is_coupled() {
-        true => spatial::coupled_accelerations(spatial, loads, &mut rates),
+        true => spatial::coupled_accelerations(spatial, applied, &mut rates),
         false => {
-            for (row, rate) in spatial::accelerations(spatial, loads) {
+            for (row, rate) in spatial::accelerations(spatial, applied) {
                 rates[row] = rate;
             }
         }
     }
-    let tree = Tree::of(spatial, Some(loads)).expect("link frames can say it");
+    let tree = Tree::of(spatial, Some(applied)).expect("link frames can say it");
     let random = at_random(numbers, tree.links.len(), &tree);
     // frames from a search, everything else at random
     let mut drawn = random.clone();
@@ -404,7 +404,7 @@ fn said<'g>(
             let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
             let name = |_: &super::tree::Link<'_>| String::new();
             let solved = elimination::accelerations(&tree, &framed, &choice, &name);
-            let found = super::rates(spatial, loads, &tree, &solved);
+            let found = super::rates(spatial, applied, &tree, &solved);
             let mut rows: Vec<usize> = found.iter().map(|(row, _)| *row).collect();
             rows.sort_unstable();
             assert!(rows.into_iter().eq(0..size), "every row once\n{text}");
@@ -419,7 +419,7 @@ fn said<'g>(
             ..choice(tree, aim)
         };
         let chosen = |tree: &Tree<'g>| unshifted(tree, Aim::Matrices);
-        let found = super::matrices(spatial, loads, chosen).expect("link frames can say it");
+        let found = super::matrices(spatial, applied, chosen).expect("link frames can say it");
         let mut entries = vec![vec![None; size]; size];
         super::add_entries(&mut entries, &found.matrix);
         for (i, row) in entries.iter().enumerate() {
@@ -433,7 +433,7 @@ fn said<'g>(
         say("r_k", sums(&found.applied_forces), ids(&r_k));
         let chosen = |tree: &Tree<'g>| unshifted(tree, Aim::Factorization);
         let mut factorized = none.clone();
-        let possible = super::accelerations_by_factors(spatial, loads, chosen, &mut factorized);
+        let possible = super::accelerations_by_factors(spatial, applied, chosen, &mut factorized);
         assert!(possible, "link frames can say it\n{text}");
         say("accelerations by S", ids(&factorized), ids(&rates));
     }

@@ -5,7 +5,7 @@
 use super::articulated::Articulated;
 use super::body::Body;
 use crate::dynamics::augmented::own_inertia;
-use crate::dynamics::force::Loads;
+use crate::dynamics::force::AppliedForces;
 use crate::dynamics::kinematics::reference_acceleration;
 use crate::dynamics::numbers::{number, vector};
 use crate::dynamics::spatial::{Spatial, Wrench};
@@ -144,12 +144,12 @@ impl LinkJoint<'_> {
 /// The joints of the links of an element, each with the row of its velocity, from the carrier outwards. `None` if an axis is a parameter.
 fn joints<'g>(
     spatial: &Spatial<'g, '_>,
-    loads: Option<&Loads<'g>>,
+    applied: Option<&AppliedForces<'g>>,
     k: usize,
 ) -> Option<Vec<(usize, LinkJoint<'g>)>> {
     let (graph, model, motion) = (spatial.graph, spatial.model, spatial.motion_of(k));
     let shares = spatial.layout.shares(graph, model, spatial.id(k));
-    let acting = loads.map(|loads| &loads.wrenches.on_freedoms[spatial.system][k][..]);
+    let acting = applied.map(|applied| &applied.wrenches.on_freedoms[spatial.system][k][..]);
     let acting = acting.unwrap_or_default();
     let freedoms = match &spatial.of_system().elements[k].joint {
         Joint::Ball if model.dimension == Dimension::Plane => {
@@ -205,10 +205,10 @@ fn joints<'g>(
 }
 
 impl<'g> Tree<'g> {
-    /// The links of a system, with the wrenches on them. Without `loads` no force acts, and the reference joint is at rest. `None` if link frames do
+    /// The links of a system, with the wrenches on them. Without `applied` no force acts, and the reference joint is at rest. `None` if link frames do
     /// not apply: an axis is a parameter; a free reference joint has a first element that is not on a ball; or, in the plane, an element has an
     /// absolute orientation.
-    pub fn of(spatial: &Spatial<'g, '_>, loads: Option<&Loads<'g>>) -> Option<Self> {
+    pub fn of(spatial: &Spatial<'g, '_>, applied: Option<&AppliedForces<'g>>) -> Option<Self> {
         let (graph, system) = (spatial.graph, spatial.of_system());
         let free = matches!(system.reference, Reference::Free);
         let first_is_ball = system.elements.first()?.joint == Joint::Ball;
@@ -231,7 +231,7 @@ impl<'g> Tree<'g> {
                 Some(_) => carried_at + vector(graph, &element.at),
                 None => carried_at,
             };
-            for (row, joint) in joints(spatial, loads, k)? {
+            for (row, joint) in joints(spatial, applied, k)? {
                 links.push(Link {
                     element: k,
                     row,
@@ -249,8 +249,8 @@ impl<'g> Tree<'g> {
             let Some(to) = parent else { continue };
             let to = &mut links[to];
             to.body = to.body.plus(&body_of(spatial, k).moved(place));
-            let Some(loads) = loads else { continue };
-            let load = &loads.wrenches.elements[spatial.system][k];
+            let Some(applied) = applied else { continue };
+            let load = &applied.wrenches.elements[spatial.system][k];
             let offset = to.rotation.times(place);
             to.load = to.load.plus(Wrench {
                 force: load.force,
@@ -261,7 +261,7 @@ impl<'g> Tree<'g> {
         let mut tree = Tree {
             graph,
             links,
-            ground: Ground::of(spatial, loads, first_is_ball),
+            ground: Ground::of(spatial, applied, first_is_ball),
             free,
             base: spatial
                 .layout
@@ -378,15 +378,19 @@ impl<'g> Tree<'g> {
 }
 
 impl<'g> Ground<'g> {
-    /// The ground of a system. Without `loads` its reference joint does not accelerate, but the ground still turns.
-    fn of(spatial: &Spatial<'g, '_>, loads: Option<&Loads<'g>>, first_is_ball: bool) -> Self {
+    /// The ground of a system. Without `applied` its reference joint does not accelerate, but the ground still turns.
+    fn of(
+        spatial: &Spatial<'g, '_>,
+        applied: Option<&AppliedForces<'g>>,
+        first_is_ball: bool,
+    ) -> Self {
         let (graph, system) = (spatial.graph, spatial.of_system());
         let none = Vec3::zero(graph);
-        let acceleration = match (&system.reference, loads) {
+        let acceleration = match (&system.reference, applied) {
             (Reference::Free, _) | (_, None) => none,
-            (_, Some(loads)) => {
+            (_, Some(applied)) => {
                 reference_acceleration(graph, system, spatial.motion)
-                    - loads.wrenches.fields[spatial.system]
+                    - applied.wrenches.fields[spatial.system]
             }
         };
         let (axes, omega, alpha, angle) = match (&system.reference, first_is_ball) {

@@ -15,7 +15,7 @@
 
 use super::{Column, Spatial, Wrench};
 use crate::dynamics::factorization::Ldl;
-use crate::dynamics::force::Loads;
+use crate::dynamics::force::AppliedForces;
 use crate::dynamics::kinematics::{inverse_rates, reference_acceleration};
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Symbol};
@@ -47,7 +47,7 @@ struct Eliminated<'g> {
 /// The pass from the leaves to the root: the bodies outboard of each joint, after its elimination, and what the pass outwards needs.
 fn inwards<'g>(
     spatial: &Spatial<'g, '_>,
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
     biases: &[Vec3<'g>],
 ) -> (Vec<Articulated<'g>>, Vec<Option<Eliminated<'g>>>) {
     let (graph, system) = (spatial.graph, spatial.system);
@@ -58,7 +58,7 @@ fn inwards<'g>(
                 "element {}: forces of velocity and load",
                 spatial.label(k)
             ));
-            let load = &loads.wrenches.elements[system][k];
+            let load = &applied.wrenches.elements[system][k];
             let needed = spatial.inertia(k, body, biases[k]);
             let zero = graph.constant(0.0);
             let [x, y, z] = body.first_moment.0;
@@ -82,7 +82,7 @@ fn inwards<'g>(
         graph.section(format!("element {label}: elimination"));
         let columns = elimination_columns(spatial, k);
         // the laws of a ball joint act as moments
-        let mut acting = loads.wrenches.on_freedoms[system][k].clone();
+        let mut acting = applied.wrenches.on_freedoms[system][k].clone();
         acting.resize(columns.columns.len(), graph.constant(0.0));
         let (done, rest) = outboard[k].eliminate(spatial, &columns.columns, acting);
         eliminated[k] = Some(done);
@@ -101,19 +101,22 @@ fn inwards<'g>(
 }
 
 /// v̇ of the system, by row.
-pub fn accelerations<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>) -> Vec<(usize, Expr<'g>)> {
+pub fn accelerations<'g>(
+    spatial: &Spatial<'g, '_>,
+    applied: &AppliedForces<'g>,
+) -> Vec<(usize, Expr<'g>)> {
     let mut accelerations = Vec::new();
     let (graph, system) = (spatial.graph, spatial.system);
     let elements = &spatial.of_system().elements;
     let free = spatial.layout.reference_velocities(system);
     // in a frame in which the common field vanishes
-    let field = loads.wrenches.fields[system];
+    let field = applied.wrenches.fields[system];
     let given = match free {
         Some(_) => Vec3::zero(graph),
         None => reference_acceleration(graph, spatial.of_system(), spatial.motion) - field,
     };
     let biases = spatial.origin_biases(given);
-    let (outboard, eliminated) = inwards(spatial, loads, &biases);
+    let (outboard, eliminated) = inwards(spatial, applied, &biases);
 
     graph.section(format!(
         "system {}: reference joint",

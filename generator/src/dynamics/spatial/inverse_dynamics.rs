@@ -2,7 +2,7 @@
 //! the elements that it carries need, and each velocity takes the power of that wrench.
 
 use super::{Spatial, Wrench};
-use crate::dynamics::force::Loads;
+use crate::dynamics::force::AppliedForces;
 use crate::dynamics::kinematics::reference_acceleration;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
@@ -23,15 +23,19 @@ pub fn velocity_forces<'g>(spatial: &Spatial<'g, '_>, forces: &mut [Expr<'g>]) {
 }
 
 /// Sets the rows of r_k of the system: the applied forces, minus the inertia against a given acceleration of the reference joint.
-pub fn applied_forces<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: &mut [Expr<'g>]) {
+pub fn applied_forces<'g>(
+    spatial: &Spatial<'g, '_>,
+    applied: &AppliedForces<'g>,
+    forces: &mut [Expr<'g>],
+) {
     let graph = spatial.graph;
     let reference = reference_acceleration(graph, spatial.of_system(), spatial.motion);
-    let field = loads.wrenches.fields[spatial.system] - reference;
+    let field = applied.wrenches.fields[spatial.system] - reference;
     let bodies = spatial.bodies();
     let acting = (bodies.iter().enumerate())
         .map(|(k, body)| {
             graph.section(format!("r_k[{}]", spatial.label(k)));
-            let load = &loads.wrenches.elements[spatial.system][k];
+            let load = &applied.wrenches.elements[spatial.system][k];
             Wrench {
                 force: load.force + body.mass * field,
                 moment: load.moment + body.first_moment.cross(field),
@@ -45,7 +49,7 @@ pub fn applied_forces<'g>(spatial: &Spatial<'g, '_>, loads: &Loads<'g>, forces: 
         let shares = spatial.layout.shares(graph, spatial.model, spatial.id(k));
         for (share, force) in shares
             .iter()
-            .zip(&loads.wrenches.on_freedoms[spatial.system][k])
+            .zip(&applied.wrenches.on_freedoms[spatial.system][k])
         {
             forces[share.velocity] = forces[share.velocity] + share.ratio * *force;
         }

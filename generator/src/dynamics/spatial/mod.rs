@@ -30,7 +30,7 @@ pub use inverse_dynamics::{applied_forces, velocity_forces};
 pub use mass_matrix::mass_matrix;
 
 use super::factorization;
-use super::force::Loads;
+use super::force::AppliedForces;
 
 use super::augmented::{AugmentedBody, AugmentedTree, with_points};
 use super::kinematics::{ElementMotion, Motion, identifier, path};
@@ -115,7 +115,7 @@ impl<'g> Wrench<'g> {
 /// Sets the rows of v̇ of a system in which degrees of freedom follow others, computed from its S.
 pub fn coupled_accelerations<'g>(
     spatial: &Spatial<'g, '_>,
-    loads: &Loads<'g>,
+    applied: &AppliedForces<'g>,
     accelerations: &mut [Expr<'g>],
 ) {
     let size = accelerations.len();
@@ -124,7 +124,7 @@ pub fn coupled_accelerations<'g>(
     let mut r_k = r_s.clone();
     mass_matrix(spatial, &mut matrix);
     velocity_forces(spatial, &mut r_s);
-    applied_forces(spatial, loads, &mut r_k);
+    applied_forces(spatial, applied, &mut r_k);
     let rows = spatial.layout.system_velocities(spatial.system);
     factorization::accelerations_of(spatial.graph, rows, &matrix, [&r_s, &r_k], accelerations);
 }

@@ -61,7 +61,7 @@ pub fn function_name(function: Function) -> String {
         Function::CurveInverse(i) => format!("curve{}_inverse", i + 1),
         Function::CurveIntegral(i) => format!("curve{}_integral", i + 1),
         Function::CurveDoubleIntegral(i) => format!("curve{}_double_integral", i + 1),
-        Function::CurveZigzag(i) => format!("curve{}_zigzag", i + 1),
+        Function::CurveBreakpoints(i) => format!("curve{}_breakpoint_indicator", i + 1),
         Function::CurveStop(i) => format!("curve{}_stop", i + 1),
         Function::Coulomb => "coulomb".to_string(),
         Function::CoulombScale => "coulomb_scale".to_string(),

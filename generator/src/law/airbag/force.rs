@@ -19,7 +19,7 @@ use super::check::FOLDED;
 use super::outputs::AirbagMeasures;
 use crate::dynamics::force::onset::{Pair, absolute};
 use crate::dynamics::force::switch::{Gate, Remembered};
-use crate::dynamics::force::{Loads, Motion, Product, choose};
+use crate::dynamics::force::{AppliedForces, Motion, Product, choose};
 use crate::dynamics::numbers::{curve, number, vector};
 use crate::dynamics::time;
 use crate::equations::LEAST_VOLUME;
@@ -59,16 +59,16 @@ impl Equations for Airbag {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g> {
-        Box::new(apply(self, setting, loads))
+        Box::new(apply(self, setting, applied))
     }
 }
 
 fn apply<'g>(
     airbag: &Airbag,
     setting: Setting<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
 ) -> AirbagMeasures<'g> {
     let Setting {
         graph,
@@ -79,7 +79,7 @@ fn apply<'g>(
         ..
     } = setting;
     let owner = format!("airbag {name}");
-    let curves = loads.curves_so_far();
+    let curves = applied.curves_so_far();
     let meetings: Vec<Meeting<'g>> = airbag
         .against
         .iter()
@@ -89,7 +89,7 @@ fn apply<'g>(
                 graph,
                 model,
                 motion,
-                loads,
+                applied,
                 &owner,
                 (airbag, other),
                 &meeting,
@@ -108,18 +108,18 @@ fn apply<'g>(
     let shrinking = meetings.iter().fold(graph.constant(0.0), |sum, m| {
         sum + m.area * m.touch.approach
     });
-    let gas = Gas::of(graph, loads, &owner, airbag, [left, left_at_start]);
+    let gas = Gas::of(graph, applied, &owner, airbag, [left, left_at_start]);
     let over = gas.pressure - gas.around;
     // a slack bag has no force whose direction could leap
-    loads.curves_act(curves, over);
+    applied.curves_act(curves, over);
     let taken = meetings
         .iter()
         .fold(graph.constant(0.0), |sum, m| sum + m.volume);
     let share = taken / volume(graph, &airbag.bag);
-    loads.volume(&owner, move || share, over);
-    let outflow = gas.flow(graph, model, loads, &owner, airbag, shrinking);
+    applied.volume(&owner, move || share, over);
+    let outflow = gas.flow(graph, model, applied, &owner, airbag, shrinking);
     AirbagMeasures {
-        on: push(loads, &owner, airbag, &meetings, over),
+        on: push(applied, &owner, airbag, &meetings, over),
         pressure: gas.pressure,
         temperature: gas.heat / number(graph, &airbag.constant),
         mass: gas.mass.1,
@@ -144,7 +144,7 @@ fn left<'g>(
 
 /// Pushes what a bag meets with the overpressure `over`. The force on what the bag is on, and on each that it meets.
 fn push<'g>(
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     airbag: &Airbag,
     meetings: &[Meeting<'g>],
@@ -155,9 +155,9 @@ fn push<'g>(
         let force = over * meeting.area;
         // the normal is that from what it meets to the bag
         let push = -(force * meeting.touch.normal);
-        loads.apply(other.center.on, meeting.touch.offset_on_second, push);
-        loads.apply(airbag.bag.center.on, meeting.touch.offset, -push);
-        loads.work(
+        applied.apply(other.center.on, meeting.touch.offset_on_second, push);
+        applied.apply(airbag.bag.center.on, meeting.touch.offset, -push);
+        applied.work(
             format!("{owner}: gas"),
             Product::Scalars(-force, meeting.touch.approach),
         );
@@ -207,21 +207,21 @@ fn tell<'g>(
     graph: &'g Graph,
     model: &Model,
     motion: &Motion<'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     (airbag, other): (&Airbag, &Ellipsoid),
     meeting: &Meeting<'g>,
 ) {
     let (contact, touch) = (contact(airbag, other), &meeting.touch);
     let pair = Pair::of(graph, model.dimension, motion, &contact);
-    begins(loads, owner, Gate::default(), &contact, touch, pair);
+    begins(applied, owner, Gate::default(), &contact, touch, pair);
     if let Some(between) = touch.between {
-        loads.direction(owner, direction(model.dimension, touch.normal, between));
+        applied.direction(owner, direction(model.dimension, touch.normal, between));
     }
     let overlap = touch.overlap;
-    loads.kink(format!("{owner}: touches"), move || overlap);
+    applied.kink(format!("{owner}: touches"), move || overlap);
     let deep = overlap - equator(radii(graph, airbag, other));
-    loads.kink(format!("{owner}: is around what it meets"), move || deep);
+    applied.kink(format!("{owner}: is around what it meets"), move || deep);
 }
 
 /// Radii of spheres of the same volumes as a bag and an ellipsoid \[m\].
@@ -273,11 +273,11 @@ fn lens<'g>(graph: &'g Graph, [a, b]: [Expr<'g>; 2], overlap: Expr<'g>) -> (Expr
 fn flow_in<'g>(
     graph: &'g Graph,
     model: &Model,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     inflow: &Inflow,
 ) -> Expr<'g> {
-    let fire: Remembered<'g> = loads.states.switches[inflow.fire];
+    let fire: Remembered<'g> = applied.states.switches[inflow.fire];
     let (zero, now) = (graph.constant(0.0), time(graph));
     let since = (now - fire.since).max(zero);
     let points = &model.curves[inflow.flow.curve].points;
@@ -285,7 +285,7 @@ fn flow_in<'g>(
         for (index, point) in points.iter().enumerate() {
             let kink = point[0] * number(graph, &inflow.flow.stretch);
             let event_function = format!("{owner}: point {} of the inflow", index + 1);
-            loads.event_function(event_function, fire.since + kink - now);
+            applied.event_function(event_function, fire.since + kink - now);
         }
     }
     fire.once(curve(graph, &inflow.flow, since), zero)
@@ -314,7 +314,7 @@ impl<'g> Gas<'g> {
     /// The gas in the volume that is left to it \[m³\], now and at the start.
     fn of(
         graph: &'g Graph,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
         owner: &str,
         airbag: &Airbag,
         [left, left_at_start]: [Expr<'g>; 2],
@@ -335,9 +335,9 @@ impl<'g> Gas<'g> {
             ),
         };
         let initial = pressure * size / (constant * temperature);
-        let mass = loads.auxiliary(format!("{owner}: mass of gas"), "kg", initial);
+        let mass = applied.auxiliary(format!("{owner}: mass of gas"), "kg", initial);
         let initial = pressure * size / less;
-        let energy = loads.auxiliary(format!("{owner}: energy of gas"), "J", initial);
+        let energy = applied.auxiliary(format!("{owner}: energy of gas"), "J", initial);
         let filled = less * energy.1 / left;
         Gas {
             mass,
@@ -356,7 +356,7 @@ impl<'g> Gas<'g> {
         &self,
         graph: &'g Graph,
         model: &Model,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
         owner: &str,
         airbag: &Airbag,
         shrinking: Expr<'g>,
@@ -364,26 +364,26 @@ impl<'g> Gas<'g> {
         let (filled, around) = (self.filled, self.around);
         let (mut into, mut out) = (graph.constant(0.0), graph.constant(0.0));
         if let Some(area) = &airbag.vent {
-            out = self.outflow(loads, owner, number(graph, area));
+            out = self.outflow(applied, owner, number(graph, area));
         }
         // c_p T = γ/(γ − 1) R T
         let per_mass = self.gamma / self.less;
         let mut enthalpy = -(per_mass * out * self.heat);
         if let Some(inflow) = &airbag.inflow {
-            into = flow_in(graph, model, loads, owner, inflow);
+            into = flow_in(graph, model, applied, owner, inflow);
             let hot = number(graph, &airbag.constant) * number(graph, &inflow.temperature);
             enthalpy = per_mass * into * hot + enthalpy;
         }
         let full = enthalpy + self.pressure * shrinking;
-        loads.states.auxiliaries[self.mass.0].next = into - out;
-        loads.states.auxiliaries[self.energy.0].next =
+        applied.states.auxiliaries[self.mass.0].next = into - out;
+        applied.states.auxiliaries[self.energy.0].next =
             choose(around, filled, full, enthalpy / self.gamma);
-        loads.kink(format!("{owner}: is full"), move || filled - around);
+        applied.kink(format!("{owner}: is full"), move || filled - around);
         out
     }
 
     /// Mass flow out of a hole whose jet has this area.
-    fn outflow(&self, loads: &mut Loads<'g>, owner: &str, area: Expr<'g>) -> Expr<'g> {
+    fn outflow(&self, applied: &mut AppliedForces<'g>, owner: &str, area: Expr<'g>) -> Expr<'g> {
         let graph = area.graph();
         let (one, two) = (graph.constant(1.0), graph.constant(2.0));
         let power = |base, exponent| graph.call(Function::Power, &[base, exponent]);
@@ -403,10 +403,10 @@ impl<'g> Gas<'g> {
         let square = two * gamma / less * (first - second);
         let steep = graph.constant(STEEP);
         let psi = square / square.max(steep).sqrt();
-        loads.kink(format!("{owner}: flow out is choked"), move || {
+        applied.kink(format!("{owner}: flow out is choked"), move || {
             through - choked
         });
-        loads.kink(format!("{owner}: flow out is slow"), move || square - steep);
+        applied.kink(format!("{owner}: flow out is slow"), move || square - steep);
         area * pressure / heat.max(graph.constant(f64::MIN_POSITIVE)).sqrt() * psi
     }
 }

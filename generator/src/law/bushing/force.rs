@@ -15,7 +15,7 @@
 
 use super::check::{Bushing, Direction, Mount};
 use super::outputs::BushingMeasures;
-use crate::dynamics::force::{Acts, Loads, Product, choose};
+use crate::dynamics::force::{Acts, AppliedForces, Product, choose};
 use crate::dynamics::kinematics::constant_rotation;
 use crate::dynamics::numbers::{curve, number};
 use crate::equations::NO_BEARING;
@@ -34,21 +34,21 @@ impl Equations for Bushing {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g> {
-        let curves = loads.curves_so_far();
-        let (displacement, force) = push(self, setting, loads);
-        let (angles, moment) = turn(self, setting, loads);
+        let curves = applied.curves_so_far();
+        let (displacement, force) = push(self, setting, applied);
+        let (angles, moment) = turn(self, setting, applied);
         let Setting {
             graph, gate, name, ..
         } = setting;
         let turns = self.about.iter().any(|law| *law != Direction::default());
         if turns && setting.model.dimension == Dimension::Space {
             let frames = [&self.from, &self.to].map(|end| axes(setting, end));
-            loads.bearing(&format!("bushing {name}"), move || bearing(graph, frames));
+            applied.bearing(&format!("bushing {name}"), move || bearing(graph, frames));
         }
         if gate.waits() {
-            loads.curves_act(curves, gate.of(graph.constant(1.0)));
+            applied.curves_act(curves, gate.of(graph.constant(1.0)));
         }
         Box::new(BushingMeasures {
             force,
@@ -63,7 +63,7 @@ impl Equations for Bushing {
 fn push<'g>(
     bushing: &Bushing,
     setting: Setting<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
 ) -> (Vec3<'g>, Vec3<'g>) {
     let Setting { graph, motion, .. } = setting;
     let (first, second) = (bushing.from.on.on, bushing.to.on.on);
@@ -76,11 +76,11 @@ fn push<'g>(
     let mut resists = Vec3::zero(graph);
     for (i, law) in bushing.along.iter().enumerate() {
         let way = (format!("along {}", AXES[i]), displacement.0[i], rates.0[i]);
-        resists.0[i] = resistance(law, way, setting, loads);
+        resists.0[i] = resistance(law, way, setting, applied);
     }
     let force = axes.times(resists);
-    loads.apply(first, offset, force);
-    loads.apply(second, to.offset, -force);
+    applied.apply(first, offset, force);
+    applied.apply(second, to.offset, -force);
     (displacement, force)
 }
 
@@ -88,7 +88,7 @@ fn push<'g>(
 fn turn<'g>(
     bushing: &Bushing,
     setting: Setting<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
 ) -> ([Expr<'g>; 3], Vec3<'g>) {
     let Setting { graph, motion, .. } = setting;
     let (first, second) = (bushing.from.on.on, bushing.to.on.on);
@@ -108,11 +108,11 @@ fn turn<'g>(
             Dimension::Plane => continue,
         };
         let way = (format!("about {}", AXES[i]), angle, direction.dot(omega));
-        moment = moment + resistance(law, way, setting, loads) * direction;
+        moment = moment + resistance(law, way, setting, applied) * direction;
         angles[i] = angle;
     }
-    loads.turn(first, moment);
-    loads.turn(second, -moment);
+    applied.turn(first, moment);
+    applied.turn(second, -moment);
     (angles, moment)
 }
 
@@ -136,7 +136,7 @@ fn resistance<'g>(
     law: &Direction,
     (way, value, rate): (String, Expr<'g>, Expr<'g>),
     setting: Setting<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
 ) -> Expr<'g> {
     let Setting {
         graph, name, gate, ..
@@ -145,18 +145,18 @@ fn resistance<'g>(
     let mut resists = graph.constant(0.0);
     if let Some(elastic) = &law.elastic {
         let (which, argument) = (format!("elastic curve {way}"), move || value);
-        loads.curve_of_state(&owner, &which, elastic, Acts::Everywhere, argument);
-        loads.onset_of_curve(&format!("{owner} {way}"), gate, elastic, argument, rate);
-        loads.corners(&owner, &which, gate, elastic, argument, move || rate);
+        applied.curve_of_state(&owner, &which, elastic, Acts::Everywhere, argument);
+        applied.onset_of_curve(&format!("{owner} {way}"), gate, elastic, argument, rate);
+        applied.corners(&owner, &which, gate, elastic, argument, move || rate);
         let force = gate.of(curve(graph, elastic, value));
         let work = format!("{owner}: elastic {way}");
-        loads.work(work, Product::Scalars(-force, rate));
+        applied.work(work, Product::Scalars(-force, rate));
         resists = resists + force;
     }
     if let Some(damping) = &law.damping {
         let force = gate.of(number(graph, damping) * rate);
         let work = format!("{owner}: damping {way}");
-        loads.work(work, Product::Scalars(-force, rate));
+        applied.work(work, Product::Scalars(-force, rate));
         resists = resists + force;
     }
     resists

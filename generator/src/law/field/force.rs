@@ -3,7 +3,7 @@
 //! A field that all elements of a system feel is not applied to them one by one: it enters once, at the reference joint.
 
 use super::check::Field;
-use crate::dynamics::force::{Loads, Product, components};
+use crate::dynamics::force::{AppliedForces, Product, components};
 use crate::dynamics::numbers::{number, vector};
 use crate::law::{Equations, Measures, Setting};
 use crate::model::{Body, ElementId};
@@ -12,14 +12,14 @@ impl Equations for Field {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g> {
-        apply(self, setting, loads);
+        apply(self, setting, applied);
         Box::new(())
     }
 }
 
-fn apply<'g>(field: &Field, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) {
+fn apply<'g>(field: &Field, setting: Setting<'_, 'g>, applied: &mut AppliedForces<'g>) {
     let Setting {
         graph,
         model,
@@ -31,7 +31,7 @@ fn apply<'g>(field: &Field, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) {
     let Field { on, acceleration } = field;
     let acceleration = gate.of_vector(components(graph, acceleration));
     for &id in on {
-        loads.work(format!("field {name}"), Product::Field(acceleration, id));
+        applied.work(format!("field {name}"), Product::Field(acceleration, id));
     }
     for (s, system) in model.systems.iter().enumerate() {
         let felt: Vec<usize> = (0..system.elements.len())
@@ -43,7 +43,7 @@ fn apply<'g>(field: &Field, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) {
             })
             .collect();
         if felt.len() == system.elements.len() {
-            loads.wrenches.fields[s] = loads.wrenches.fields[s] + acceleration;
+            applied.wrenches.fields[s] = applied.wrenches.fields[s] + acceleration;
             continue;
         }
         for k in felt {
@@ -56,9 +56,9 @@ fn apply<'g>(field: &Field, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) {
                 .element(id)
                 .rotation
                 .times(vector(graph, &element.cg));
-            loads.wrenches.partial_fields[s][k] =
-                loads.wrenches.partial_fields[s][k] + acceleration;
-            loads.apply(
+            applied.wrenches.partial_fields[s][k] =
+                applied.wrenches.partial_fields[s][k] + acceleration;
+            applied.apply(
                 Body::Element(id),
                 offset,
                 number(graph, &element.mass) * acceleration,

@@ -1,14 +1,14 @@
 //! A given force at a point of an element, and a given moment, in absolute axes.
 
 use super::check::Load;
-use crate::dynamics::force::{Loads, Product, components};
+use crate::dynamics::force::{AppliedForces, Product, components};
 use crate::law::{Equations, Measures, Setting};
 
 impl Equations for Load {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g> {
         let Setting {
             graph,
@@ -20,12 +20,12 @@ impl Equations for Load {
         let point = motion.attachment(graph, &self.on);
         let force = gate.of_vector(components(graph, &self.force));
         let moment = gate.of_vector(components(graph, &self.moment));
-        loads.apply(self.on.on, point.offset, force);
-        loads.turn(self.on.on, moment);
+        applied.apply(self.on.on, point.offset, force);
+        applied.turn(self.on.on, moment);
         let work = format!("load {name}");
-        loads.work(&work, Product::Vectors(force, point.velocity));
+        applied.work(&work, Product::Vectors(force, point.velocity));
         let omega = motion.body(self.on.on).omega;
-        loads.work(&work, Product::Vectors(moment, omega));
+        applied.work(&work, Product::Vectors(moment, omega));
         Box::new(())
     }
 }

@@ -5,7 +5,7 @@
 
 use super::check::Spring;
 use super::outputs::SpringMeasures;
-use crate::dynamics::force::{Acts, Loads, Product};
+use crate::dynamics::force::{Acts, AppliedForces, Product};
 use crate::dynamics::kinematics::Motion;
 use crate::dynamics::numbers::{curve, number};
 use crate::law::belt::force::length;
@@ -15,16 +15,16 @@ impl Equations for Spring {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g> {
-        Box::new(apply(self, setting, loads))
+        Box::new(apply(self, setting, applied))
     }
 }
 
 fn apply<'g>(
     spring: &Spring,
     setting: Setting<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
 ) -> SpringMeasures<'g> {
     let Setting {
         graph,
@@ -54,11 +54,11 @@ fn apply<'g>(
     let owner = format!("spring {name}");
     let mut force = graph.constant(0.0);
     if let Some(elastic) = &spring.elastic {
-        let curves = loads.curves_so_far();
+        let curves = applied.curves_so_far();
         let argument = move || elongation;
-        loads.curve_of_state(&owner, "elastic curve", elastic, Acts::Everywhere, argument);
-        loads.onset_of_curve(&owner, gate, elastic, argument, rate);
-        loads.corners(
+        applied.curve_of_state(&owner, "elastic curve", elastic, Acts::Everywhere, argument);
+        applied.onset_of_curve(&owner, gate, elastic, argument, rate);
+        applied.corners(
             &owner,
             "elastic curve",
             gate,
@@ -67,20 +67,20 @@ fn apply<'g>(
             move || rate,
         );
         if gate.waits() {
-            loads.curves_act(curves, gate.of(graph.constant(1.0)));
+            applied.curves_act(curves, gate.of(graph.constant(1.0)));
         }
         let pull = gate.of(curve(graph, elastic, elongation));
-        loads.work(format!("{owner}: elastic"), Product::Scalars(-pull, rate));
+        applied.work(format!("{owner}: elastic"), Product::Scalars(-pull, rate));
         force = force + pull;
     }
     if let Some(damping) = &spring.damping {
         let pull = gate.of(number(graph, damping) * rate);
-        loads.work(format!("{owner}: damping"), Product::Scalars(-pull, rate));
+        applied.work(format!("{owner}: damping"), Product::Scalars(-pull, rate));
         force = force + pull;
     }
     let on_first = force * direction;
-    loads.apply(spring.from.on, from.offset, on_first);
-    loads.apply(spring.to.on, to.offset, -on_first);
+    applied.apply(spring.from.on, from.offset, on_first);
+    applied.apply(spring.to.on, to.offset, -on_first);
     SpringMeasures {
         on_first,
         force,

@@ -14,7 +14,7 @@
 //! Vectors are in absolute axes; n_i are the directions of [joints](crate::law::joint::force). Power: F·v, M·ω, −T L̇, Q·θ̇, Q q̇.
 
 use super::outputs::{LineMeasures, UserMeasures};
-use crate::dynamics::force::{Loads, Product};
+use crate::dynamics::force::{AppliedForces, Product};
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::numbers::{curve, number};
 use crate::dynamics::time;
@@ -31,13 +31,17 @@ impl Equations for User {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g> {
-        Box::new(apply(self, setting, loads))
+        Box::new(apply(self, setting, applied))
     }
 }
 
-fn apply<'g>(user: &User, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> UserMeasures<'g> {
+fn apply<'g>(
+    user: &User,
+    setting: Setting<'_, 'g>,
+    applied: &mut AppliedForces<'g>,
+) -> UserMeasures<'g> {
     let Setting { graph, name, .. } = setting;
     if user.function.name.is_empty() {
         return nothing(graph, user);
@@ -49,7 +53,7 @@ fn apply<'g>(user: &User, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> Us
         .map(|state| {
             let initial = number(graph, &state.value.initial);
             let full = format!("user {name}: {}", state.name);
-            loads.auxiliary(full, state.value.unit, initial)
+            applied.auxiliary(full, state.value.unit, initial)
         })
         .collect();
 
@@ -59,9 +63,9 @@ fn apply<'g>(user: &User, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> Us
     arguments.extend(function_arguments(user, graph));
 
     let results = Results::of(user, setting, axes, &seen, &arguments);
-    results.act(user, setting, &seen, loads);
+    results.act(user, setting, &seen, applied);
     for ((index, _), &rate) in states.iter().zip(&results.rates) {
-        loads.states.auxiliaries[*index].next = rate;
+        applied.states.auxiliaries[*index].next = rate;
     }
     UserMeasures {
         lines: seen.line_measures(&results.tensions),
@@ -350,7 +354,13 @@ impl<'g> Results<'g> {
     }
 
     /// Applies them to the bodies and joints, and adds their powers.
-    fn act(&self, user: &User, setting: Setting<'_, 'g>, seen: &Seen<'g>, loads: &mut Loads<'g>) {
+    fn act(
+        &self,
+        user: &User,
+        setting: Setting<'_, 'g>,
+        seen: &Seen<'g>,
+        applied: &mut AppliedForces<'g>,
+    ) {
         let Setting {
             graph,
             motion,
@@ -362,29 +372,29 @@ impl<'g> Results<'g> {
             _ => format!("user {name}: {port}"),
         };
         for ((port, point), &force) in user.points.iter().zip(&seen.points).zip(&self.forces) {
-            loads.apply(port.value.on, point.offset, force);
+            applied.apply(port.value.on, point.offset, force);
             if port.value.on != Body::Frame {
-                loads.work(work(&port.name), Product::Vectors(force, point.velocity));
+                applied.work(work(&port.name), Product::Vectors(force, point.velocity));
             }
         }
         for (port, &moment) in user.bodies.iter().zip(&self.moments) {
-            loads.turn(Body::Element(port.value), moment);
+            applied.turn(Body::Element(port.value), moment);
             let omega = motion.element(port.value).omega;
-            loads.work(work(&port.name), Product::Vectors(moment, omega));
+            applied.work(work(&port.name), Product::Vectors(moment, omega));
         }
         for ((port, line), &tension) in user.lines.iter().zip(&seen.lines).zip(&self.tensions) {
             let pull = tension * line.direction;
-            loads.apply(port.value.from.on, line.from.offset, pull);
-            loads.apply(port.value.to.on, line.to.offset, -pull);
-            loads.work(work(&port.name), Product::Scalars(-tension, line.rate));
+            applied.apply(port.value.from.on, line.from.offset, pull);
+            applied.apply(port.value.to.on, line.to.offset, -pull);
+            applied.work(work(&port.name), Product::Scalars(-tension, line.rate));
         }
         for ((port, joint), torques) in user.joints.iter().zip(&seen.joints).zip(&self.torques) {
             let mut moment = Vec3::zero(graph);
             for (rotation, &torque) in joint.about.iter().zip(torques) {
                 moment = moment + torque * rotation.direction;
-                loads.work(work(&port.name), Product::Scalars(torque, rotation.rate));
+                applied.work(work(&port.name), Product::Scalars(torque, rotation.rate));
             }
-            loads.turn_joint(port.value, joint.parent, moment);
+            applied.turn_joint(port.value, joint.parent, moment);
         }
         for ((port, (_, rate)), &effort) in
             user.freedoms.iter().zip(&seen.freedoms).zip(&self.efforts)
@@ -392,9 +402,9 @@ impl<'g> Results<'g> {
             let UserFreedom {
                 element, freedom, ..
             } = port.value;
-            let on = &mut loads.wrenches.on_freedoms[element.system][element.element][freedom];
+            let on = &mut applied.wrenches.on_freedoms[element.system][element.element][freedom];
             *on = *on + effort;
-            loads.work(work(&port.name), Product::Scalars(effort, *rate));
+            applied.work(work(&port.name), Product::Scalars(effort, *rate));
         }
     }
 }

@@ -90,7 +90,7 @@ pub struct Resolved {
     pub criteria: Option<Criteria>,
 }
 
-/// Loads and resolves, with the texts.
+/// AppliedForces and resolves, with the texts.
 pub fn resolve(
     name: &str,
     text: &str,

@@ -185,7 +185,7 @@ impl Writer<'_> {
             Function::CurveInverse(curve) => ("curve_inverse", Some(curve)),
             Function::CurveIntegral(curve) => ("curve_integral", Some(curve)),
             Function::CurveDoubleIntegral(curve) => ("curve_double_integral", Some(curve)),
-            Function::CurveZigzag(curve) => ("curve_zigzag", Some(curve)),
+            Function::CurveBreakpoints(curve) => ("curve_breakpoint_indicator", Some(curve)),
             Function::CurveStop(curve) => ("curve_stop", Some(curve)),
             Function::Coulomb => ("coulomb", None),
             Function::CoulombScale => ("coulomb_scale", None),

@@ -43,7 +43,7 @@ const PARTS: &[Part] = parts! {
     "curve_twice" ["multiply_add" "curve_piece" "curve_guard"];
     "curve_integral" ["curve_once"];
     "curve_double_integral" ["curve_once" "curve_twice"];
-    "curve_zigzag" ["curve" "curve_piece" "minimum"];
+    "curve_breakpoint_indicator" ["curve" "curve_piece" "minimum"];
     "curve_inverse" ["curve" "multiply_add"];
     "curve_stop" ["curve_value" "curve_integral"];
     "kink_after" ["curve"];

@@ -113,7 +113,7 @@ impl Writer<'_> {
             let task = self.task_type(i);
             let parts = parts.map(|part| quote!(#part: &#part));
             let writer = self.puts(i).then(|| quote!(writer: &mut *writer));
-            quote!(T::enable_apart(#task { mechanism: self, #(#arguments,)* #(#parts,)* #writer }))
+            quote!(T::dispatch_apart(#task { mechanism: self, #(#arguments,)* #(#parts,)* #writer }))
         } else {
             let writer = self.puts(i).then(|| quote!(writer));
             quote!(self.#name(#(#arguments,)* #(&#parts,)* #writer))

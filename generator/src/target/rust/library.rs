@@ -82,7 +82,7 @@ impl Library {
             Function::CurveInverse(i) => method(i, "inverse"),
             Function::CurveIntegral(i) => method(i, "integral"),
             Function::CurveDoubleIntegral(i) => method(i, "double_integral"),
-            Function::CurveZigzag(i) => method(i, "zigzag"),
+            Function::CurveBreakpoints(i) => method(i, "breakpoint_indicator"),
             Function::CurveStop(i) => method(i, "stop"),
             Function::Coulomb => Callee::Function("force::friction::coulomb"),
             Function::CoulombScale => Callee::Function("force::friction::coulomb_scale"),
@@ -170,7 +170,7 @@ pub(crate) fn curve_of(function: Function) -> Option<usize> {
         | Function::CurveInverse(i)
         | Function::CurveIntegral(i)
         | Function::CurveDoubleIntegral(i)
-        | Function::CurveZigzag(i)
+        | Function::CurveBreakpoints(i)
         | Function::CurveStop(i) => Some(i as usize),
         Function::Coulomb
         | Function::CoulombScale

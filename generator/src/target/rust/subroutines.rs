@@ -453,7 +453,7 @@ impl Writer<'_> {
                     lines.extend(first);
                     let writer = of.puts().then(|| quote!(writer: &mut *writer));
                     let call = quote! {
-                        T::enable_apart(#task { mechanism: self, #(#names: #values,)* #writer })
+                        T::dispatch_apart(#task { mechanism: self, #(#names: #values,)* #writer })
                     };
                     let name = ident(&places[subroutine].returned[block]);
                     // the last element of many may compute what nobody asks for

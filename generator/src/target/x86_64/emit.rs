@@ -407,7 +407,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Loads operands until at most one of them, and no value twice, is only in memory. Returns the registers of the others.
+    /// AppliedForces operands until at most one of them, and no value twice, is only in memory. Returns the registers of the others.
     fn at_most_one_in_memory(&mut self, operands: [u32; 3]) -> Set {
         let mut keep = Set::default();
         for register in operands

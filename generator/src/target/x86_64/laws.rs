@@ -1,6 +1,6 @@
 //! Force laws and piecewise linear curves, written out as steps in place of calls.
 //!
-//! The steps follow the runtime (`runtime/src/force`, `runtime/src/curve/{lines,zigzag}.rs`) operation by operation, so they give the same bits. A
+//! The steps follow the runtime (`runtime/src/force`, `runtime/src/curve/{lines,breakpoint_indicator}.rs`) operation by operation, so they give the same bits. A
 //! call stores all values that are in registers and loads them again, which takes longer than most laws.
 
 use super::steps::Lowering;
@@ -24,7 +24,9 @@ impl Lowering<'_> {
             Function::Choose => Some(self.choose(a[0], a[1], a[2], a[3])),
             Function::Curve(index) => Some(self.ordinate(self.lines(index)?, a[0])),
             Function::CurveSlope(index) => Some(self.slope(self.lines(index)?, a[0])),
-            Function::CurveZigzag(index) => Some(self.zigzag(&self.lines(index)?.kinks(), a[0])),
+            Function::CurveBreakpoints(index) => {
+                Some(self.breakpoint_indicator(&self.lines(index)?.kinks(), a[0]))
+            }
             _ => None,
         }
     }
@@ -110,7 +112,7 @@ impl Lowering<'_> {
     }
 
     /// The breakpoint indicator: the distance to the nearest kink, with a sign that changes at each kink; 1 if there is none.
-    fn zigzag(&mut self, kinks: &[f64], x: Term) -> Term {
+    fn breakpoint_indicator(&mut self, kinks: &[f64], x: Term) -> Term {
         if kinks.is_empty() {
             let (one, taint) = (self.number(1.0), self.taint(x));
             return self.sum(one, taint);

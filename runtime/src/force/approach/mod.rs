@@ -91,7 +91,7 @@ fn unless_far<T: Real, const N: usize>(
     if far.all() {
         return apart;
     }
-    let mut found = T::enable_apart(search);
+    let mut found = T::dispatch_apart(search);
     for (found, apart) in found.iter_mut().zip(apart) {
         *found = T::select(far, apart, *found);
     }

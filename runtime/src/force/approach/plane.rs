@@ -22,7 +22,7 @@ use crate::{Mask, Real, Task};
 )]
 #[inline]
 pub fn approach<T: Real>(xx1: T, zz1: T, xz1: T, xx2: T, zz2: T, xz2: T, dx: T, dz: T) -> [T; 5] {
-    T::enable_apart(Search {
+    T::dispatch_apart(Search {
         both: [Quadric([xx1, zz1, xz1]), Quadric([xx2, zz2, xz2])],
         between: [dx, dz],
         early: None,

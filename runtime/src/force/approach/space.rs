@@ -43,7 +43,7 @@ pub fn approach<T: Real>(
         Quadric([xx1, yy1, zz1, yz1, xz1, xy1]),
         Quadric([xx2, yy2, zz2, yz2, xz2, xy2]),
     ];
-    T::enable_apart(Search {
+    T::dispatch_apart(Search {
         both,
         between: [dx, dy, dz],
         early: None,

@@ -624,7 +624,7 @@ impl OfAnyWidth for Beside<'_> {
             let space: [T; 15] = std::array::from_fn(|i| put(&|case| case.space::<f64>()[i]));
             let plane: [T; 8] = std::array::from_fn(|i| put(&|case| case.plane::<f64>()[i]));
             let results = [false, true].map(|early| {
-                T::enable(Call {
+                T::dispatch(Call {
                     space,
                     plane,
                     early,

@@ -50,7 +50,7 @@ impl<F> Instructions for Alone<F, true> {
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     #[expect(unsafe_code, reason = "the instructions of a certain processor")]
-    fn enable<W: Task>(task: W) -> W::Output {
+    fn dispatch<W: Task>(task: W) -> W::Output {
         // SAFETY: the code that makes the first register has called `there`; the type cannot be named outside of this
         // crate.
         unsafe { compiled_for_fused(task) }
@@ -58,7 +58,7 @@ impl<F> Instructions for Alone<F, true> {
 
     #[cfg(not(target_arch = "x86_64"))]
     #[inline(always)]
-    fn enable<W: Task>(task: W) -> W::Output {
+    fn dispatch<W: Task>(task: W) -> W::Output {
         task.run()
     }
 }
@@ -70,7 +70,7 @@ impl<F> Instructions for Alone<F, false> {
     }
 
     #[inline(always)]
-    fn enable<W: Task>(task: W) -> W::Output {
+    fn dispatch<W: Task>(task: W) -> W::Output {
         plain(task)
     }
 }

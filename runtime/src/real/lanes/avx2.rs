@@ -1,7 +1,7 @@
 //! Four doubles in a register of AVX2.
 //!
 //! Every operation is one or two instructions, if it is inlined into a function that is compiled for AVX2 and fused
-//! multiply-adds ([`Avx2::enable`](super::Instructions::enable)). Elsewhere it is a call: slow, but correct.
+//! multiply-adds ([`Avx2::dispatch`](super::Instructions::dispatch)). Elsewhere it is a call: slow, but correct.
 
 use super::register::{Doubles, Instructions, MOST_LANES, Register};
 use crate::real::{Base, Task};
@@ -31,7 +31,7 @@ impl Instructions for Avx2 {
 
     #[inline(always)]
     #[expect(unsafe_code, reason = "the instructions of a certain processor")]
-    fn enable<W: Task>(task: W) -> W::Output {
+    fn dispatch<W: Task>(task: W) -> W::Output {
         // SAFETY: the code that makes the first register has called `there`; the type cannot be named outside of this
         // crate.
         unsafe { compiled_for_avx2(task) }

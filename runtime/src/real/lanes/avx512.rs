@@ -1,7 +1,7 @@
 //! Eight doubles in a register of AVX-512.
 //!
 //! Every operation is one instruction, if it is inlined into a function that is compiled for AVX-512
-//! ([`Avx512::enable`](super::Instructions::enable)). Elsewhere it is a call: slow, but correct.
+//! ([`Avx512::dispatch`](super::Instructions::dispatch)). Elsewhere it is a call: slow, but correct.
 
 use super::register::{Doubles, Instructions, MOST_LANES, Register};
 use crate::real::{Base, Task};
@@ -38,7 +38,7 @@ impl Instructions for Avx512 {
 
     #[inline(always)]
     #[expect(unsafe_code, reason = "the instructions of a certain processor")]
-    fn enable<W: Task>(task: W) -> W::Output {
+    fn dispatch<W: Task>(task: W) -> W::Output {
         // SAFETY: the code that makes the first register has called `there`; the type cannot be named outside of this
         // crate.
         unsafe { compiled_for_avx512(task) }

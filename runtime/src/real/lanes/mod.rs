@@ -9,7 +9,7 @@
 //!
 //! One program has the code for all of them, and [`Width::widest`] is the widest that the processor has. Instructions that not every
 //! processor has are used in functions that are compiled for them. A whole evaluation of the equations must be inlined into such a
-//! function: see [`Real::enable`].
+//! function: see [`Real::dispatch`].
 //!
 //! Addition, multiplication, fused multiply-add, division and roots are correctly rounded in every width, and everything else consists
 //! of them. So a lane has the same bits whatever register it is in and whatever its neighbours hold.
@@ -141,7 +141,7 @@ impl Width {
 pub trait OfAnyWidth<F: Real = f64> {
     /// Its result.
     type Output;
-    /// Does the work. Its expensive part is a [`Task`] for [`Real::enable`] of `T`.
+    /// Does the work. Its expensive part is a [`Task`] for [`Real::dispatch`] of `T`.
     fn run<T: Several<One = F>>(self) -> Self::Output;
 }
 
@@ -313,8 +313,8 @@ impl<R: Register> Real for Lanes<R> {
     }
 
     #[inline(always)]
-    fn enable<W: Task>(task: W) -> W::Output {
-        R::enable(task)
+    fn dispatch<W: Task>(task: W) -> W::Output {
+        R::dispatch(task)
     }
 
     #[inline(always)]

@@ -12,7 +12,7 @@ pub trait Instructions {
     /// Whether this processor has them.
     fn there() -> bool;
     /// Runs a task that is compiled for them. The processor must have them.
-    fn enable<W: Task>(task: W) -> W::Output;
+    fn dispatch<W: Task>(task: W) -> W::Output;
 }
 
 /// A register of numbers, one per scenario.

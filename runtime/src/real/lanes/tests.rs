@@ -62,7 +62,7 @@ impl<F: Real> OfAnyWidth<F> for Everything {
             T::of_lanes(&lanes)
         };
         for (x, y) in left.chunks(T::LANES).zip(right.chunks(T::LANES)) {
-            let values = T::enable(Functions(pad(x), pad(y))).map(T::lanes);
+            let values = T::dispatch(Functions(pad(x), pad(y))).map(T::lanes);
             for lane in 0..x.len() {
                 results.push(values.map(|value| bits(value[lane])));
             }
@@ -214,7 +214,7 @@ fn elementary_functions_of_singles_are_those_of_doubles_rounded() {
         fn run<T: Several<One = f32>>(self) -> usize {
             let mut off = 0;
             for (x, y) in pairs::<f32>() {
-                let ours = T::enable(Functions(T::from_f64(x.into()), T::from_f64(y.into())));
+                let ours = T::dispatch(Functions(T::from_f64(x.into()), T::from_f64(y.into())));
                 let (x, y) = (f64::from(x), f64::from(y));
                 let (sine, cosine) = x.sin_cos();
                 let exact = [

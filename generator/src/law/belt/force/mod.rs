@@ -30,7 +30,7 @@ use crate::dynamics::force::fade::faded;
 use crate::dynamics::force::hysteresis;
 use crate::dynamics::force::onset::{FAR, Onset, absolute, size};
 use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Acts, Loads, Motion, Product, choose};
+use crate::dynamics::force::{Acts, AppliedForces, Motion, Product, choose};
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::numbers::{curve, inverse, number, vector};
 use crate::expression::vector::Vec3;
@@ -96,7 +96,7 @@ impl Equations for Belt {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g> {
         let Setting {
             graph,
@@ -114,7 +114,7 @@ impl Equations for Belt {
             gate,
             belt: self,
         };
-        Box::new(apply(law, motion, start, loads))
+        Box::new(apply(law, motion, start, applied))
     }
 
     fn condition<'g>(
@@ -133,14 +133,14 @@ fn apply<'g>(
     law: Law<'_, 'g>,
     motion: &Motion<'g>,
     start: &Motion<'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
 ) -> BeltMeasures<'g> {
     let Law { graph, belt, .. } = law;
     let points: Vec<Point<'g>> = belt
         .points()
         .map(|point| motion.attachment(graph, point))
         .collect();
-    let rings = ring::rings(law, loads);
+    let rings = ring::rings(law, applied);
     let slipped = |index: Option<usize>| Some(rings.get(index?)?.slipped);
     let mut segments = Vec::new();
     let mut initials: Vec<Expr<'g>> = Vec::new();
@@ -156,11 +156,11 @@ fn apply<'g>(
             None => ends[1].velocity - ends[0].velocity,
         };
         let line = (span, direction, rate, moving);
-        segments.push(segment(law, loads, index, line, &initials, fed));
+        segments.push(segment(law, applied, index, line, &initials, fed));
     }
-    let slips = ring::slip(law, loads, &rings, &mut segments);
+    let slips = ring::slip(law, applied, &rings, &mut segments);
     for segment in &segments {
-        segment.watch(law, loads);
+        segment.watch(law, applied);
     }
     let whole = segments[1..]
         .iter()
@@ -171,10 +171,10 @@ fn apply<'g>(
     let mut measures = Vec::new();
     for (index, segment) in segments.iter().enumerate() {
         let whole = (!rings.is_empty()).then_some(whole);
-        let tension = segment.pull(law, loads, whole);
+        let tension = segment.pull(law, applied, whole);
         let pull = tension * segment.direction;
-        loads.apply(nth(belt, index).on, points[index].offset, pull);
-        loads.apply(nth(belt, index + 1).on, points[index + 1].offset, -pull);
+        applied.apply(nth(belt, index).on, points[index].offset, pull);
+        applied.apply(nth(belt, index + 1).on, points[index + 1].offset, -pull);
         pulls.push(pull);
         measures.push(SegmentMeasures {
             tension,
@@ -184,7 +184,7 @@ fn apply<'g>(
             permanent_set: segment.permanent_set,
         });
     }
-    ring::works(law, loads, &slips, &measures);
+    ring::works(law, applied, &slips, &measures);
     let first = &segments[0].webbing;
     let payout = segments[1..]
         .iter()
@@ -240,7 +240,7 @@ fn straight<'g>(
 /// A segment, with its elastic tension. Webbing has slipped `fed[0]` into it and `fed[1]` out of it.
 fn segment<'g>(
     law: Law<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     index: usize,
     (span, direction, rate, moving): (Expr<'g>, Vec3<'g>, Expr<'g>, Vec3<'g>),
     initials: &[Expr<'g>],
@@ -251,7 +251,7 @@ fn segment<'g>(
     } = law;
     let untensioned = untensioned_length(graph, belt, initials, index);
     let webbing = match index {
-        0 => webbing(law, loads, [span, initials[0]], untensioned, fed[1]),
+        0 => webbing(law, applied, [span, initials[0]], untensioned, fed[1]),
         _ => Webbing::without_devices(untensioned, fed),
     };
     let elongation = span / webbing.length - graph.constant(1.0);
@@ -259,11 +259,11 @@ fn segment<'g>(
         true => format!("belt {name}"),
         false => format!("belt {name} segment {}", index + 1),
     };
-    let curves = loads.curves_so_far();
+    let curves = applied.curves_so_far();
     let one = graph.constant(1.0);
     let below = move || webbing.once_locked(elongation, -one);
-    loads.curve_of_state(&owner, "curve", &belt.force, Acts::AboveFirst, below);
-    let (elastic, permanent_set) = elastic(law, loads, &owner, span / webbing.length, below);
+    applied.curve_of_state(&owner, "curve", &belt.force, Acts::AboveFirst, below);
+    let (elastic, permanent_set) = elastic(law, applied, &owner, span / webbing.length, below);
     let mut segment = Segment {
         owner,
         direction,
@@ -301,9 +301,9 @@ impl<'g> Segment<'g> {
     }
 
     /// Watches where the limiter begins and ends, and where a hysteresis turns.
-    fn watch(&self, law: Law<'_, 'g>, loads: &mut Loads<'g>) {
+    fn watch(&self, law: Law<'_, 'g>, applied: &mut AppliedForces<'g>) {
         let (webbing, graph) = (self.webbing, law.graph);
-        webbing.watch_limiter(loads, law.name, [self.rate, self.leaving]);
+        webbing.watch_limiter(applied, law.name, [self.rate, self.leaving]);
         if law.belt.hysteresis.is_some() {
             let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
             let ratio = self.span / webbing.length;
@@ -311,39 +311,39 @@ impl<'g> Segment<'g> {
             let growing = webbing.once_locked(growing, one);
             let growing = match law.belt.rings.is_empty() {
                 true => growing,
-                false => self.beyond_noise(loads, growing),
+                false => self.beyond_noise(applied, growing),
             };
             let elongation = (ratio - one).max(zero);
-            hysteresis::watch_turns(loads, &self.owner, elongation, growing);
+            hysteresis::watch_turns(applied, &self.owner, elongation, growing);
         }
     }
 
     /// A rate of growth that changes its sign once the segment shortens, or lengthens again, by more than [`NOISE`]; which it did last is
     /// remembered.
-    fn beyond_noise(&self, loads: &mut Loads<'g>, growing: Expr<'g>) -> Expr<'g> {
+    fn beyond_noise(&self, applied: &mut AppliedForces<'g>, growing: Expr<'g>) -> Expr<'g> {
         let graph = growing.graph();
         let (zero, one, half) = (
             graph.constant(0.0),
             graph.constant(1.0),
             graph.constant(0.5),
         );
-        let (index, lengthens) = loads.memory(format!("{}: lengthens", self.owner), "", one);
+        let (index, lengthens) = applied.memory(format!("{}: lengthens", self.owner), "", one);
         let noise = graph.constant(NOISE);
         let event_function = choose(half, lengthens, growing + noise, noise - growing);
         let turned = choose(half, lengthens, zero, one);
-        loads.states.memory[index].next = choose(event_function, zero, turned, lengthens);
+        applied.states.memory[index].next = choose(event_function, zero, turned, lengthens);
         event_function
     }
 
     /// Tells where the tension without damping, by which webbing slips, has kinks.
-    pub fn tell_held(&self, loads: &mut Loads<'g>) {
+    pub fn tell_held(&self, applied: &mut AppliedForces<'g>) {
         let (webbing, elongation, elastic) = (self.webbing, self.elongation, self.elastic);
         let one = elongation.graph().constant(1.0);
-        loads.kink(format!("{}: goes taut", self.owner), move || {
+        applied.kink(format!("{}: goes taut", self.owner), move || {
             webbing.once_locked(elongation, one)
         });
         if let Some(limiter) = webbing.limiter {
-            loads.kink(format!("{}: reaches the limiter", self.owner), move || {
+            applied.kink(format!("{}: reaches the limiter", self.owner), move || {
                 webbing.once_locked(elastic - limiter.force, one)
             });
         }
@@ -355,7 +355,12 @@ impl<'g> Segment<'g> {
     }
 
     /// The tension, with all that is to be told of it. Of a belt that runs through rings `whole` is its length \[m\].
-    fn pull(&self, law: Law<'_, 'g>, loads: &mut Loads<'g>, whole: Option<Expr<'g>>) -> Expr<'g> {
+    fn pull(
+        &self,
+        law: Law<'_, 'g>,
+        applied: &mut AppliedForces<'g>,
+        whole: Option<Expr<'g>>,
+    ) -> Expr<'g> {
         let Law {
             graph, gate, belt, ..
         } = law;
@@ -373,21 +378,21 @@ impl<'g> Segment<'g> {
                     }
                     None => stretching,
                 };
-                self.damped(law, loads, number(graph, damping), damped)
+                self.damped(law, applied, number(graph, damping), damped)
             }
             None => {
-                loads.kink(format!("{}: goes taut", self.owner), move || {
+                applied.kink(format!("{}: goes taut", self.owner), move || {
                     webbing.once_locked(elongation, one)
                 });
                 self.undamped
             }
         };
-        self.tell(law, loads);
+        self.tell(law, applied);
         let spool = webbing.retractor.map(|(_, spool)| gate.of(spool));
         let tension = spool.map_or(stretched, |spool| webbing.once_locked(stretched, spool));
-        loads.curves_act(self.curves, tension);
+        applied.curves_act(self.curves, tension);
         let tensions = [self.undamped, stretched];
-        works(graph, loads, self, tensions, spool, stretching);
+        works(graph, applied, self, tensions, spool, stretching);
         tension
     }
 
@@ -395,7 +400,7 @@ impl<'g> Segment<'g> {
     fn damped(
         &self,
         law: Law<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
         damping: Expr<'g>,
         rate: Expr<'g>,
     ) -> Expr<'g> {
@@ -415,12 +420,12 @@ impl<'g> Segment<'g> {
         };
         let viscous = damping * fade * rate;
         // the tension has a kink where it goes taut, and ends while still stretched where damping would push
-        loads.kink(format!("{owner}: pulls"), move || {
+        applied.kink(format!("{owner}: pulls"), move || {
             let pulls = choose(zero, elongation, elastic + viscous, elongation);
             webbing.once_locked(pulls, one)
         });
         if let Some(limiter) = webbing.limiter {
-            loads.kink(
+            applied.kink(
                 format!("{owner}: pulls with the force of the limiter"),
                 move || webbing.once_locked(elastic + viscous - limiter.force, one),
             );
@@ -428,11 +433,11 @@ impl<'g> Segment<'g> {
         if let Some(stretch) = belt.damping_stretch.clone() {
             let beyond = move || span - webbing.undamped;
             if webbing.retractor.is_some() {
-                loads.kink(format!("{owner}: damping sets in"), move || {
+                applied.kink(format!("{owner}: damping sets in"), move || {
                     webbing.once_locked(beyond(), one)
                 });
             }
-            loads.kink(format!("{owner}: damping is full"), move || {
+            applied.kink(format!("{owner}: damping is full"), move || {
                 webbing.once_locked(beyond() - number(graph, &stretch), one)
             });
         }
@@ -440,7 +445,7 @@ impl<'g> Segment<'g> {
     }
 
     /// Tells where its curves have corners, and how far it is from being taut.
-    fn tell(&self, law: Law<'_, 'g>, loads: &mut Loads<'g>) {
+    fn tell(&self, law: Law<'_, 'g>, applied: &mut AppliedForces<'g>) {
         let Law {
             graph, gate, belt, ..
         } = law;
@@ -460,11 +465,11 @@ impl<'g> Segment<'g> {
         ];
         for (curve, which) in belt_curves {
             let Some(curve) = curve else { continue };
-            loads.corners(&self.owner, which, gate, curve, below, move || {
+            applied.corners(&self.owner, which, gate, curve, below, move || {
                 speed() / webbing.length
             });
         }
-        loads.onset(format!("{}: goes taut", self.owner), move || {
+        applied.onset(format!("{}: goes taut", self.owner), move || {
             gate.of_onset(Onset {
                 gap: webbing.once_locked(webbing.length - span, graph.constant(FAR)),
                 speed: speed(),
@@ -484,7 +489,7 @@ impl<'g> Webbing<'g> {
 /// The elastic tension, and the elongation that remains without it.
 fn elastic<'g>(
     law: Law<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     ratio: Expr<'g>,
     below: impl Fn() -> Expr<'g> + Copy + 'g,
@@ -498,7 +503,7 @@ fn elastic<'g>(
             // what is remembered must be finite, and a curve need not be defined while slack
             let elongation = (ratio - one).max(zero);
             let loading = curve(graph, &belt.force, elongation);
-            hysteresis::apply(loads, owner, "", law, gate, elongation, loading, below)
+            hysteresis::apply(applied, owner, "", law, gate, elongation, loading, below)
         }
         None => (curve(graph, &belt.force, ratio - one), zero),
     }
@@ -507,7 +512,7 @@ fn elastic<'g>(
 /// Counts the powers of a segment whose webbing pulls with `undamped` and, with damping, with `stretched`, at the rate of stretch `stretching`.
 fn works<'g>(
     graph: &'g Graph,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     segment: &Segment<'g>,
     [undamped, stretched]: [Expr<'g>; 2],
     spool: Option<Expr<'g>>,
@@ -523,34 +528,34 @@ fn works<'g>(
                 choose(pays, half, elastic, zero),
                 choose(pays, half, zero, elastic),
             );
-            loads.work(
+            applied.work(
                 format!("{owner}: elastic"),
                 Product::Scalars(-stores, stretching),
             );
-            loads.work(
+            applied.work(
                 format!("{owner}: limiter"),
                 Product::Scalars(-yields, stretching),
             );
         }
-        None => loads.work(
+        None => applied.work(
             format!("{owner}: elastic"),
             Product::Scalars(-elastic, stretching),
         ),
     }
     if undamped.id() != stretched.id() {
         let damping = locked(stretched) - elastic;
-        loads.work(
+        applied.work(
             format!("{owner}: damping"),
             Product::Scalars(-damping, stretching),
         );
     }
     if !webbing.taken_in.is_zero() {
         let work = format!("{owner}: pretensioner");
-        loads.work(work, Product::Scalars(locked(stretched), webbing.taken_in));
+        applied.work(work, Product::Scalars(locked(stretched), webbing.taken_in));
     }
     if let Some(spool) = spool {
         let free = webbing.once_locked(zero, spool);
-        loads.work(
+        applied.work(
             format!("{owner}: retractor"),
             Product::Scalars(-free, segment.rate + segment.leaving),
         );

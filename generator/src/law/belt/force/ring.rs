@@ -11,7 +11,7 @@
 //! Where a segment has run out, ℓ ≤ ℓ_e, no more slips from it, and up to 2 ℓ_e the slip slows down.
 
 use super::{Law, Segment};
-use crate::dynamics::force::{Loads, Product};
+use crate::dynamics::force::{AppliedForces, Product};
 use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Function, Graph};
 use crate::law::belt::check::RUN_OUT;
@@ -29,10 +29,10 @@ pub struct Ring<'g> {
 }
 
 /// The states of the rings of a belt.
-pub fn rings<'g>(law: Law<'_, 'g>, loads: &mut Loads<'g>) -> Vec<Ring<'g>> {
+pub fn rings<'g>(law: Law<'_, 'g>, applied: &mut AppliedForces<'g>) -> Vec<Ring<'g>> {
     let states = law.belt.rings.iter().map(|ring| {
         let name = format!("belt {}: slip through {}", law.name, ring.name);
-        let (index, slipped) = loads.auxiliary(name, "m", law.graph.constant(0.0));
+        let (index, slipped) = applied.auxiliary(name, "m", law.graph.constant(0.0));
         Ring { index, slipped }
     });
     states.collect()
@@ -50,16 +50,18 @@ pub struct Slips<'g> {
 /// Lets webbing slip from segment to segment, and off a film spool.
 pub fn slip<'g>(
     law: Law<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     rings: &[Ring<'g>],
     segments: &mut [Segment<'g>],
 ) -> Slips<'g> {
     let mut slips = Slips::default();
     let tensions: Vec<Expr<'g>> = segments.iter().map(|segment| segment.held(law)).collect();
     if !rings.is_empty() || law.belt.film_spool.is_some() {
-        segments.iter().for_each(|segment| segment.tell_held(loads));
+        segments
+            .iter()
+            .for_each(|segment| segment.tell_held(applied));
     }
-    if let Some(given) = segments[0].webbing.film(law, loads, tensions[0]) {
+    if let Some(given) = segments[0].webbing.film(law, applied, tensions[0]) {
         segments[0].leaves(-given);
         slips.given = Some(given);
     }
@@ -76,12 +78,12 @@ pub fn slip<'g>(
         let driven = forth.max(zero) * room(graph, &segments[k])
             - back.max(zero) * room(graph, &segments[k + 1]);
         let rate = driven / number(graph, &given.resistance);
-        loads.states.auxiliaries[ring.index].next = rate;
+        applied.states.auxiliaries[ring.index].next = rate;
         segments[k].leaves(rate);
         segments[k + 1].leaves(-rate);
         let owner = format!("belt {}: ring {}", law.name, given.name);
-        loads.kink(format!("{owner} slips towards to"), move || back);
-        loads.kink(format!("{owner} slips towards from"), move || forth);
+        applied.kink(format!("{owner} slips towards to"), move || back);
+        applied.kink(format!("{owner} slips towards from"), move || forth);
         slips.through.push(rate);
     }
     slips
@@ -90,19 +92,19 @@ pub fn slip<'g>(
 /// Counts what is lost in the rings and the film spool.
 pub fn works<'g>(
     law: Law<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     slips: &Slips<'g>,
     segments: &[SegmentMeasures<'g>],
 ) {
     if let Some(given) = slips.given {
         let work = format!("belt {}: film spool", law.name);
-        loads.work(work, Product::Scalars(-segments[0].tension, given));
+        applied.work(work, Product::Scalars(-segments[0].tension, given));
     }
     let rings = slips.through.iter().zip(&law.belt.rings);
     for ((rate, ring), tensions) in rings.zip(segments.windows(2)) {
         let work = format!("belt {}: ring {}", law.name, ring.name);
         let difference = tensions[0].tension - tensions[1].tension;
-        loads.work(work, Product::Scalars(difference, *rate));
+        applied.work(work, Product::Scalars(difference, *rate));
     }
 }
 

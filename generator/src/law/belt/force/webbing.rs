@@ -19,7 +19,7 @@
 
 use super::Law;
 use crate::dynamics::force::switch::Remembered;
-use crate::dynamics::force::{Acts, Loads, choose};
+use crate::dynamics::force::{Acts, AppliedForces, choose};
 use crate::dynamics::numbers::{curve, derivative, inverse, number};
 use crate::dynamics::time;
 use crate::expression::{Expr, Function, Graph};
@@ -74,7 +74,7 @@ pub struct Limiter<'g> {
 /// `slipped` has gone out of it.
 pub fn webbing<'g>(
     law: Law<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     [span, initial_span]: [Expr<'g>; 2],
     untensioned: Expr<'g>,
     slipped: Option<Expr<'g>>,
@@ -87,17 +87,17 @@ pub fn webbing<'g>(
         graph.constant(1.0),
         graph.constant(0.5),
     );
-    let (taken, taken_in) = pretensioner(law, loads);
+    let (taken, taken_in) = pretensioner(law, applied);
     let paid = belt.limiter.as_ref().map(|force| {
-        let (paid, payout) = loads.memory(format!("belt {name}: paid out"), "m", zero);
-        let (paying, pays) = loads.memory(format!("belt {name}: pays out"), "", zero);
+        let (paid, payout) = applied.memory(format!("belt {name}: paid out"), "m", zero);
+        let (paying, pays) = applied.memory(format!("belt {name}: pays out"), "", zero);
         (force, (paid, payout), (paying, pays))
     });
     let payout = paid.map_or(zero, |(_, (_, payout), _)| payout);
     let film = belt
         .film_spool
         .as_ref()
-        .map(|_| loads.auxiliary(format!("belt {name}: given by the film spool"), "m", zero));
+        .map(|_| applied.auxiliary(format!("belt {name}: given by the film spool"), "m", zero));
     // what makes ℓ longer beside the devices
     let given = match (film, slipped) {
         (Some((_, film)), Some(slipped)) => film - slipped,
@@ -110,10 +110,10 @@ pub fn webbing<'g>(
     if let Some(retractor) = &belt.retractor {
         undamped = one + elongation(graph, belt, &retractor.spool);
         initial = initial_span / undamped;
-        let lock = loads.states.switches[retractor.lock];
-        let (index, locked) = loads.memory(format!("belt {name}: locked length"), "m", initial);
+        let lock = applied.states.switches[retractor.lock];
+        let (index, locked) = applied.memory(format!("belt {name}: locked length"), "m", initial);
         base = lock.once(locked, span / undamped + taken - payout - given);
-        loads.states.memory[index].next = base;
+        applied.states.memory[index].next = base;
         reel = Some((lock, number(graph, &retractor.spool)));
     }
 
@@ -123,7 +123,7 @@ pub fn webbing<'g>(
         let paid_now = payout.max(span / yields - length);
         let beyond = span - yields * (length + payout);
         length = length + choose(pays, half, payout, paid_now);
-        loads.states.memory[paid].next = paid_now;
+        applied.states.memory[paid].next = paid_now;
         Limiter {
             force: number(graph, force),
             pays,
@@ -169,7 +169,12 @@ impl<'g> Webbing<'g> {
     }
 
     /// Watches where the limiter begins to pay out, and where it ends. The span lengthens at the rate `rate`, webbing leaves at `leaving`.
-    pub fn watch_limiter(&self, loads: &mut Loads<'g>, name: &str, [rate, leaving]: [Expr<'g>; 2]) {
+    pub fn watch_limiter(
+        &self,
+        applied: &mut AppliedForces<'g>,
+        name: &str,
+        [rate, leaving]: [Expr<'g>; 2],
+    ) {
         let Some(limiter) = self.limiter else { return };
         let graph = rate.graph();
         let (zero, one, half) = (
@@ -190,28 +195,28 @@ impl<'g> Webbing<'g> {
             zero,
         );
         let ends = choose(event_function, zero, zero, one);
-        loads.states.memory[limiter.paying].next = choose(limiter.pays, half, begins, ends);
-        loads.event_function(format!("belt {name}: limiter"), event_function);
+        applied.states.memory[limiter.paying].next = choose(limiter.pays, half, begins, ends);
+        applied.event_function(format!("belt {name}: limiter"), event_function);
     }
 
     /// The rate at which the film spool gives webbing, which pulls with `tension`; nothing without one.
     pub fn film(
         &self,
         law: Law<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
         tension: Expr<'g>,
     ) -> Option<Expr<'g>> {
         let ((index, given), (_, spool)) = (self.film?, self.retractor?);
         let (graph, film) = (law.graph, law.belt.film_spool.as_ref()?);
         let owner = format!("belt {}", law.name);
-        loads.curve_of_state(&owner, "film spool", film, Acts::Everywhere, move || given);
+        applied.curve_of_state(&owner, "film spool", film, Acts::Everywhere, move || given);
         let resistance = graph.constant(RESISTANCE);
         let pulled = (tension - spool - curve(graph, film, given)) / resistance;
         let back = given / graph.constant(-BACK);
         let rate = self.once_locked(pulled.max(back), graph.constant(0.0));
-        loads.states.auxiliaries[index].next = rate;
+        applied.states.auxiliaries[index].next = rate;
         let webbing = *self;
-        loads.kink(format!("{owner}: film spool"), move || {
+        applied.kink(format!("{owner}: film spool"), move || {
             webbing.once_locked(pulled - back, graph.constant(1.0))
         });
         Some(rate)
@@ -228,7 +233,7 @@ fn elongation<'g>(graph: &'g Graph, belt: &Belt, tension: &Number) -> Expr<'g> {
 }
 
 /// r and ṙ, both 0 until it fires and for its delay; and an event function at each kink.
-fn pretensioner<'g>(law: Law<'_, 'g>, loads: &mut Loads<'g>) -> (Expr<'g>, Expr<'g>) {
+fn pretensioner<'g>(law: Law<'_, 'g>, applied: &mut AppliedForces<'g>) -> (Expr<'g>, Expr<'g>) {
     let Law {
         graph,
         model,
@@ -241,7 +246,7 @@ fn pretensioner<'g>(law: Law<'_, 'g>, loads: &mut Loads<'g>) -> (Expr<'g>, Expr<
         return (zero, zero);
     };
     let (fire, retract) = (
-        loads.states.switches[pretensioner.fire],
+        applied.states.switches[pretensioner.fire],
         &pretensioner.retract,
     );
     let now = time(graph);
@@ -262,14 +267,14 @@ fn pretensioner<'g>(law: Law<'_, 'g>, loads: &mut Loads<'g>) -> (Expr<'g>, Expr<
     let points = &model.curves[retract.curve].points;
     if delay.is_some() {
         let event_function = format!("belt {name}: begin of the pretensioner");
-        loads.event_function(event_function, begins - now);
+        applied.event_function(event_function, begins - now);
     }
     for (index, point) in points.iter().enumerate().skip(1) {
         if points.len() <= MOST_KINKS {
             let kink = point[0] * number(graph, &retract.stretch);
             let left = begins + kink - now;
             let event_function = format!("belt {name}: point {} of the pretensioner", index + 1);
-            loads.event_function(event_function, left);
+            applied.event_function(event_function, left);
         }
     }
     (curve(graph, retract, since), rate)

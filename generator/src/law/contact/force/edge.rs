@@ -17,7 +17,7 @@
 //! whence the force acts at the centre, with a moment E ∂w/∂ξ_i m_i, which of a sphere is 0.
 
 use crate::dynamics::force::choose;
-use crate::dynamics::force::{Loads, Product};
+use crate::dynamics::force::{AppliedForces, Product};
 use crate::dynamics::numbers::number;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
@@ -84,17 +84,22 @@ pub fn weight<'g>(extent: &Extent, place: &[Expr<'g>]) -> Weight<'g> {
 }
 
 /// Tells where the weight is not smooth: it ends at the edge; a fading one begins where it is fully inside.
-pub fn kinks<'g>(loads: &mut Loads<'g>, owner: &str, extent: &Extent, weight: &Weight<'g>) {
+pub fn kinks<'g>(
+    applied: &mut AppliedForces<'g>,
+    owner: &str,
+    extent: &Extent,
+    weight: &Weight<'g>,
+) {
     match &extent.rule {
         EdgeRule::Cut => {
             let inside = weight.inside;
-            loads.kink(format!("{owner}: crosses an edge"), move || inside);
+            applied.kink(format!("{owner}: crosses an edge"), move || inside);
         }
         EdgeRule::Fade(width) => {
             for (i, &distance) in weight.from_edge.iter().enumerate() {
                 let (which, width) = (["", " 2"][i], width.clone());
-                loads.kink(format!("{owner}: crosses an edge{which}"), move || distance);
-                loads.kink(format!("{owner}: begins to fade{which}"), move || {
+                applied.kink(format!("{owner}: crosses an edge{which}"), move || distance);
+                applied.kink(format!("{owner}: begins to fade{which}"), move || {
                     distance - number(distance.graph(), &width)
                 });
             }
@@ -114,7 +119,7 @@ pub struct Push<'g> {
 /// The push of an edge, of the energy E stored at full weight; `moving` are t_i and m_i. `centre` is the velocity of the
 /// ellipsoid's centre and `omega` the angular velocity of its body, both relative to the plane's.
 pub fn push<'g>(
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     weight: &Weight<'g>,
     stored: Expr<'g>,
@@ -133,7 +138,7 @@ pub fn push<'g>(
         graph,
         rates.zip(&weight.slopes).map(|(rate, slope)| rate * *slope),
     );
-    loads.work(format!("{owner}: edge"), Product::Scalars(-stored, rate));
+    applied.work(format!("{owner}: edge"), Product::Scalars(-stored, rate));
     for ([along, turning], slope) in moving.iter().zip(&weight.slopes) {
         let size = stored * *slope;
         push.force = push.force - size * *along;

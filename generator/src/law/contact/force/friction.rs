@@ -14,7 +14,7 @@
 //! z is kept along axes of the second body, in which a material line at rest stays at rest: two axes of a plane, or, where
 //! the normal wanders, all three, of which the part along the normal counts for nothing and decays.
 
-use super::{Loads, Product, Touch};
+use super::{AppliedForces, Product, Touch};
 use crate::dynamics::force::choose;
 use crate::dynamics::numbers::number;
 use crate::expression::vector::Vec3;
@@ -31,7 +31,7 @@ pub struct Rubbing<'g> {
 
 /// Friction under a normal force; `owner` is the contact ("contact seat").
 pub fn friction<'g>(
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     dimension: Dimension,
     owner: &str,
     law: &Friction,
@@ -46,7 +46,7 @@ pub fn friction<'g>(
         Some(displacement) => {
             let bristle_limit = number(graph, displacement);
             sticking(
-                loads,
+                applied,
                 dimension,
                 owner,
                 pressure,
@@ -55,7 +55,7 @@ pub fn friction<'g>(
                 touch,
             )
         }
-        None => regularised(loads, dimension, owner, limit, tolerance, touch),
+        None => regularised(applied, dimension, owner, limit, tolerance, touch),
     }
 }
 
@@ -68,7 +68,7 @@ fn slides(owner: &str) -> String {
 }
 
 fn regularised<'g>(
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     dimension: Dimension,
     owner: &str,
     limit: Expr<'g>,
@@ -81,8 +81,8 @@ fn regularised<'g>(
             let tangent = touch.planar_tangent();
             let slip = tangent.dot(touch.velocity);
             let magnitude = graph.call(Function::Coulomb, &[limit, slip, tolerance]);
-            loads.kink(slides(owner), move || slip.max(-slip) - tolerance);
-            loads.work(work(owner), Product::Scalars(magnitude, slip));
+            applied.kink(slides(owner), move || slip.max(-slip) - tolerance);
+            applied.work(work(owner), Product::Scalars(magnitude, slip));
             Rubbing {
                 force: magnitude * tangent,
                 magnitude,
@@ -92,8 +92,8 @@ fn regularised<'g>(
             let slip = touch.slip();
             let squared = slip.squared();
             let scale = graph.call(Function::CoulombScale, &[limit, squared, tolerance]);
-            loads.kink(slides(owner), move || squared - tolerance.squared());
-            loads.work(work(owner), Product::Scalars(-scale, squared));
+            applied.kink(slides(owner), move || squared - tolerance.squared());
+            applied.work(work(owner), Product::Scalars(-scale, squared));
             Rubbing {
                 force: -(scale * slip),
                 magnitude: scale * squared.sqrt(),
@@ -103,7 +103,7 @@ fn regularised<'g>(
 }
 
 fn sticking<'g>(
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     dimension: Dimension,
     owner: &str,
     pressure: Expr<'g>,
@@ -124,7 +124,7 @@ fn sticking<'g>(
     let bristle: Vec<(usize, Expr<'g>)> = (0..axes.len())
         .map(|i| {
             let which = ["", " 2", " 3"][i];
-            loads.auxiliary(format!("{owner}: bristle{which}"), "m", zero)
+            applied.auxiliary(format!("{owner}: bristle{which}"), "m", zero)
         })
         .collect();
     let mut tangential: Vec<Expr<'g>> = bristle.iter().map(|(_, z)| *z).collect();
@@ -145,25 +145,25 @@ fn sticking<'g>(
     let (share, magnitude): (Vec<Expr<'g>>, _) = match trial[..] {
         [trial] => {
             let share = trial.max(-one).min(one);
-            loads.kink(slides(owner), move || trial.max(-trial) - one);
+            applied.kink(slides(owner), move || trial.max(-trial) - one);
             (vec![share], -(limit * share))
         }
         _ => {
             let squared = sum(graph, trial.iter().map(|s| s.squared()));
             let scale = squared.max(one).sqrt().recip();
-            loads.kink(slides(owner), move || squared - one);
+            applied.kink(slides(owner), move || squared - one);
             let share = trial.iter().map(|s| scale * *s).collect();
             (share, limit * (scale * squared.sqrt()))
         }
     };
     for ((index, z), s) in bristle.iter().zip(&share) {
         let held = choose(zero, pressure, *s, zero);
-        loads.states.auxiliaries[*index].next = tolerance * (held - *z / deflection);
+        applied.states.auxiliaries[*index].next = tolerance * (held - *z / deflection);
     }
     let mut force = Vec3::zero(graph);
     for (axis, share) in axes.iter().zip(&share) {
         force = force - (limit * *share) * *axis;
     }
-    loads.work(work(owner), Product::Vectors(force, touch.velocity));
+    applied.work(work(owner), Product::Vectors(force, touch.velocity));
     Rubbing { force, magnitude }
 }

@@ -18,7 +18,7 @@ use crate::dynamics::force::fade::faded;
 use crate::dynamics::force::hysteresis;
 use crate::dynamics::force::onset::Pair;
 use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Acts, Loads, Motion, Product, choose, point_on};
+use crate::dynamics::force::{Acts, AppliedForces, Motion, Product, choose, point_on};
 use crate::dynamics::numbers::{curve, derivative, number, vector};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
@@ -81,9 +81,9 @@ impl Equations for Contact {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g> {
-        Box::new(apply(self, setting, loads))
+        Box::new(apply(self, setting, applied))
     }
 }
 
@@ -92,7 +92,7 @@ impl Equations for Contact {
 fn apply<'g>(
     contact: &Contact,
     setting: Setting<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
 ) -> ContactMeasures<'g> {
     let Setting {
         graph,
@@ -110,42 +110,42 @@ fn apply<'g>(
     };
     let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
     let owner = format!("contact {name}");
-    let curves = loads.curves_so_far();
+    let curves = applied.curves_so_far();
     for &flat in &touch.flats {
-        loads.kink(format!("{owner}: passes a flat side"), move || flat);
+        applied.kink(format!("{owner}: passes a flat side"), move || flat);
     }
     let Pressed {
         force: mut pressure,
         mut stored,
         permanent_set,
-    } = pressed(graph, loads, &owner, gate, contact, &touch);
+    } = pressed(graph, applied, &owner, gate, contact, &touch);
     pressure = gate.of(pressure);
     let pair = Pair::of(graph, dimension, motion, contact);
-    begins(loads, &owner, gate, contact, &touch, pair);
+    begins(applied, &owner, gate, contact, &touch, pair);
     let weight = extent.map(|extent| edge::weight(extent, &touch.place));
     if let (Some(weight), Some(extent)) = (&weight, extent) {
         pressure = weight.weight * pressure;
         // beyond the edge there is nothing, also where a curve has no value
-        if loads.may_end(contact) {
+        if applied.may_end(contact) {
             let zero = graph.constant(0.0);
             pressure = choose(zero, weight.weight, pressure, zero);
             stored = choose(zero, weight.weight, stored, zero);
         }
-        edge::kinks(loads, &owner, extent, weight);
+        edge::kinks(applied, &owner, extent, weight);
     }
 
     if let Some(between) = touch.between {
-        loads.direction(&owner, pair::direction(dimension, touch.normal, between));
+        applied.direction(&owner, pair::direction(dimension, touch.normal, between));
     }
-    loads.curves_act(curves, pressure);
-    loads.work(
+    applied.curves_act(curves, pressure);
+    applied.work(
         format!("{owner}: normal force"),
         Product::Scalars(-pressure, touch.approach),
     );
     let displacement = contact.bristle.as_ref().map(|b| &b.displacement);
     let rubbing = match &contact.friction {
         Some(law) => friction(
-            loads,
+            applied,
             dimension,
             &owner,
             law,
@@ -159,8 +159,8 @@ fn apply<'g>(
         },
     };
     let force = pressure * touch.normal + rubbing.force;
-    loads.apply(on, touch.offset, force);
-    loads.apply(on_second, touch.offset_on_second, -force);
+    applied.apply(on, touch.offset, force);
+    applied.apply(on_second, touch.offset_on_second, -force);
     let (mut on_first, mut resultant) = (
         force,
         match &contact.friction {
@@ -175,7 +175,7 @@ fn apply<'g>(
             first.omega - second.omega,
         ];
         let stored = gate.of(stored);
-        let push = push_of_edge(contact, loads, &owner, weight, stored, &touch, relative);
+        let push = push_of_edge(contact, applied, &owner, weight, stored, &touch, relative);
         on_first = force + push;
         resultant = on_first.squared().sqrt();
     }
@@ -192,7 +192,7 @@ fn apply<'g>(
 /// Applies what a fading edge pushes with, and returns the force on the first body.
 fn push_of_edge<'g>(
     contact: &Contact,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     weight: &edge::Weight<'g>,
     stored: Expr<'g>,
@@ -200,17 +200,17 @@ fn push_of_edge<'g>(
     relative: [Vec3<'g>; 2],
 ) -> Vec3<'g> {
     let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
-    let push = edge::push(loads, owner, weight, stored, &touch.moving, relative);
-    loads.apply(on, touch.centre, push.force);
-    loads.apply(on_second, touch.centre_on_second, -push.force);
-    loads.turn(on, push.moment);
-    loads.turn(on_second, -push.moment);
+    let push = edge::push(applied, owner, weight, stored, &touch.moving, relative);
+    applied.apply(on, touch.centre, push.force);
+    applied.apply(on_second, touch.centre_on_second, -push.force);
+    applied.turn(on, push.moment);
+    applied.turn(on_second, -push.moment);
     push.force
 }
 
 /// Tells when a contact begins to act, and of the corners of its curves.
 pub(crate) fn begins<'g>(
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     gate: Gate<'g>,
     contact: &Contact,
@@ -219,7 +219,7 @@ pub(crate) fn begins<'g>(
 ) {
     let graph = touch.penetration.graph();
     let lead = match (&contact.elastic, &contact.damping) {
-        (Some(curve), None) => loads.lead(graph, curve),
+        (Some(curve), None) => applied.lead(graph, curve),
         _ => graph.constant(0.0),
     };
     let (penetration, normal, place) = (touch.penetration, touch.normal, touch.place.clone());
@@ -234,9 +234,9 @@ pub(crate) fn begins<'g>(
         let Some(curve) = curve else { continue };
         let pair = Rc::clone(&pair);
         let closing = move || pair.closing(normal);
-        loads.corners(owner, which, gate, curve, move || penetration, closing);
+        applied.corners(owner, which, gate, curve, move || penetration, closing);
     }
-    loads.onset(format!("{owner}: touches"), move || {
+    applied.onset(format!("{owner}: touches"), move || {
         let tangents = match tangents[..] {
             [] => vec![planar_tangent(normal)],
             _ => tangents.clone(),
@@ -258,7 +258,7 @@ struct Pressed<'g> {
 /// The normal force, before an edge takes from it.
 fn pressed<'g>(
     graph: &'g Graph,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     gate: Gate<'g>,
     contact: &Contact,
@@ -277,10 +277,10 @@ fn pressed<'g>(
     let (elastic, permanent_set) = match &contact.hysteresis {
         Some(law) => {
             let elastic =
-                hysteresis::apply(loads, owner, "m", law, gate, depth, loading, move || {
+                hysteresis::apply(applied, owner, "m", law, gate, depth, loading, move || {
                     penetration
                 });
-            hysteresis::watch_turns(loads, owner, depth, approach);
+            hysteresis::watch_turns(applied, owner, depth, approach);
             elastic
         }
         None => (loading, zero),
@@ -294,19 +294,19 @@ fn pressed<'g>(
     );
     if contact.damping.is_some() {
         // the force ends while still penetrated where damping would pull
-        loads.kink(format!("{owner}: pushes"), move || {
+        applied.kink(format!("{owner}: pushes"), move || {
             choose(zero, penetration, elastic + viscous, penetration)
         });
         if let Some(depth) = contact.damping_depth.clone() {
-            loads.kink(format!("{owner}: damping is full"), move || {
+            applied.kink(format!("{owner}: damping is full"), move || {
                 penetration - number(graph, &depth)
             });
         }
     } else {
-        loads.kink(format!("{owner}: touches"), move || penetration);
+        applied.kink(format!("{owner}: touches"), move || penetration);
     }
     if let Some(curve) = &contact.elastic {
-        loads.curve_of_state(owner, "curve", curve, Acts::AboveFirst, move || penetration);
+        applied.curve_of_state(owner, "curve", curve, Acts::AboveFirst, move || penetration);
     }
     let stored = match (&contact.elastic, &contact.hysteresis) {
         _ if touch.moving.is_empty() => zero,

@@ -21,7 +21,7 @@
 
 use super::{Rotation, elastic_torque, stop, stop_kinks};
 use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Loads, Product, choose};
+use crate::dynamics::force::{AppliedForces, Product, choose};
 use crate::dynamics::kinematics::ElementMotion;
 use crate::dynamics::numbers::number;
 use crate::equations::NO_BEARING;
@@ -99,7 +99,7 @@ impl<'g> Bent<'g> {
     pub fn flexion(
         &self,
         graph: &'g Graph,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
         owner: &str,
         gate: Gate<'g>,
         law: &JointTorque,
@@ -113,16 +113,16 @@ impl<'g> Bent<'g> {
         let rotation = format!("{owner} flexion");
         let argument = move || angle;
         let resists = law.elastic.as_ref().map(|elastic| {
-            elastic_torque(loads, &rotation, gate, elastic, law, argument, rate, unit)
+            elastic_torque(applied, &rotation, gate, elastic, law, argument, rate, unit)
         });
         if let Some(law) = &law.stop {
-            stop_kinks(graph, loads, &rotation, gate, law, angle, rate);
+            stop_kinks(graph, applied, &rotation, gate, law, angle, rate);
         }
         let mut torque = graph.constant(0.0);
         let mut along = |term: &str, value: Expr<'g>| {
             let value = gate.of(value);
             torque = torque + value;
-            loads.work(
+            applied.work(
                 format!("{owner}: flexion, {term}"),
                 Product::Scalars(value, rate),
             );
@@ -138,7 +138,7 @@ impl<'g> Bent<'g> {
         let mut against = |term: &str, coefficient: Expr<'g>| {
             let coefficient = gate.of(coefficient);
             resistance = resistance + coefficient;
-            loads.work(
+            applied.work(
                 format!("{owner}: flexion, {term}"),
                 Product::Scalars(-coefficient, squared),
             );
@@ -153,7 +153,7 @@ impl<'g> Bent<'g> {
             );
             let scale = graph.call(Function::CoulombScale, &[limit, squared, tolerance]);
             against("friction", scale);
-            loads.kink(format!("{rotation}: slides"), move || {
+            applied.kink(format!("{rotation}: slides"), move || {
                 squared - tolerance.squared()
             });
         }

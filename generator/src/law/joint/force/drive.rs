@@ -6,7 +6,7 @@
 //! | drive | k (c(t) − θ) + d (ċ(t) − θ̇), kept within ± the limit |
 
 use super::Rotation;
-use crate::dynamics::force::Loads;
+use crate::dynamics::force::AppliedForces;
 use crate::dynamics::numbers::{curve, derivative, number};
 use crate::dynamics::time;
 use crate::expression::{Expr, Function, Graph};
@@ -23,7 +23,7 @@ pub fn motor<'g>(graph: &'g Graph, law: &FieldComponent) -> Expr<'g> {
 /// The torque of a drive.
 pub fn drive<'g>(
     graph: &'g Graph,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     law: &Drive,
     Rotation { angle, rate, .. }: Rotation<'g>,
@@ -42,7 +42,7 @@ pub fn drive<'g>(
         return torque;
     };
     let limit = number(graph, limit);
-    loads.kink(
+    applied.kink(
         format!("{owner}: drives with its largest torque"),
         move || torque.max(-torque) - limit,
     );

@@ -25,7 +25,7 @@ use crate::dynamics::force::fade::faded;
 use crate::dynamics::force::hysteresis;
 use crate::dynamics::force::onset::{Onset, absolute};
 use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Acts, Loads, Motion, Product, choose};
+use crate::dynamics::force::{Acts, AppliedForces, Motion, Product, choose};
 use crate::dynamics::numbers::{curve, number};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, sum};
@@ -55,9 +55,9 @@ impl Equations for Joint {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g> {
-        Box::new(apply(self, setting, loads))
+        Box::new(apply(self, setting, applied))
     }
 }
 
@@ -65,15 +65,19 @@ impl Equations for Freedom {
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
-        loads: &mut Loads<'g>,
+        applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g> {
-        let measures = apply_to_freedom(self, setting, loads);
+        let measures = apply_to_freedom(self, setting, applied);
         Box::new([Some(measures), None, None, None, None])
     }
 }
 
 /// Measures: of the three rotations, of flexion, of torsion, where there is a law or somebody looks.
-fn apply<'g>(joint: &Joint, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> AboutRotations<'g> {
+fn apply<'g>(
+    joint: &Joint,
+    setting: Setting<'_, 'g>,
+    applied: &mut AppliedForces<'g>,
+) -> AboutRotations<'g> {
     let Setting {
         graph,
         model,
@@ -85,7 +89,7 @@ fn apply<'g>(joint: &Joint, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> 
     } = setting;
     let (child, bending) = (joint.child, joint.bending.as_deref());
     let parent = parent(model, child);
-    let curves = loads.curves_so_far();
+    let curves = applied.curves_so_far();
     let owner = format!("joint {name}");
     let mut measures = [None; 5];
     let mut moment = Vec3::zero(graph);
@@ -102,7 +106,7 @@ fn apply<'g>(joint: &Joint, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> 
             Dimension::Plane => owner.clone(),
             Dimension::Space => format!("{owner} about {}", ["x", "y", "z"][i]),
         };
-        let measured = apply_torques(graph, loads, (&owner, &about), gate, law, rotation);
+        let measured = apply_torques(graph, applied, (&owner, &about), gate, law, rotation);
         moment = moment + measured.torque * rotation.direction;
         measures[i] = Some(measured);
     }
@@ -114,30 +118,30 @@ fn apply<'g>(joint: &Joint, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> 
         let flexion = bending.map_or(&none, |b| &b.flexion);
         let torsion = bending.map_or(&none, |b| &b.torsion);
         if *flexion != none || looked[0] {
-            let (resists, measured) = bent.flexion(graph, loads, &owner, gate, flexion);
+            let (resists, measured) = bent.flexion(graph, applied, &owner, gate, flexion);
             moment = moment + resists;
             measures[3] = Some(measured);
         }
         if *torsion != none || looked[1] {
             let about = format!("{owner} torsion");
             let names = (&*format!("{owner}: torsion"), &*about);
-            let measured = apply_torques(graph, loads, names, gate, torsion, bent.twist);
+            let measured = apply_torques(graph, applied, names, gate, torsion, bent.twist);
             moment = moment + measured.torque * bent.twist.direction;
             measures[4] = Some(measured);
         }
     }
     if gate.waits() {
-        loads.curves_act(curves, gate.of(graph.constant(1.0)));
+        applied.curves_act(curves, gate.of(graph.constant(1.0)));
     }
     if let Some(bending) = bending.filter(|b| b.directs()) {
         let [inboard, outboard] =
             [motion.body(parent), motion.element(child)].map(|body| body.rotation);
         let axis = bending.axis;
-        loads.bearing(&owner, move || {
+        applied.bearing(&owner, move || {
             bending::bearing(graph, inboard, outboard, axis)
         });
     }
-    loads.turn_joint(child, parent, moment);
+    applied.turn_joint(child, parent, moment);
     measures
 }
 
@@ -145,7 +149,7 @@ fn apply<'g>(joint: &Joint, setting: Setting<'_, 'g>, loads: &mut Loads<'g>) -> 
 fn apply_to_freedom<'g>(
     law: &Freedom,
     setting: Setting<'_, 'g>,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
 ) -> JointMeasures<'g> {
     let Setting {
         graph,
@@ -163,7 +167,7 @@ fn apply_to_freedom<'g>(
     let (child, freedom) = (*child, *freedom);
     let joint = &model.systems[child.system].elements[child.element].joint;
     let [unit, _] = joint.freedoms()[freedom].kind.coordinate().units();
-    let curves = loads.curves_so_far();
+    let curves = applied.curves_so_far();
     let owner = format!("joint {name}");
     let (angle, rate) = motion.element(child).freedoms[freedom];
     let rotation = Rotation {
@@ -172,11 +176,11 @@ fn apply_to_freedom<'g>(
         direction: motion.element(child).axes[freedom],
         unit,
     };
-    let measured = apply_torques(graph, loads, (&owner, &owner), gate, law, rotation);
+    let measured = apply_torques(graph, applied, (&owner, &owner), gate, law, rotation);
     if gate.waits() {
-        loads.curves_act(curves, gate.of(graph.constant(1.0)));
+        applied.curves_act(curves, gate.of(graph.constant(1.0)));
     }
-    let on = &mut loads.wrenches.on_freedoms[child.system][child.element][freedom];
+    let on = &mut applied.wrenches.on_freedoms[child.system][child.element][freedom];
     *on = *on + measured.torque;
     measured
 }
@@ -198,13 +202,13 @@ fn looked_at(model: &Model, force: usize, about: usize) -> bool {
 /// kinks.
 fn apply_torques<'g>(
     graph: &'g Graph,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     (owner, memory): (&str, &str),
     gate: Gate<'g>,
     law: &JointTorque,
     rotation: Rotation<'g>,
 ) -> JointMeasures<'g> {
-    let (terms, permanent_sets) = torques(graph, loads, memory, gate, law, rotation);
+    let (terms, permanent_sets) = torques(graph, applied, memory, gate, law, rotation);
     let terms: Vec<_> = terms
         .into_iter()
         .map(|(term, torque)| (term, gate.of(torque)))
@@ -214,7 +218,7 @@ fn apply_torques<'g>(
             true => format!("{owner}, {term}"),
             false => format!("{owner}: {term}"),
         };
-        loads.work(work, Product::Scalars(*torque, rotation.rate));
+        applied.work(work, Product::Scalars(*torque, rotation.rate));
     }
     JointMeasures {
         torque: sum(graph, terms.iter().map(|(_, torque)| *torque)),
@@ -240,7 +244,7 @@ pub fn parent(model: &Model, child: ElementId) -> Body {
 /// The terms of Q of one relative rotation, by name, and the sets of its hysteresis.
 fn torques<'g>(
     graph: &'g Graph,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     gate: Gate<'g>,
     law: &JointTorque,
@@ -257,7 +261,7 @@ fn torques<'g>(
             .map_or(graph.constant(0.0), |n| number(graph, n));
         let argument = move || angle - neutral;
         let (resists, kept) =
-            elastic_torque(loads, owner, gate, elastic, law, argument, rate, unit);
+            elastic_torque(applied, owner, gate, elastic, law, argument, rate, unit);
         sets = kept;
         torques.push(("elastic", -resists));
     }
@@ -266,21 +270,21 @@ fn torques<'g>(
     }
     if let Some(friction) = &law.friction {
         let bristle = law.bristle.as_ref();
-        let torque = sticking::friction(loads, owner, gate, friction, bristle, rotation);
+        let torque = sticking::friction(applied, owner, gate, friction, bristle, rotation);
         torques.push(("friction", torque));
     }
     if let Some(law) = &law.stop {
-        stop_kinks(graph, loads, owner, gate, law, angle, rate);
+        stop_kinks(graph, applied, owner, gate, law, angle, rate);
         torques.push(("stop", stop(graph, law, angle, rate)));
     }
     if let Some(law) = &law.lock {
-        torques.push(("lock", lock(graph, loads, owner, law, rotation)));
+        torques.push(("lock", lock(graph, applied, owner, law, rotation)));
     }
     if let Some(motor) = &law.motor {
         torques.push(("motor", drive::motor(graph, motor)));
     }
     if let Some(law) = &law.drive {
-        let torque = drive::drive(graph, loads, owner, law, rotation);
+        let torque = drive::drive(graph, applied, owner, law, rotation);
         torques.push(("drive", torque));
     }
     (torques, sets)
@@ -292,7 +296,7 @@ fn torques<'g>(
     reason = "whose, what law, and where on it"
 )]
 pub fn elastic_torque<'g>(
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     gate: Gate<'g>,
     elastic: &ScaledCurve,
@@ -301,15 +305,15 @@ pub fn elastic_torque<'g>(
     rate: Expr<'g>,
     unit: &'static str,
 ) -> (Expr<'g>, [Expr<'g>; 2]) {
-    loads.curve_of_state(owner, "elastic curve", elastic, Acts::Everywhere, argument);
-    loads.onset_of_curve(owner, gate, elastic, argument, rate);
-    loads.corners(owner, "elastic curve", gate, elastic, argument, move || {
+    applied.curve_of_state(owner, "elastic curve", elastic, Acts::Everywhere, argument);
+    applied.onset_of_curve(owner, gate, elastic, argument, rate);
+    applied.corners(owner, "elastic curve", gate, elastic, argument, move || {
         rate
     });
     let loading = curve(rate.graph(), elastic, argument());
     match &law.hysteresis {
         Some(law) => {
-            hysteresis::apply_both_ways(loads, owner, unit, law, gate, argument, loading, rate)
+            hysteresis::apply_both_ways(applied, owner, unit, law, gate, argument, loading, rate)
         }
         None => (loading, [rate.graph().constant(0.0); 2]),
     }
@@ -355,7 +359,7 @@ fn behind<'g>(graph: &'g Graph, law: &Stop, beyond: Expr<'g>, rate: Expr<'g>) ->
 /// Tells where a stop begins and ends to push, and from where on its damping is full.
 pub fn stop_kinks<'g>(
     graph: &'g Graph,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     gate: Gate<'g>,
     law: &Stop,
@@ -371,7 +375,7 @@ pub fn stop_kinks<'g>(
         };
         let name = format!("{owner}: {which} stop");
         let passed = beyond.clone();
-        loads.onset(format!("{name} begins"), move || {
+        applied.onset(format!("{name} begins"), move || {
             gate.of_onset(Onset {
                 gap: -passed(),
                 speed: absolute(rate),
@@ -379,24 +383,24 @@ pub fn stop_kinks<'g>(
         });
         if let (Some(_), Some(fade)) = (&law.damping, law.damping_angle.clone()) {
             let beyond = beyond.clone();
-            loads.kink(format!("{name} damps in full"), move || {
+            applied.kink(format!("{name} damps in full"), move || {
                 beyond() - number(graph, &fade)
             });
         }
         match law.damping {
-            Some(_) => loads.kink(format!("{name} pushes"), move || {
+            Some(_) => applied.kink(format!("{name} pushes"), move || {
                 let (zero, beyond) = (graph.constant(0.0), beyond());
                 let outwards = if above { rate } else { -rate };
                 choose(zero, beyond, behind(graph, &law, beyond, outwards), beyond)
             }),
-            None => loads.kink(format!("{name} begins"), beyond),
+            None => applied.kink(format!("{name} begins"), beyond),
         }
     }
 }
 
 fn lock<'g>(
     graph: &'g Graph,
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     law: &Lock,
     Rotation {
@@ -404,9 +408,9 @@ fn lock<'g>(
     }: Rotation<'g>,
 ) -> Expr<'g> {
     let zero = graph.constant(0.0);
-    let switch = loads.states.switches[law.by];
-    let (index, held) = loads.memory(format!("{owner}: locked angle"), unit, zero);
-    loads.states.memory[index].next = switch.once(held, angle);
+    let switch = applied.states.switches[law.by];
+    let (index, held) = applied.memory(format!("{owner}: locked angle"), unit, zero);
+    applied.states.memory[index].next = switch.once(held, angle);
     let mut torque = number(graph, &law.stiffness) * (angle - held);
     if let Some(damping) = &law.damping {
         torque = torque + number(graph, damping) * rate;

@@ -11,7 +11,7 @@
 //! bristle straightens.
 
 use super::Rotation;
-use crate::dynamics::force::Loads;
+use crate::dynamics::force::AppliedForces;
 use crate::dynamics::force::switch::Gate;
 use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Function};
@@ -19,7 +19,7 @@ use crate::model::{Bristle, Friction};
 
 /// The torque of friction.
 pub fn friction<'g>(
-    loads: &mut Loads<'g>,
+    applied: &mut AppliedForces<'g>,
     owner: &str,
     gate: Gate<'g>,
     law: &Friction,
@@ -30,16 +30,16 @@ pub fn friction<'g>(
     let (limit, tolerance) = (number(graph, &law.limit), number(graph, &law.tolerance));
     let slides = format!("{owner}: slides");
     let Some(Bristle { displacement }) = bristle else {
-        loads.kink(slides, move || rate.max(-rate) - tolerance);
+        applied.kink(slides, move || rate.max(-rate) - tolerance);
         return graph.call(Function::Coulomb, &[limit, rate, tolerance]);
     };
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let deflection = number(graph, displacement);
-    let (index, z) = loads.auxiliary(format!("{owner}: bristle"), unit, zero);
+    let (index, z) = applied.auxiliary(format!("{owner}: bristle"), unit, zero);
     let trial = z / deflection + rate / tolerance;
-    loads.kink(slides, move || trial.max(-trial) - one);
+    applied.kink(slides, move || trial.max(-trial) - one);
     // in this order of operands a NaN is passed on
     let share = trial.max(-one).min(one);
-    loads.states.auxiliaries[index].next = tolerance * (gate.of(share) - z / deflection);
+    applied.states.auxiliaries[index].next = tolerance * (gate.of(share) - z / deflection);
     -(limit * share)
 }

@@ -17,8 +17,8 @@ impl Instructions for Avx2Singles {
     }
 
     #[inline(always)]
-    fn enable<W: Task>(task: W) -> W::Output {
-        Avx2::enable(task)
+    fn dispatch<W: Task>(task: W) -> W::Output {
+        Avx2::dispatch(task)
     }
 }
 

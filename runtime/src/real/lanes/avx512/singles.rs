@@ -17,8 +17,8 @@ impl Instructions for Avx512Singles {
     }
 
     #[inline(always)]
-    fn enable<W: Task>(task: W) -> W::Output {
-        Avx512::enable(task)
+    fn dispatch<W: Task>(task: W) -> W::Output {
+        Avx512::dispatch(task)
     }
 }
 

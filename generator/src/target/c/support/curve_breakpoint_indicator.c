@@ -1,6 +1,6 @@
 /* A function whose sign changes where a curve is not smooth: of slope 1 or -1, its magnitude the distance to the nearest such place; 1
    where there is none. */
-static double bryant_curve_zigzag(const struct bryant_curve *c, double x)
+static double bryant_curve_breakpoint_indicator(const struct bryant_curve *c, double x)
 {
     const int p = bryant_curve_piece(c->kink, c->kinks, x);
     double distance;

@@ -10,7 +10,7 @@ use crate::real::Real;
 /// The indicator of a curve that is not smooth at `kinks`, which increase. It is positive left of the first one, and 1 everywhere where
 /// there is none. NaN only where `x` is NaN.
 #[inline(always)]
-pub(super) fn zigzag<T: Real>(kinks: &[f64], x: T) -> T {
+pub(super) fn breakpoint_indicator<T: Real>(kinks: &[f64], x: T) -> T {
     if kinks.is_empty() {
         return T::from_f64(1.0) + x.taint();
     }
@@ -82,14 +82,20 @@ mod tests {
                 // binary fractions: every operation is exact
                 let x = f64::from(i) / 16.0;
                 assert_eq!(
-                    curve.zigzag(x),
+                    curve.breakpoint_indicator(x),
                     closed_form(kinks, x),
                     "{extrapolate:?} at {x}"
                 );
             }
-            assert!(curve.zigzag(f64::NAN).is_nan());
-            let lanes = curve.zigzag(Pair([-4.0, 0.75]));
-            assert_eq!(lanes, Pair([curve.zigzag(-4.0), curve.zigzag(0.75)]));
+            assert!(curve.breakpoint_indicator(f64::NAN).is_nan());
+            let lanes = curve.breakpoint_indicator(Pair([-4.0, 0.75]));
+            assert_eq!(
+                lanes,
+                Pair([
+                    curve.breakpoint_indicator(-4.0),
+                    curve.breakpoint_indicator(0.75)
+                ])
+            );
         }
     }
 
@@ -103,13 +109,23 @@ mod tests {
         ];
         let curve = Curve::new(line, Extrapolate::Linear);
         assert_eq!(
-            [curve.zigzag(-1.0), curve.zigzag(0.2), curve.zigzag(9.0)],
+            [
+                curve.breakpoint_indicator(-1.0),
+                curve.breakpoint_indicator(0.2),
+                curve.breakpoint_indicator(9.0)
+            ],
             [1.0; 3]
         );
         let smooth = line.map(|[x, y]| [x, y, 3e4]);
-        assert_eq!(Cubic::new(smooth, Extrapolate::Linear).zigzag(0.2), 1.0);
+        assert_eq!(
+            Cubic::new(smooth, Extrapolate::Linear).breakpoint_indicator(0.2),
+            1.0
+        );
         // a held curve has kinks at both ends
-        assert_eq!(Curve::new(line, Extrapolate::Hold).zigzag(0.25), -0.25);
+        assert_eq!(
+            Curve::new(line, Extrapolate::Hold).breakpoint_indicator(0.25),
+            -0.25
+        );
     }
 
     #[test]
@@ -118,19 +134,30 @@ mod tests {
         let cube = [[0.0, 0.0, 0.0], [1.0, 1.0, 3.0], [2.0, 8.0, 12.0]];
         let curve = Cubic::new(cube, Extrapolate::Linear);
         for x in [-3.0, 0.5, 1.0, 1.5, 2.0, 4.0] {
-            assert_eq!(curve.zigzag(x), 2.0 - x);
+            assert_eq!(curve.breakpoint_indicator(x), 2.0 - x);
         }
-        assert_eq!(Cubic::new(cube, Extrapolate::Error).zigzag(3.0), 1.0);
+        assert_eq!(
+            Cubic::new(cube, Extrapolate::Error).breakpoint_indicator(3.0),
+            1.0
+        );
         // level in the middle: the bend jumps from −6 to 6
         let stairs = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 2.0, 0.0]];
         let curve = Cubic::new(stairs, Extrapolate::Error);
         assert_eq!(
-            [curve.zigzag(0.25), curve.zigzag(1.0), curve.zigzag(1.5)],
+            [
+                curve.breakpoint_indicator(0.25),
+                curve.breakpoint_indicator(1.0),
+                curve.breakpoint_indicator(1.5)
+            ],
             [0.75, 0.0, -0.5]
         );
         let curve = Cubic::new(stairs, Extrapolate::Hold);
         assert_eq!(
-            [curve.zigzag(-1.0), curve.zigzag(0.25), curve.zigzag(2.5)],
+            [
+                curve.breakpoint_indicator(-1.0),
+                curve.breakpoint_indicator(0.25),
+                curve.breakpoint_indicator(2.5)
+            ],
             [1.0, -0.25, -0.5]
         );
     }
@@ -149,16 +176,26 @@ mod tests {
         let kinks: Vec<f64> = (0..40).map(f64::from).collect();
         for i in -8..=330 {
             let x = f64::from(i) / 8.0;
-            assert_eq!(MANY.zigzag(x), closed_form(&kinks, x), "at {x}");
-            let lanes = MANY.zigzag(Pair([x, 39.0 - x]));
-            assert_eq!(lanes, Pair([MANY.zigzag(x), MANY.zigzag(39.0 - x)]));
+            assert_eq!(
+                MANY.breakpoint_indicator(x),
+                closed_form(&kinks, x),
+                "at {x}"
+            );
+            let lanes = MANY.breakpoint_indicator(Pair([x, 39.0 - x]));
+            assert_eq!(
+                lanes,
+                Pair([
+                    MANY.breakpoint_indicator(x),
+                    MANY.breakpoint_indicator(39.0 - x)
+                ])
+            );
         }
         let there = Dual {
             value: 2.25,
             slope: 1.0,
         };
         assert_eq!(
-            MANY.zigzag(there),
+            MANY.breakpoint_indicator(there),
             Dual {
                 value: -0.25,
                 slope: -1.0
