@@ -14,6 +14,7 @@ mod fast;
 pub mod lanes;
 #[cfg(feature = "std")]
 mod layout;
+#[cfg(not(bryant_equations))]
 mod number;
 mod words;
 
@@ -27,6 +28,7 @@ pub use fast::Fast;
 pub use lanes::{Several, Width};
 #[cfg(feature = "std")]
 pub use layout::Layout;
+#[cfg(not(bryant_equations))]
 pub(crate) use number::Number;
 pub use words::{Base, Form};
 

@@ -50,7 +50,6 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
 .bone{stroke-width:3.5;stroke-linecap:round;fill:none}
 .joint{fill:#fff;stroke-width:1.6}
 .taut{stroke:#d55e00;stroke-width:2.2;stroke-linecap:round}
-.bushing{fill:none;stroke:#333;stroke-width:1.6}
 .spring{fill:none;stroke:#333;stroke-width:1.3;stroke-linejoin:round}
 .slack{stroke:#d55e00;stroke-width:1.5;stroke-dasharray:4 3}
 .end{fill:#d55e00}
@@ -231,8 +230,8 @@ impl Sheet {
             drawing.polyline("spring", &coil(ends.map(place)));
         }
         for [from, to] in &figure.bushings {
-            drawing.line("bushing", place(*from), place(*to));
-            drawing.circle("bushing", place(*from), BUSHING);
+            drawing.line("spring", place(*from), place(*to));
+            drawing.circle("spring", place(*from), BUSHING);
         }
         let size = if plan.fine(&self.figures) { 0.66 } else { 1.0 };
         for (system, at) in &figure.masses {
@@ -421,14 +420,14 @@ impl Entry {
                 drawing.close();
             }
             "spring" => drawing.polyline("spring", &coil([[x, y], [x + 22.0, y]])),
-            "bushing" => drawing.circle("bushing", [x + 11.0, y], BUSHING),
+            "bushing" => drawing.circle("spring", [x + 11.0, y], BUSHING),
             kind => drawing.line(kind, [x, y], [x + 22.0, y]),
         }
         drawing.label("axis", [x + 28.0, y + 4.0], Anchor::Start, &self.text);
     }
 }
 
-/// Radius of the ring that stands for a bushing, wider than a joint \[px\].
+/// Radius of the ring that stands for a bushing, in the line of springs and wider than a joint \[px\].
 const BUSHING: f64 = 6.0;
 
 /// Short strokes behind a plane.
