@@ -170,7 +170,7 @@ impl Methods<'_> {
                 format!(", rate + {upper}_COORDINATES"),
             ),
             Start::EventFunctions => (
-                ", const double event functions[]",
+                ", const double event_functions[]",
                 format!(
                     "    double event_functions[{upper}_EVENT_FUNCTIONS];\n    {name}_event_functions(m, t, y, event_functions);\n"
                 ),
