@@ -56,12 +56,12 @@
 //   output tip x                                                                                                           4
 
 use bryant_runtime::{
-    Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, OutputWriter, StateKind,
+    Info, Model, OutputInfo, OutputWriter, ParameterInfo, ParameterSet, Real, StateKind,
 };
 
 bryant_runtime::use_nalgebra!(SMatrix, SVector);
 
-const _: () = bryant_runtime::check_generated_code_version(14);
+const _: () = bryant_runtime::check_generated_code_version(15);
 
 /// Length of q.
 pub const COORDINATES: usize = 2;
@@ -297,7 +297,12 @@ impl<T: Real> Mechanism<T> {
         v: &[T; VELOCITIES],
         writer: &mut impl OutputWriter<T>,
     ) {
-        self.each_motion(t, q, v, &mut bryant_runtime::TailView::<_, COORDINATES>(writer));
+        self.each_motion(
+            t,
+            q,
+            v,
+            &mut bryant_runtime::TailView::<_, COORDINATES>(writer),
+        );
     }
 
     /// q̇(q, v).

@@ -248,7 +248,7 @@ impl<'a> Module<'a> {
                 self.eval(&index.expr, scope).list()[at].clone()
             }
             Expr::Call(call) => match &path(&call.func)[..] {
-                "bryant_runtime::Beyond" => match self.eval(&call.args[0], scope) {
+                "bryant_runtime::TailView" => match self.eval(&call.args[0], scope) {
                     Value::OutputWriter(found) => Value::TailView(found, self.length(&call.func)),
                     other => panic!("{other:?} is no writer"),
                 },

@@ -113,8 +113,8 @@ mod tests {
         let by = FxHashMap::from_iter([(stand_in, known.id())]);
         let again = restore(&without, &graph, &by);
         assert_eq!(again.graph.len(), graph.len());
-        let Node::Add(quotient, product) = again.graph.node(again.roots[0]) else {
-            panic!("it is a sum");
+        let Node::Add(product, quotient) = again.graph.node(again.roots[0]) else {
+            panic!("it is a sum, of older terms first");
         };
         let Node::Div(root, _) = again.graph.node(quotient) else {
             panic!("of a quotient");
