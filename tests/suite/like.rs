@@ -204,6 +204,6 @@ fn what_goes_from_call_to_call_stays_in_one_place() {
         .split("pub fn each_motion")
         .nth(1)
         .and_then(|text| text.split("\n    }\n").next());
-    assert!(method.is_some_and(|method| method.contains("sink.put(0, ")));
-    assert!(links.contains("sink.put(at, "));
+    assert!(method.is_some_and(|method| method.contains("writer.put(0, ")));
+    assert!(links.contains("writer.put(at, "));
 }
