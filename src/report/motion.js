@@ -56,7 +56,7 @@ function ghost(t, shapes) {
 }
 
 // A bushing: a cross in the axes of its first body, and a line to the origin of its second frame.
-function cross(frames, line) {
+function bushingMark(frames, line) {
   const [from, to] = [pointOf(frames, ...line.from), pointOf(frames, ...line.to)];
   const colour = rgb("#7a5195"), arm = 0.025 * home.half, above = scene.planar;
   const arms = [0, 1, 2].map((i) => turned(frameOf(frames, line.from[0]).turn, [0, 1, 2].map((j) => (i === j ? arm : 0))));
@@ -99,7 +99,7 @@ function shapesAt(t) {
   const pulling = scene.lines.filter((line) => line.kind !== "bushing");
   const most = Math.max(0, ...pulling.flatMap((line) => line.force));
   for (const line of scene.lines) {
-    if (line.kind === "bushing") { shapes.strokes.push(...cross(frames, line)); continue; }
+    if (line.kind === "bushing") { shapes.strokes.push(...bushingMark(frames, line)); continue; }
     const force = line.force[k] || 0;
     const colour = line.kind === "belt" ? tensionColour(force, most) : rgb("#7a5195");
     const [from, to] = [pointOf(frames, ...line.from), pointOf(frames, ...line.to)];
