@@ -98,4 +98,21 @@ mod tests {
         }
         assert!(text.contains("default-src 'none'"));
     }
+
+    /// A name that two scripts of a page declare makes a page without content: no script of it runs.
+    #[test]
+    fn no_name_is_declared_twice_in_the_scripts_of_a_page() {
+        let text = page("a", &json!({}));
+        let declared = text.lines().filter_map(|line| {
+            let rest = ["const ", "let ", "function "].iter();
+            let rest = rest.filter_map(|word| line.strip_prefix(word)).next()?;
+            let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_')?;
+            Some(&rest[..end]).filter(|name| !name.is_empty())
+        });
+        let mut names: Vec<&str> = declared.collect();
+        assert!(names.contains(&"cross") && names.contains(&"bushingMark"));
+        names.sort_unstable();
+        let twice = names.windows(2).find(|pair| pair[0] == pair[1]);
+        assert_eq!(twice, None);
+    }
 }
