@@ -43,7 +43,7 @@ pub trait Dynamics<T: Real> {
         let _ = event_functions;
         self.renew(t, y);
     }
-    /// The event functions (event functions), in the order of [`Info::event_functions`]: [`Model::event_functions`].
+    /// The event functions, in the order of [`Info::event_functions`]: [`Model::event_functions`].
     fn event_functions(&self, t: T, y: &[T], event_functions: &mut [T]);
     /// The non-smooth switching functions (kinks), in the order of [`Info::kinks`]: [`Model::kinks`].
     fn kinks(&self, t: T, y: &[T], kinks: &mut [T]);
@@ -77,7 +77,7 @@ pub trait Dynamics<T: Real> {
 }
 
 /// Where [`Dynamics::arrive`] writes what is needed at the end of a step. The slices have the lengths that [`Info`] gives. Most entries need the contacts.
-/// An implementation that computes all entries at once searches each contact of ellipsoids once for its force and once for its distance.
+/// An implementation that computes all entries at once can share the searches between ellipsoids: one for a force, one for a distance.
 #[derive(Debug)]
 pub struct Arrival<'a, T> {
     /// [`Dynamics::event_functions`]

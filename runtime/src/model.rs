@@ -184,7 +184,7 @@ pub trait Model<T: Real>: Sized {
     /// its bits.
     #[inline(always)]
     fn renew(&self, _t: T, _y: &mut Self::State) {}
-    /// Event functions (event functions), in the order of [`Info::event_functions`]. Where one changes its sign, a force law changes its branch. A step with error
+    /// Event functions, in the order of [`Info::event_functions`]. Where one changes its sign, a force law changes its branch. A step with error
     /// control ends there.
     #[inline(always)]
     fn event_functions(&self, _t: T, _y: &Self::State) -> Self::EventFunctions {

@@ -284,8 +284,8 @@ fn flow_in<'g>(
     if points.len() <= MOST_KINKS {
         for (index, point) in points.iter().enumerate() {
             let kink = point[0] * number(graph, &inflow.flow.stretch);
-            let event_function = format!("{owner}: point {} of the inflow", index + 1);
-            applied.event_function(event_function, fire.since + kink - now);
+            let name_of_event = format!("{owner}: point {} of the inflow", index + 1);
+            applied.event_function(name_of_event, fire.since + kink - now);
         }
     }
     fire.once(curve(graph, &inflow.flow, since), zero)

@@ -266,15 +266,15 @@ fn pretensioner<'g>(law: Law<'_, 'g>, applied: &mut AppliedForces<'g>) -> (Expr<
 
     let points = &model.curves[retract.curve].points;
     if delay.is_some() {
-        let event_function = format!("belt {name}: begin of the pretensioner");
-        applied.event_function(event_function, begins - now);
+        let name_of_event = format!("belt {name}: begin of the pretensioner");
+        applied.event_function(name_of_event, begins - now);
     }
     for (index, point) in points.iter().enumerate().skip(1) {
         if points.len() <= MOST_KINKS {
             let kink = point[0] * number(graph, &retract.stretch);
             let left = begins + kink - now;
-            let event_function = format!("belt {name}: point {} of the pretensioner", index + 1);
-            applied.event_function(event_function, left);
+            let name_of_event = format!("belt {name}: point {} of the pretensioner", index + 1);
+            applied.event_function(name_of_event, left);
         }
     }
     (curve(graph, retract, since), rate)
