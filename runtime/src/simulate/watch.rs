@@ -564,10 +564,14 @@ impl<'a, T: Real> Watch<'a, T> {
         let mut suspected = false;
         for (i, curve) in info.curves.iter().enumerate() {
             if let Some(count) = curve.turning(info.dimension) {
-                // every step of a joint is looked into: it may bend through 180° and back within one
-                suspected |= curve.kind == CurveKind::Bearing || {
-                    let ends = [&self.farthest, &self.arguments];
-                    curve.may_leap(ends.map(|of| entries(of, i, count)))
+                let ends = [&self.farthest, &self.arguments].map(|of| entries(of, i, count));
+                suspected |= match curve.kind {
+                    // it may pass its singular position and come back within one step; from far away at both ends only where no error
+                    // decides how long the step is
+                    CurveKind::Bearing => {
+                        self.fixed.is_some() || ends.iter().any(|end| end[0] < curve.last)
+                    }
+                    _ => curve.may_leap(ends),
                 };
             }
         }
