@@ -3,13 +3,14 @@
 //! ```text
 //! cargo bench --bench at-once                  the commands
 //! cargo bench --bench at-once -- --crates      and a crate with a model, compiled three ways
+//! cargo bench --bench at-once -- --clone       and the README's two commands in a fresh clone (half an hour)
 //! ```
 //!
 //! Every line is the median of a few runs of the whole process, in wall time, beside its goal. The first row of a goal is the first line on
 //! standard output.
 
 use std::io::{BufRead, BufReader, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
@@ -24,12 +25,15 @@ fn main() -> Result<(), Failed> {
     let measures = arguments.iter().any(|argument| argument == "--bench");
     let place = std::env::temp_dir().join(format!("bryant-at-once-{}", std::process::id()));
     std::fs::create_dir_all(&place)?;
-    let result = commands(&place, measures).and_then(|()| {
-        match arguments.iter().any(|argument| argument == "--crates") {
-            true => crates(&place),
-            false => Ok(()),
+    let asked = |option: &str| arguments.iter().any(|argument| argument == option);
+    let mut result = commands(&place, measures);
+    let parts: [(&str, fn(&Path) -> Result<(), Failed>); 2] =
+        [("--crates", crates), ("--clone", clone)];
+    for (option, part) in parts {
+        if result.is_ok() && asked(option) {
+            result = part(&place);
         }
-    });
+    }
     std::fs::remove_dir_all(&place)?;
     result
 }
@@ -169,13 +173,40 @@ fn crates(place: &Path) -> Result<(), Failed> {
     Ok(())
 }
 
-fn cargo(own: &PathBuf) -> Result<(), Failed> {
+/// The README's commands in a fresh clone of what is committed. What they download is downloaded before.
+fn clone(place: &Path) -> Result<(), Failed> {
+    let own = place.join("clone");
+    let mut git = Command::new("git");
+    git.args(["clone", "--quiet"]);
+    succeed(git.arg(env!("CARGO_MANIFEST_DIR")).arg(&own))?;
+    in_folder(&own, &["fetch", "--locked"])?;
+    for (words, goal) in [
+        (&["run", "--release", "--", "run", "child-seat"][..], 120.0),
+        (&["test", "--workspace"][..], 900.0),
+    ] {
+        let start = Instant::now();
+        in_folder(&own, words)?;
+        let label = format!("fresh clone: cargo {}", words.join(" "));
+        let took = start.elapsed().as_secs_f64();
+        println!("{label:58} {:>9} {took:>9.1} {goal:>9}", "");
+    }
+    Ok(())
+}
+
+fn cargo(own: &Path) -> Result<(), Failed> {
+    in_folder(own, &["build", "--release"])
+}
+
+/// Runs cargo in a folder, with that folder's own target.
+fn in_folder(folder: &Path, words: &[&str]) -> Result<(), Failed> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let output = Command::new(cargo)
-        .args(["build", "--release", "--quiet"])
-        .current_dir(own)
-        .env_remove("CARGO_TARGET_DIR")
-        .output()?;
+    let mut command = Command::new(cargo);
+    command.args(words).current_dir(folder);
+    succeed(command.env_remove("CARGO_TARGET_DIR"))
+}
+
+fn succeed(command: &mut Command) -> Result<(), Failed> {
+    let output = command.output()?;
     match output.status.success() {
         true => Ok(()),
         false => Err(String::from_utf8_lossy(&output.stderr).into_owned().into()),
