@@ -293,6 +293,7 @@ impl<R: Register> Mask for LaneMask<R> {
 
 impl<R: Register> Real for Lanes<R> {
     type Mask = LaneMask<R>;
+    without_slopes!();
     const FORM: Option<Form> = Some(Form::of(R::BASE).times(R::LANES));
 
     #[inline(always)]
