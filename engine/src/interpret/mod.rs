@@ -133,10 +133,10 @@ struct Values<T> {
 
 impl<T: Real> Interpreter<T> {
     /// Whether there are loops for runs of chains over this scalar. They take long to compile, and save time where an operation takes no longer
-    /// than to find out which one it is.
+    /// than to find out which one it is. A scalar without a form may be such a number.
     const RUNS: bool = match T::FORM {
         Some(form) => form.order == 0 && !matches!(form.base, Base::DoubleDouble),
-        None => false,
+        None => true,
     };
 
     pub(crate) fn new(shared: Arc<Shared>) -> Self {
