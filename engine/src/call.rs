@@ -105,6 +105,40 @@ impl<T: Real> Task for Call<'_, T> {
     }
 }
 
+/// (sin, cos) as a task.
+struct SinCos<T>(T);
+
+impl<T: Real> Task for SinCos<T> {
+    type Output = (T, T);
+    #[inline(always)]
+    fn run(self) -> (T, T) {
+        self.0.sin_cos()
+    }
+}
+
+/// (sin, cos). It is compiled once for each scalar, for the instructions that the scalar needs.
+#[inline]
+pub fn sin_cos<T: Real>(angle: T) -> (T, T) {
+    T::dispatch_apart(SinCos(angle))
+}
+
+/// `atan2` as a task.
+struct Atan2<T>(T, T);
+
+impl<T: Real> Task for Atan2<T> {
+    type Output = T;
+    #[inline(always)]
+    fn run(self) -> T {
+        self.0.atan2(self.1)
+    }
+}
+
+/// The angle of the point (`x`, `y`), compiled like [`sin_cos`].
+#[inline]
+pub fn atan2<T: Real>(y: T, x: T) -> T {
+    T::dispatch_apart(Atan2(y, x))
+}
+
 /// The nearest points of two ellipsoids.
 #[inline(always)]
 pub(crate) fn approach<T: Real>(call: ApproachCall, a: &[T], results: &mut [T]) {

@@ -8,11 +8,12 @@
     reason = "machine code is run, and functions are handed to it by address"
 )]
 
+use crate::call;
 use crate::execute::Given;
 use bryant_generator::expression::Function;
 use bryant_generator::program::{Curve, List};
 use bryant_generator::target::x86_64::{Base, Callee, Code, Target, assemble};
-use bryant_runtime::{Real, Task};
+use bryant_runtime::Real;
 use memmap2::{Mmap, MmapMut};
 use std::cell::Cell;
 use std::ffi::c_void;
@@ -183,34 +184,12 @@ fn direct<T>(function: extern "sysv64" fn(*const c_void, *const T, *mut T)) -> E
     }
 }
 
-/// (sin, cos) as a task, compiled for the instructions of the scalar.
-struct SinCos<T>(T);
-
-impl<T: Real> Task for SinCos<T> {
-    type Output = (T, T);
-    #[inline(always)]
-    fn run(self) -> (T, T) {
-        self.0.sin_cos()
-    }
-}
-
-/// `atan2` as a task, compiled for the instructions of the scalar.
-struct Atan2<T>(T, T);
-
-impl<T: Real> Task for Atan2<T> {
-    type Output = T;
-    #[inline(always)]
-    fn run(self) -> T {
-        self.0.atan2(self.1)
-    }
-}
-
 // Code calls the following three functions. A panic does not pass through code: `extern` functions end the process instead.
 
 extern "sysv64" fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
     // SAFETY: code passes one argument and room for two results.
     unsafe {
-        let (sine, cosine) = T::dispatch(SinCos(*arguments));
+        let (sine, cosine) = call::sin_cos(*arguments);
         *results = sine;
         *results.add(1) = cosine;
     }
@@ -218,7 +197,7 @@ extern "sysv64" fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, resul
 
 extern "sysv64" fn atan2<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
     // SAFETY: code passes two arguments and room for one result.
-    unsafe { *results = T::dispatch(Atan2(*arguments, *arguments.add(1))) };
+    unsafe { *results = call::atan2(*arguments, *arguments.add(1)) };
 }
 
 extern "sysv64" fn any<T: Real, C: Call<T>>(

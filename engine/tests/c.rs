@@ -278,6 +278,18 @@ impl AddAssign for Fused {
 
 impl Real for Fused {
     type Mask = bool;
+    type Value = Self;
+
+    #[inline(always)]
+    fn value(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn of_value(value: Self) -> Self {
+        value
+    }
+
     fn from_f64(value: f64) -> Self {
         Fused(value)
     }

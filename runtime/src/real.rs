@@ -4,12 +4,29 @@
 //! `f64`, `f32`, registers of several scenarios (a mask per lane), dual numbers (the value is compared, value and derivative are selected
 //! together), double-doubles, and a scalar that counts its operations.
 
+/// The items of [`Real`] that a scalar without derivatives has.
+macro_rules! without_slopes {
+    () => {
+        type Value = Self;
+
+        #[inline(always)]
+        fn value(self) -> Self {
+            self
+        }
+
+        #[inline(always)]
+        fn of_value(value: Self) -> Self {
+            value
+        }
+    };
+}
+#[cfg(test)]
+pub(crate) use without_slopes;
+
 #[cfg(feature = "std")]
 mod array;
 mod double_double;
 mod dual;
-#[cfg(any(feature = "std", feature = "libm", test))]
-mod fast;
 #[cfg(feature = "std")]
 pub mod lanes;
 #[cfg(feature = "std")]
@@ -22,8 +39,6 @@ mod words;
 pub use array::{Array4, Array8};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
-#[cfg(any(feature = "std", feature = "libm", test))]
-pub use fast::Fast;
 #[cfg(feature = "std")]
 pub use lanes::{Several, Width};
 #[cfg(feature = "std")]
@@ -64,6 +79,15 @@ pub trait Real:
 {
     /// Result of a comparison, one truth value per lane.
     type Mask: Mask;
+    /// The scalar of its value without derivatives, which may have derivatives of its own: `T` for a dual number over `T`. For any other scalar
+    /// it is the scalar itself.
+    type Value: Real<Mask = Self::Mask>;
+    /// Whether it has derivatives.
+    const SLOPES: bool = false;
+    /// The value.
+    fn value(self) -> Self::Value;
+    /// A constant with this value.
+    fn of_value(value: Self::Value) -> Self;
 
     /// Its parts, for functions that are compiled apart; `None` if they are not compiled for it.
     const FORM: Option<Form> = None;
@@ -107,7 +131,7 @@ pub trait Real:
     }
 
     /// The same value with the derivatives of `other`, if it has any. An iteration that has found a value uses it to take one more step for
-    /// the derivatives. For other scalars the result of that step is unused, and the compiler removes it.
+    /// the derivatives.
     #[inline(always)]
     fn moving_as(self, other: Self) -> Self {
         let _ = other;
@@ -390,6 +414,7 @@ macro_rules! primitive {
     ) => {
         impl Real for $float {
             type Mask = bool;
+            without_slopes!();
             const FORM: Option<Form> = Some(Form::of(Base::$base));
 
             #[inline(always)]

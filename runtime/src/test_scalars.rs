@@ -67,6 +67,7 @@ impl AddAssign for Pair {
 
 impl Real for Pair {
     type Mask = PairMask;
+    crate::real::without_slopes!();
 
     fn from_f64(value: f64) -> Self {
         Pair([value; 2])

@@ -12,8 +12,8 @@
 //! All methods share one frame of values: constants, parameters, values derived from them, time, state, the inputs from earlier methods,
 //! and room for the results of operations. The operations, their order and their rounding are those of the list.
 //!
-//! Places have sixteen bits, which keeps the code in the first cache of a processor. A model that needs more places is run by a plain loop
-//! over operations (`plain`), which takes several times as long.
+//! Places have sixteen bits, which keeps the code in the first cache of a processor. A plain loop over operations (`plain`) runs models that need
+//! more places, and scalars whose operations are long: duals and double-doubles. For numbers it takes several times as long.
 
 mod chain;
 mod encode;
@@ -24,8 +24,9 @@ mod run;
 
 use crate::execute::{Execute, Given};
 use crate::model::Shared;
-use bryant_generator::program::{Input, List, Lists, Method};
+use bryant_generator::program::{Input, Lists, Method};
 use bryant_runtime::Real;
+use bryant_runtime::real::Base;
 use encode::Code;
 use frame::Frame;
 use run::Runs;
@@ -40,8 +41,10 @@ pub struct Programs {
     /// The place of each constant, by its bits.
     place_of: HashMap<u64, u32>,
     layout: Layout,
-    /// The program of each method, made when it is used for the first time.
-    programs: [OnceLock<Program>; Method::ALL.len()],
+    /// The runs of each method, made when they are used for the first time; `None` if the method needs too many places.
+    runs: [OnceLock<Option<Code>>; Method::ALL.len()],
+    /// The plain code of each method, made when it is used for the first time.
+    plain: [OnceLock<plain::Code>; Method::ALL.len()],
 }
 
 /// Where the parts of the frame begin. The constants come first, then these.
@@ -67,13 +70,6 @@ impl Layout {
             Input::Derived(i) => self.derived + i,
         }
     }
-}
-
-/// A method in the form that the interpreter runs.
-#[derive(Debug)]
-enum Program {
-    Runs(Code),
-    Plain(plain::Code),
 }
 
 impl Programs {
@@ -105,28 +101,20 @@ impl Programs {
                 before,
                 rest,
             },
-            programs: Default::default(),
+            runs: Default::default(),
+            plain: Default::default(),
         }
     }
 
-    fn program(&self, lists: &Lists, method: Method) -> &Program {
-        self.programs[method as usize].get_or_init(|| {
-            let list: &List = lists.list(method);
-            match encode::encode(list, &self.layout, &self.place_of) {
-                Some(code) => Program::Runs(code),
-                None => Program::Plain(plain::encode(list, &self.layout, &self.place_of)),
-            }
-        })
+    fn runs(&self, lists: &Lists, method: Method) -> Option<&Code> {
+        let runs = &self.runs[method as usize];
+        let encode = || encode::encode(lists.list(method), &self.layout, &self.place_of);
+        runs.get_or_init(encode).as_ref()
     }
-}
 
-impl Program {
-    /// One more than the largest place, and the number of arguments of the longest call.
-    fn needs(&self) -> (usize, usize) {
-        match self {
-            Program::Runs(code) => (code.end(), code.most_arguments()),
-            Program::Plain(code) => (code.end, code.most_arguments()),
-        }
+    fn plain(&self, lists: &Lists, method: Method) -> &plain::Code {
+        let plain = &self.plain[method as usize];
+        plain.get_or_init(|| plain::encode(lists.list(method), &self.layout, &self.place_of))
     }
 }
 
@@ -144,6 +132,13 @@ struct Values<T> {
 }
 
 impl<T: Real> Interpreter<T> {
+    /// Whether there are loops for runs of chains over this scalar. They take long to compile, and save time where an operation takes no longer
+    /// than to find out which one it is. A scalar without a form may be such a number.
+    const RUNS: bool = match T::FORM {
+        Some(form) => form.order == 0 && !matches!(form.base, Base::DoubleDouble),
+        None => true,
+    };
+
     pub(crate) fn new(shared: Arc<Shared>) -> Self {
         let programs = shared.programs();
         let mut frame = vec![T::from_f64(0.0); programs.layout.rest as usize];
@@ -169,44 +164,48 @@ impl<T: Real> Execute<T> for Interpreter<T> {
     fn run(&self, method: Method, given: Given<'_, T>, results: &mut [T]) {
         let programs = self.shared.programs();
         let Shared { lists, library, .. } = &*self.shared;
-        let program = programs.program(lists, method);
         let mut values = self.values.borrow_mut();
-        values.make_room(program);
+        values.give(&programs.layout, given);
+        // A branch on a constant: over other scalars no loop for runs is compiled.
+        if Self::RUNS && let Some(code) = programs.runs(lists, method) {
+            values.make_room(code.end(), code.most_arguments());
+            let Values { frame, arguments } = &mut *values;
+            T::dispatch(Runs {
+                code,
+                library,
+                frame: Frame::new(frame, arguments, code),
+            });
+            for (result, &place) in results.iter_mut().zip(&code.results) {
+                *result = frame[usize::from(place)];
+            }
+            return;
+        }
+        let code = programs.plain(lists, method);
+        values.make_room(code.end, code.most_arguments());
         let Values { frame, arguments } = &mut *values;
-        let layout = programs.layout;
-        frame[layout.time as usize] = given.time;
-        frame[layout.state as usize..][..given.state.len()].copy_from_slice(given.state);
-        frame[layout.before as usize..][..given.before.len()].copy_from_slice(given.before);
-        match program {
-            Program::Runs(code) => {
-                T::dispatch(Runs {
-                    code,
-                    library,
-                    frame: Frame::new(frame, arguments, code),
-                });
-                for (result, &place) in results.iter_mut().zip(&code.results) {
-                    *result = frame[usize::from(place)];
-                }
-            }
-            Program::Plain(code) => {
-                T::dispatch(plain::Steps {
-                    code,
-                    library,
-                    frame,
-                    arguments,
-                });
-                for (result, &place) in results.iter_mut().zip(&code.results) {
-                    *result = frame[place as usize];
-                }
-            }
+        T::dispatch(plain::Steps {
+            code,
+            library,
+            frame,
+            arguments,
+        });
+        for (result, &place) in results.iter_mut().zip(&code.results) {
+            *result = frame[place as usize];
         }
     }
 }
 
 impl<T: Real> Values<T> {
+    /// Writes the inputs to their places.
+    fn give(&mut self, layout: &Layout, given: Given<'_, T>) {
+        let frame = &mut self.frame;
+        frame[layout.time as usize] = given.time;
+        frame[layout.state as usize..][..given.state.len()].copy_from_slice(given.state);
+        frame[layout.before as usize..][..given.before.len()].copy_from_slice(given.before);
+    }
+
     /// Makes room for a method, so that nothing is allocated when it runs again.
-    fn make_room(&mut self, program: &Program) {
-        let (places, arguments) = program.needs();
+    fn make_room(&mut self, places: usize, arguments: usize) {
         if self.frame.len() < places {
             self.frame.resize(places, T::from_f64(0.0));
         }

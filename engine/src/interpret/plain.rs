@@ -1,7 +1,7 @@
 //! A plain loop over the operations of a list, for models that have too many values for runs of chains.
 
 use super::Layout;
-use crate::call::Library;
+use crate::call::{self, Library};
 use bryant_generator::expression::Function;
 use bryant_generator::program::{List, Operation, Value};
 use bryant_runtime::{Real, Task};
@@ -220,23 +220,23 @@ impl<T: Real> Task for Steps<'_, T> {
                 Kind::MulAdd => frame[a].mul_add(frame[b], frame[c]),
                 Kind::Sqrt => frame[a].sqrt(),
                 Kind::SinCos => {
-                    let (sin, cos) = frame[a].sin_cos();
+                    let (sin, cos) = call::sin_cos(frame[a]);
                     frame[step.to as usize + 1] = cos;
                     sin
                 }
-                Kind::Atan2 => frame[a].atan2(frame[b]),
+                Kind::Atan2 => call::atan2(frame[a], frame[b]),
                 Kind::Max => frame[a].max(frame[b]),
                 Kind::Min => frame[a].min(frame[b]),
                 Kind::Call => {
-                    let call = &code.calls[a];
-                    let (first, end) = call.arguments;
+                    let site = &code.calls[a];
+                    let (first, end) = site.arguments;
                     let places = &code.arguments[first as usize..end as usize];
                     for (argument, &place) in arguments.iter_mut().zip(places) {
                         *argument = frame[place as usize];
                     }
-                    let (to, count) = (call.results.0 as usize, call.results.1 as usize);
+                    let (to, count) = (site.results.0 as usize, site.results.1 as usize);
                     let given = &arguments[..places.len()];
-                    library.call(call.function, given, &mut frame[to..to + count]);
+                    library.call(site.function, given, &mut frame[to..to + count]);
                     continue;
                 }
             };

@@ -3,7 +3,7 @@
 use super::chain::Kind;
 use super::encode::{Code, Group};
 use super::frame::Frame;
-use crate::call::Library;
+use crate::call::{self, Library};
 use bryant_runtime::{Real, Task};
 
 /// Kinds of operations as numbers, for loops that are compiled for certain kinds.
@@ -162,7 +162,7 @@ fn first<T: Real, const KIND: u8>(frame: &Frame<'_, T>, a: u16, b: u16, c: u16) 
         FNA => (-frame.get(a)).mul_add(frame.get(b), frame.get(c)),
         FNS => (-frame.get(a)).mul_add(frame.get(b), -frame.get(c)),
         SQRT => frame.get(a).sqrt(),
-        ATAN2 => frame.get(a).atan2(frame.get(b)),
+        ATAN2 => call::atan2(frame.get(a), frame.get(b)),
         MAX => frame.get(a).max(frame.get(b)),
         MIN => frame.get(a).min(frame.get(b)),
         _ => unreachable!("sines and calls have loops of their own"),
@@ -184,7 +184,7 @@ fn next<T: Real, const KIND: u8>(frame: &Frame<'_, T>, a: u16, b: u16, value: T)
 #[inline(always)]
 fn sines<T: Real>(groups: &[Group], frame: &mut Frame<'_, T>) {
     for Group([to, a, ..]) in groups {
-        let (sin, cos) = frame.get(*a).sin_cos();
+        let (sin, cos) = call::sin_cos(frame.get(*a));
         frame.set(*to, sin);
         frame.set(*to + 1, cos);
     }

@@ -2,9 +2,9 @@
 
 use super::place::At;
 use super::quantity::Quantity;
-use super::shape::{Problems, Record, Shape, check_record, record, words};
+use super::shape::{Misfit, Problems, Record, Shape, check_record, record, words};
 use super::tree::{Kind, Node};
-use serde::de::{Deserialize, Deserializer, Error};
+use serde_yaml::Value;
 
 record! {
     /// A function through points.
@@ -78,16 +78,12 @@ impl Shape for NameOrCurve {
             _ => String::check(at, problems),
         }
     }
-}
 
-impl<'de> Deserialize<'de> for NameOrCurve {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
+    fn read(value: &Value) -> Result<Self, Misfit> {
         match value.is_mapping() {
-            true => Curve::deserialize(value).map(NameOrCurve::Inline),
-            false => String::deserialize(value).map(NameOrCurve::Name),
+            true => Curve::read(value).map(NameOrCurve::Inline),
+            false => String::read(value).map(NameOrCurve::Name),
         }
-        .map_err(D::Error::custom)
     }
 }
 
@@ -117,19 +113,15 @@ impl Shape for Function {
             )),
         }
     }
-}
 
-impl<'de> Deserialize<'de> for Function {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
+    fn read(value: &Value) -> Result<Self, Misfit> {
         if !value.is_mapping() || value.get("param").is_some() {
-            Quantity::deserialize(value).map(Function::Quantity)
+            Quantity::read(value).map(Function::Quantity)
         } else if value.get("curve").is_some() {
-            ScaledCurve::deserialize(value).map(Function::Scaled)
+            ScaledCurve::read(value).map(Function::Scaled)
         } else {
-            Curve::deserialize(value).map(Function::Inline)
+            Curve::read(value).map(Function::Inline)
         }
-        .map_err(D::Error::custom)
     }
 }
 

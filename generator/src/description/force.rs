@@ -2,11 +2,11 @@
 
 use super::place::At;
 use super::quantity::Quantity;
-use super::shape::{Problems, Shape, record};
+use super::shape::{Misfit, Problems, Shape, record};
 use super::tree::Kind;
 use crate::diagnostic::{nearest, quoted};
 use crate::law::LAWS;
-use serde::de::{Deserialize, Deserializer, Error};
+use serde_yaml::Value;
 
 pub use crate::law::Written as Force;
 
@@ -61,13 +61,10 @@ impl Shape for Force {
             )),
         }
     }
-}
 
-impl<'de> Deserialize<'de> for Force {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
+    fn read(value: &Value) -> Result<Self, Misfit> {
         let law = LAWS.iter().find(|law| value.get(law.key).is_some());
-        let law = law.ok_or_else(|| D::Error::custom("the force has no kind"))?;
-        (law.read)(value).map_err(D::Error::custom)
+        let law = law.ok_or("the force has no kind")?;
+        (law.read)(value)
     }
 }

@@ -3,11 +3,12 @@
 
 use super::place::At;
 use super::quantity::Quantity;
-use super::shape::{Key, Problems, Record, Shape, check_record, check_word, record};
+use super::shape::{
+    Key, Misfit, Problems, Record, Shape, check_record, check_word, misfit, of_key, record,
+};
 use super::tree::Kind;
 use crate::joint::written::{self, Spelling};
 use crate::joint::{SPELLINGS, WORDS};
-use serde::de::{Deserialize, DeserializeOwned, Deserializer, Error};
 use serde_yaml::Value;
 use std::collections::BTreeMap;
 
@@ -15,7 +16,7 @@ use std::collections::BTreeMap;
 pub const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
 
 /// A joint with freedoms of its own.
-#[derive(Clone, Debug, serde::Deserialize)]
+#[derive(Clone, Debug)]
 pub struct Freedom {
     /// Name of the freedom, unique in its joint.
     pub name: Option<String>,
@@ -26,7 +27,6 @@ pub struct Freedom {
     /// Another freedom of the system, whose coordinate gives this one.
     pub follows: Option<Follows>,
     /// The keys that say which joint it is: those of [kinds](crate::joint) and of lists of them.
-    #[serde(flatten)]
     of_kind: BTreeMap<String, Value>,
 }
 
@@ -43,12 +43,8 @@ impl Freedom {
     }
 
     /// The value of a key of a kind; none where it is not there. What passes the check can be read.
-    pub(crate) fn value<T: DeserializeOwned>(
-        &self,
-        key: &str,
-    ) -> Option<Result<T, serde_yaml::Error>> {
-        let value = self.of_kind.get(key)?;
-        Some(serde_yaml::from_value(value.clone()))
+    pub(crate) fn value<T: Shape>(&self, key: &str) -> Option<Result<T, Misfit>> {
+        self.of_kind.get(key).map(T::read)
     }
 }
 
@@ -83,6 +79,21 @@ impl Shape for Freedom {
             return;
         }
         check_record::<Freedom>(at, problems);
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        let entries = (value.as_mapping()).ok_or_else(|| misfit(value, Self::TITLE))?;
+        let of_all = ["name", "zero", "armature", "follows"];
+        let texts = entries.iter().map(|(key, value)| Ok((String::read(key)?, value)));
+        let texts: Vec<(String, &Value)> = texts.collect::<Result<_, Misfit>>()?;
+        let of_kind = texts.into_iter().filter(|(key, _)| !of_all.contains(&key.as_str()));
+        Ok(Freedom {
+            name: of_key(value, "name")?,
+            zero: of_key(value, "zero")?,
+            armature: of_key(value, "armature")?,
+            follows: of_key(value, "follows")?,
+            of_kind: of_kind.map(|(key, value)| (key, value.clone())).collect(),
+        })
     }
 }
 
@@ -141,6 +152,13 @@ impl Shape for Axis {
             _ => check_word(at, &AXES, problems),
         }
     }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        match value.as_str() {
+            Some(word) => Ok(Axis::Word(word.to_owned())),
+            None => Vec::read(value).map(Axis::Vector),
+        }
+    }
 }
 
 impl Shape for Joint {
@@ -154,30 +172,12 @@ impl Shape for Joint {
             }
         }
     }
-}
 
-impl<'de> Deserialize<'de> for Axis {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = Value::deserialize(deserializer)?;
+    fn read(value: &Value) -> Result<Self, Misfit> {
         match value.as_str() {
-            Some(word) => Ok(Axis::Word(word.to_owned())),
-            None => Vec::deserialize(value)
-                .map(Axis::Vector)
-                .map_err(D::Error::custom),
+            Some(word) => Ok(Joint::Word(word.to_owned())),
+            None if value.is_sequence() => Vec::read(value).map(Joint::List),
+            None => Freedom::read(value).map(|one| Joint::One(Box::new(one))),
         }
-    }
-}
-
-impl<'de> Deserialize<'de> for Joint {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = Value::deserialize(deserializer)?;
-        if let Some(word) = value.as_str() {
-            return Ok(Joint::Word(word.to_owned()));
-        }
-        match value.is_sequence() {
-            true => Vec::deserialize(value).map(Joint::List),
-            false => Freedom::deserialize(value).map(|one| Joint::One(Box::new(one))),
-        }
-        .map_err(D::Error::custom)
     }
 }

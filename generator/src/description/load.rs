@@ -12,7 +12,8 @@ use super::part;
 use super::person;
 use super::place::At;
 use super::run::Run;
-use super::shape::{Named, Problems, Shape, record, words};
+use super::shape::{Misfit, Named, Problems, Shape, misfit, record, words};
+use serde_yaml::Value;
 use super::short::{Include, Mirror, Surface};
 use super::switch::Switch;
 use super::system::System;
@@ -21,7 +22,6 @@ use super::tree::{Kind, MAX_BYTES, Node, Source};
 use super::vehicle::Vehicle;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
 use crate::urdf::{self, Imported};
-use serde::de::DeserializeOwned;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -108,8 +108,7 @@ words! {
 }
 
 /// Number of space dimensions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
-#[serde(try_from = "u64")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
     /// The x–z plane.
     Plane,
@@ -117,20 +116,17 @@ pub enum Dimension {
     Space,
 }
 
-impl TryFrom<u64> for Dimension {
-    type Error = String;
-    fn try_from(value: u64) -> Result<Self, String> {
-        match value {
-            2 => Ok(Dimension::Plane),
-            3 => Ok(Dimension::Space),
-            _ => Err(format!("the dimension is 2 or 3, not {value}")),
-        }
-    }
-}
-
 impl Shape for Dimension {
     fn check(at: At<'_>, problems: &Problems) {
         super::shape::check_word(at, &["2", "3"], problems);
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        match value.as_u64() {
+            Some(2) => Ok(Dimension::Plane),
+            Some(3) => Ok(Dimension::Space),
+            _ => Err(misfit(value, "the dimension, 2 or 3,")),
+        }
     }
 }
 
@@ -441,8 +437,8 @@ impl Reader<'_> {
     }
 
     /// The tree as `T`, its short forms written out.
-    fn typed<T: DeserializeOwned>(&self, source: &Source) -> Option<T> {
-        match serde_yaml::from_value(source.root.value()) {
+    fn typed<T: Shape>(&self, source: &Source) -> Option<T> {
+        match T::read(&source.root.value()) {
             Ok(value) => Some(value),
             // what is not as it should be after short forms were written out is reported there
             Err(_) if self.problems.count() > 0 => None,

@@ -2,9 +2,9 @@
 
 use super::place::At;
 use super::quantity::Quantity;
-use super::shape::{Problems, Shape, check_record, record};
+use super::shape::{Misfit, Problems, Shape, check_record, record};
 use super::tree::Kind;
-use serde::de::{Deserialize, Deserializer, Error};
+use serde_yaml::Value;
 
 record! {
     /// A parameter and its range.
@@ -29,21 +29,16 @@ impl Shape for ParameterEntry {
             _ => Quantity::check(at, problems),
         }
     }
-}
 
-impl<'de> Deserialize<'de> for ParameterEntry {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
-        if value.is_mapping() {
-            Parameter::deserialize(value)
-        } else {
-            Quantity::deserialize(value).map(|value| Parameter {
-                value,
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        let parameter = match value.is_mapping() {
+            true => Parameter::read(value)?,
+            false => Parameter {
+                value: Quantity::read(value)?,
                 min: None,
                 max: None,
-            })
-        }
-        .map(ParameterEntry)
-        .map_err(D::Error::custom)
+            },
+        };
+        Ok(ParameterEntry(parameter))
     }
 }

@@ -1,5 +1,6 @@
 //! Parts among the included: a seat or a steering column by name, as the text of a file.
 
+use super::shape::Shape as _;
 use super::person::{is_word, plain};
 use super::place::At;
 use super::quantity::Quantity;
@@ -8,11 +9,10 @@ use super::short::{Part as Written, PartName};
 use super::tree;
 use crate::car_part::{CarPart, CarPartKind};
 use crate::diagnostic::quoted;
-use serde::de::Deserialize;
 
 /// The text of a part that stands at `at`; what is wrong is reported.
 pub fn text(at: At<'_>, planar: bool, problems: &Problems) -> Option<String> {
-    let written = Written::deserialize(at.node.value()).ok()?;
+    let written = Written::read(&at.node.value()).ok()?;
     let place = at.key("at");
     let wanted = if planar { 2 } else { 3 };
     if written.at.len() != wanted {

@@ -1,5 +1,6 @@
 //! People among the included: a person by size and posture, as the text of a file.
 
+use super::shape::Shape as _;
 use super::place::At;
 use super::quantity::Quantity;
 use super::shape::Problems;
@@ -8,12 +9,11 @@ use super::tree::Kind;
 use super::unit::{Dimension, unit};
 use crate::diagnostic::quoted;
 use crate::human::{Person, Posture, Sex, Size, Written, yaml};
-use serde::de::Deserialize;
 
 /// The text of a person who stands at `at`, with the keys `human` and `system`; what is wrong is reported.
 pub fn text(at: At<'_>, planar: bool, problems: &Problems) -> Option<String> {
     let human = at.key("human");
-    let written = Human::deserialize(human.node.value()).ok()?;
+    let written = Human::read(&human.node.value()).ok()?;
     let person = person(&written, human, problems)?;
     let mut posture = match written.posture {
         Some(HumanPosture::Seated) => Posture::seated(),

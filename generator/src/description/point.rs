@@ -2,9 +2,9 @@
 
 use super::place::At;
 use super::quantity::Quantity;
-use super::shape::{Problems, Shape};
+use super::shape::{Misfit, Problems, Shape};
 use super::tree::Kind;
-use serde::de::{Deserialize, Deserializer, Error};
+use serde_yaml::Value;
 
 /// A point of an element.
 #[derive(Clone, Debug)]
@@ -26,16 +26,11 @@ impl Shape for Point {
             )),
         }
     }
-}
 
-impl<'de> Deserialize<'de> for Point {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
-        if value.as_str() == Some("cg") {
-            return Ok(Point::Cg);
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        match value.as_str() {
+            Some("cg") => Ok(Point::Cg),
+            _ => Vec::read(value).map(Point::At),
         }
-        Vec::deserialize(value)
-            .map(Point::At)
-            .map_err(D::Error::custom)
     }
 }

@@ -1,10 +1,9 @@
 //! A quantity as written: a number in SI units, a text (`20 deg`, `2 * belt_stiffness`), or `{ param: name }`.
 
 use super::place::At;
-use super::shape::{Problems, Shape, check_record, record};
+use super::shape::{Misfit, Problems, Shape, check_record, misfit, record};
 use super::tree::Kind;
-use serde::de::{self, Deserialize, DeserializeOwned, Deserializer, MapAccess, Visitor};
-use std::fmt;
+use serde_yaml::Value;
 
 /// What stands for a number.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,40 +35,15 @@ impl Shape for Quantity {
             )),
         }
     }
-}
 
-impl<'de> Deserialize<'de> for Quantity {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Any;
-        impl<'de> Visitor<'de> for Any {
-            type Value = Quantity;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a number, a number with its unit, or an expression of parameters")
-            }
-            fn visit_i64<E>(self, value: i64) -> Result<Quantity, E> {
-                Ok(Quantity::Number(value as f64))
-            }
-            fn visit_u64<E>(self, value: u64) -> Result<Quantity, E> {
-                Ok(Quantity::Number(value as f64))
-            }
-            fn visit_i128<E>(self, value: i128) -> Result<Quantity, E> {
-                Ok(Quantity::Number(value as f64))
-            }
-            fn visit_u128<E>(self, value: u128) -> Result<Quantity, E> {
-                Ok(Quantity::Number(value as f64))
-            }
-            fn visit_f64<E>(self, value: f64) -> Result<Quantity, E> {
-                Ok(Quantity::Number(value))
-            }
-            fn visit_str<E>(self, text: &str) -> Result<Quantity, E> {
-                Ok(Quantity::Text(text.to_owned()))
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Quantity, A::Error> {
-                let param = Param::deserialize(de::value::MapAccessDeserializer::new(map))?;
-                Ok(Quantity::Param(param.param))
-            }
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        match value {
+            Value::String(text) => Ok(Quantity::Text(text.clone())),
+            Value::Mapping(_) => Param::read(value).map(|of| Quantity::Param(of.param)),
+            _ => (value.as_f64().map(Quantity::Number)).ok_or_else(|| {
+                misfit(value, "a number, a number with its unit, or an expression of parameters")
+            }),
         }
-        deserializer.deserialize_any(Any)
     }
 }
 
@@ -89,16 +63,11 @@ impl<T: Shape> Shape for OneOrThree<T> {
             _ => T::check(at, problems),
         }
     }
-}
 
-impl<'de, T: DeserializeOwned> Deserialize<'de> for OneOrThree<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
-        if value.is_sequence() {
-            Vec::deserialize(value).map(OneOrThree::List)
-        } else {
-            T::deserialize(value).map(OneOrThree::One)
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        match value.is_sequence() {
+            true => Vec::read(value).map(OneOrThree::List),
+            false => T::read(value).map(OneOrThree::One),
         }
-        .map_err(de::Error::custom)
     }
 }

@@ -1,16 +1,15 @@
-//! The keys of the language, declared once: as serde types, as a check that reports every misfit with its place, and as
-//! the list that the reference page is tested against.
+//! The keys of the language, declared once: as types, as a check that reports every misfit with its place, and as the list that the reference page
+//! is tested against.
 //!
-//! serde stops at the first misfit and cannot always say where it stands. So `record!` makes of one declaration the
-//! struct that serde reads and a [`Shape`] that walks the located tree first. What passes the check, serde reads.
+//! `record!` makes of one declaration a struct and its [`Shape`], which first walks the located tree and reports all misfits, and then reads the
+//! values. What passes the check can be read. Values are read by this trait and not by serde, whose code for so many records would be a tenth of the
+//! crate.
 
 use super::place::At;
 use super::tree::Kind;
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest, quoted};
-use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use serde_yaml::Value;
 use std::cell::{Cell, RefCell};
-use std::fmt;
-use std::marker::PhantomData;
 
 /// Most problems that are kept.
 const MAX_PROBLEMS: usize = 1000;
@@ -61,12 +60,20 @@ impl Problems {
 }
 
 /// What a value may look like.
-pub trait Shape {
+pub trait Shape: Sized {
     /// True where a key may be left out.
     const OPTIONAL: bool = false;
-    /// Reports what serde would not read.
+    /// Reports what cannot be read.
     fn check(at: At<'_>, problems: &Problems);
+    /// Reads a value that passed the check.
+    ///
+    /// # Errors
+    /// A value that would not pass the check. A key that is left out is read as [`Value::Null`].
+    fn read(value: &Value) -> Result<Self, Misfit>;
 }
+
+/// Why a value cannot be read, as text.
+pub type Misfit = String;
 
 /// A key of a record.
 #[derive(Clone, Copy, Debug)]
@@ -87,12 +94,11 @@ pub trait Record {
     const KEYS: &'static [Key];
 }
 
-/// Declares a record: the struct for serde, its [`Record`] and its [`Shape`].
+/// Declares a record: the struct, its [`Record`] and its [`Shape`].
 macro_rules! record {
     ($(#[$meta:meta])* $name:ident as $title:literal { $( $(#[$field_meta:meta])* $field:ident: $type:ty, )* }) => {
         $(#[$meta])*
-        #[derive(Clone, Debug, serde::Deserialize)]
-        #[serde(deny_unknown_fields)]
+        #[derive(Clone, Debug)]
         pub struct $name { $( $(#[$field_meta])* pub $field: $type, )* }
 
         impl $crate::description::shape::Record for $name {
@@ -108,6 +114,12 @@ macro_rules! record {
             fn check(at: $crate::description::place::At<'_>, problems: &$crate::description::shape::Problems) {
                 $crate::description::shape::check_record::<$name>(at, problems);
             }
+
+            fn read(value: &serde_yaml::Value) -> Result<Self, $crate::description::shape::Misfit> {
+                use $crate::description::shape::{Record, of_key, with_keys};
+                with_keys(value, Self::TITLE, Self::KEYS)?;
+                Ok($name { $( $field: of_key(value, stringify!($field))?, )* })
+            }
         }
     };
 }
@@ -117,28 +129,67 @@ pub(crate) use record;
 macro_rules! words {
     ($(#[$meta:meta])* $name:ident { $( $(#[$word_meta:meta])* $word:ident = $text:literal, )* }) => {
         $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
-        pub enum $name { $( $(#[$word_meta])* #[serde(rename = $text)] $word, )* }
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $name { $( $(#[$word_meta])* $word, )* }
 
         impl $crate::description::shape::Shape for $name {
             fn check(at: $crate::description::place::At<'_>, problems: &$crate::description::shape::Problems) {
                 $crate::description::shape::check_word(at, &[ $( $text, )* ], problems);
+            }
+
+            fn read(value: &serde_yaml::Value) -> Result<Self, $crate::description::shape::Misfit> {
+                match value.as_str() {
+                    $( Some($text) => Ok($name::$word), )*
+                    _ => Err($crate::description::shape::misfit(value, "a word")),
+                }
             }
         }
     };
 }
 pub(crate) use words;
 
+/// The message that a value is not what is needed.
+pub fn misfit(value: &Value, needed: &str) -> Misfit {
+    format!("{value:?} stands where {needed} is needed")
+}
+
+/// Whether a value is a mapping with no other keys than these.
+///
+/// # Errors
+/// If it is not.
+pub fn with_keys(value: &Value, title: &str, keys: &[Key]) -> Result<(), Misfit> {
+    let entries = (value.as_mapping()).ok_or_else(|| misfit(value, title))?;
+    let known = |key: &Value| keys.iter().any(|known| key.as_str() == Some(known.name));
+    match entries.keys().find(|key| !known(key)) {
+        Some(key) => Err(misfit(key, &format!("a key of {title}"))),
+        None => Ok(()),
+    }
+}
+
+/// Reads the value of a key.
+///
+/// # Errors
+/// As [`Shape::read`].
+pub fn of_key<T: Shape>(value: &Value, key: &str) -> Result<T, Misfit> {
+    let value = value.get(key).unwrap_or(&Value::Null);
+    T::read(value).map_err(|misfit| format!("{key}: {misfit}"))
+}
+
 /// Reports unknown, missing and empty keys, and looks at the values of the others.
 pub fn check_record<R: Record>(at: At<'_>, problems: &Problems) {
+    check_keys(R::TITLE, R::KEYS, at, problems);
+}
+
+/// [`check_record`] of the record with this title and these keys.
+fn check_keys(title: &str, all: &'static [Key], at: At<'_>, problems: &Problems) {
     let Kind::Map(entries) = &at.node.kind else {
-        let keys: Vec<String> = R::KEYS
+        let keys: Vec<String> = all
             .iter()
             .filter(|k| !k.optional)
             .map(|k| format!("{}: …", k.name))
             .collect();
         let keys = match keys.is_empty() {
-            true => R::KEYS
+            true => all
                 .iter()
                 .take(1)
                 .map(|k| format!("{}: …", k.name))
@@ -149,7 +200,7 @@ pub fn check_record<R: Record>(at: At<'_>, problems: &Problems) {
             format!(
                 "here stands {}, but {} has keys",
                 at.node.article(),
-                R::TITLE
+                title
             ),
             format!("write `{{ {} }}`", keys.join(", ")),
         ));
@@ -157,17 +208,17 @@ pub fn check_record<R: Record>(at: At<'_>, problems: &Problems) {
     };
     let mut misspelt = Vec::new();
     for entry in entries {
-        let Some(key) = R::KEYS.iter().find(|k| k.name == entry.key) else {
-            let help = match nearest(&entry.key, R::KEYS.iter().map(|k| k.name)) {
+        let Some(key) = all.iter().find(|k| k.name == entry.key) else {
+            let help = match nearest(&entry.key, all.iter().map(|k| k.name)) {
                 Some(near) => {
                     misspelt.push(near);
                     format!("did you mean `{near}`?")
                 }
-                None => format!("the keys of {} are {}", R::TITLE, list(R::KEYS)),
+                None => format!("the keys of {} are {}", title, list(all)),
             };
             problems.add(at.problem_at(
                 entry.span,
-                format!("{} has no key {}", R::TITLE, quoted(&entry.key)),
+                format!("{} has no key {}", title, quoted(&entry.key)),
                 help,
             ));
             continue;
@@ -182,10 +233,10 @@ pub fn check_record<R: Record>(at: At<'_>, problems: &Problems) {
             (key.check)(at.key(&entry.key), problems);
         }
     }
-    for key in R::KEYS.iter().filter(|k| !k.optional) {
+    for key in all.iter().filter(|k| !k.optional) {
         if at.node.get(key.name).is_none() && !misspelt.contains(&key.name) {
             problems.add(at.problem(
-                format!("{} lacks the key \"{}\"", R::TITLE, key.name),
+                format!("{} lacks the key \"{}\"", title, key.name),
                 format!("add `{}: …`; see the reference of the language", key.name),
             ));
         }
@@ -250,6 +301,13 @@ impl<T: Shape> Shape for Option<T> {
     fn check(at: At<'_>, problems: &Problems) {
         T::check(at, problems);
     }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        match value {
+            Value::Null => Ok(None),
+            value => T::read(value).map(Some),
+        }
+    }
 }
 
 impl<T: Shape> Shape for Vec<T> {
@@ -264,6 +322,11 @@ impl<T: Shape> Shape for Vec<T> {
         for index in 0..items.len() {
             T::check(at.item(index), problems);
         }
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        let items = (value.as_sequence()).ok_or_else(|| misfit(value, "a list"))?;
+        items.iter().map(T::read).collect()
     }
 }
 
@@ -280,6 +343,11 @@ impl Shape for String {
                 },
             ));
         }
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        let text = value.as_str().map(str::to_owned);
+        text.ok_or_else(|| misfit(value, "a text"))
     }
 }
 
@@ -299,6 +367,11 @@ impl Shape for u32 {
             ));
         }
     }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        let whole = value.as_u64().and_then(|whole| whole.try_into().ok());
+        whole.ok_or_else(|| misfit(value, "a whole number"))
+    }
 }
 
 impl Shape for bool {
@@ -312,6 +385,11 @@ impl Shape for bool {
                 "write `true` or `false`",
             ));
         }
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        let truth = value.as_bool();
+        truth.ok_or_else(|| misfit(value, "true or false"))
     }
 }
 
@@ -349,24 +427,10 @@ impl<T: Shape> Shape for Named<T> {
             }
         }
     }
-}
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
-            type Value = Named<T>;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("names and their values")
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Named<T>, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(Named(entries))
-            }
-        }
-        deserializer.deserialize_map(Entries(PhantomData))
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        let entries = (value.as_mapping()).ok_or_else(|| misfit(value, "names and their values"))?;
+        let entry = |(name, value): (&Value, &Value)| Ok((String::read(name)?, T::read(value)?));
+        Ok(Named(entries.iter().map(entry).collect::<Result<_, Misfit>>()?))
     }
 }

@@ -3,11 +3,11 @@
 
 use super::place::At;
 use super::quantity::Quantity;
-use super::shape::{Problems, Record, Shape, check_record, record, words};
+use super::shape::{Misfit, Problems, Record, Shape, check_record, misfit, record, words};
 use super::tree::Kind;
 use crate::law::contact::keys::{Ellipsoid, Plane};
 use crate::law::joint::keys::LongAxis;
-use serde::de::{Deserialize, Deserializer, Error};
+use serde_yaml::Value;
 use std::ops::Deref;
 
 record! {
@@ -171,17 +171,14 @@ impl Shape for Include {
             _ => String::check(at, problems),
         }
     }
-}
 
-impl<'de> Deserialize<'de> for Include {
-    fn deserialize<D: Deserializer<'de>>(_: D) -> Result<Self, D::Error> {
-        Err(D::Error::custom("files are included before serde reads"))
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        Err(misfit(value, "nothing: files are included before"))
     }
 }
 
 /// One, or a list for one entry of the long form each. Derefs to the one.
-#[derive(Clone, Copy, Debug, serde::Deserialize)]
-#[serde(transparent)]
+#[derive(Clone, Copy, Debug)]
 pub struct Each<T>(pub T);
 
 impl<T> Deref for Each<T> {
@@ -201,11 +198,14 @@ impl<T: Shape> Shape for Each<T> {
         }
         Vec::<T>::check(at, problems);
     }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        T::read(value).map(Each)
+    }
 }
 
 /// A surface in place, the name of one, or a list of names. Derefs to the surface.
-#[derive(Clone, Debug, serde::Deserialize)]
-#[serde(transparent)]
+#[derive(Clone, Debug)]
 pub struct ByName<R>(pub R);
 
 impl<R> Deref for ByName<R> {
@@ -215,12 +215,16 @@ impl<R> Deref for ByName<R> {
     }
 }
 
-impl<R: Record> Shape for ByName<R> {
+impl<R: Record + Shape> Shape for ByName<R> {
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
             Kind::Map(_) => check_record::<R>(at, problems),
             _ => Each::<String>::check(at, problems),
         }
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        R::read(value).map(ByName)
     }
 }
 
@@ -240,15 +244,11 @@ impl Shape for Surface {
             None => check_record::<Ellipsoid>(at, problems),
         }
     }
-}
 
-impl<'de> Deserialize<'de> for Surface {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
+    fn read(value: &Value) -> Result<Self, Misfit> {
         match value.get("normal") {
-            Some(_) => Plane::deserialize(value).map(Surface::Plane),
-            None => Ellipsoid::deserialize(value).map(Surface::Ellipsoid),
+            Some(_) => Plane::read(value).map(Surface::Plane),
+            None => Ellipsoid::read(value).map(Surface::Ellipsoid),
         }
-        .map_err(D::Error::custom)
     }
 }

@@ -4,9 +4,9 @@ use super::curve::Function;
 use super::element::Element;
 use super::place::At;
 use super::quantity::{OneOrThree, Quantity};
-use super::shape::{Named, Problems, Shape, check_record, check_word, record};
+use super::shape::{Misfit, Named, Problems, Shape, check_record, check_word, record};
 use super::tree::Kind;
-use serde::de::{Deserialize, Deserializer, Error};
+use serde_yaml::Value;
 
 record! {
     /// A tree of elements.
@@ -85,20 +85,13 @@ impl Shape for Reference {
             _ => check_word(at, &["free", "fixed"], problems),
         }
     }
-}
 
-impl<'de> Deserialize<'de> for Reference {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = serde_yaml::Value::deserialize(deserializer)?;
+    fn read(value: &Value) -> Result<Self, Misfit> {
         match value.as_str() {
             Some("free") => Ok(Reference::Free),
             Some("fixed") => Ok(Reference::Fixed),
-            _ if value.get("on").is_some() => Riding::deserialize(value)
-                .map(Reference::Riding)
-                .map_err(D::Error::custom),
-            _ => Prescribed::deserialize(value)
-                .map(Reference::Prescribed)
-                .map_err(D::Error::custom),
+            _ if value.get("on").is_some() => Riding::read(value).map(Reference::Riding),
+            _ => Prescribed::read(value).map(Reference::Prescribed),
         }
     }
 }

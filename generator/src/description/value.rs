@@ -1,4 +1,4 @@
-//! The located tree as a value that serde reads.
+//! The located tree as a value, without places.
 
 use super::tree::{Kind, Node};
 use serde_yaml::{Mapping, Value};

@@ -10,7 +10,6 @@ use crate::law::contact::plane::unit;
 use crate::model::Number;
 use crate::model::resolve::quantity::{Expected, PURE};
 use crate::model::resolve::{NOWHERE, Resolver};
-use serde::de::DeserializeOwned;
 
 /// A key of a joint that stands for degrees of freedom.
 pub(crate) struct Spelling {
@@ -228,7 +227,7 @@ impl<'r> Reader<'r> {
     }
 
     /// The value of a key; `None` if the key is missing.
-    fn value<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
+    fn value<T: Shape>(&self, key: &str) -> Option<T> {
         match self.written.value(key)? {
             Ok(value) => Some(value),
             Err(error) => {
@@ -236,7 +235,7 @@ impl<'r> Reader<'r> {
                 let help = "see the reference of the language";
                 self.resolver
                     .problems
-                    .add(place.problem(error.to_string(), help));
+                    .add(place.problem(error, help));
                 None
             }
         }

@@ -25,7 +25,7 @@ pub mod user;
 use crate::description::expand::{Expander, Node};
 use crate::description::output::Output as WrittenOutput;
 use crate::description::place::At;
-use crate::description::shape::{Key, Problems, Record, check_record};
+use crate::description::shape::{Key, Misfit, Problems, Record, Shape, check_record};
 use crate::dynamics::force::AppliedForces;
 use crate::dynamics::force::switch::Gate;
 use crate::dynamics::kinematics::Motion;
@@ -253,7 +253,7 @@ pub struct Registered {
     /// Reports what does not have its shape.
     pub shape: fn(At<'_>, &Problems),
     /// Reads it.
-    pub read: fn(serde_yaml::Value) -> Result<Written, serde_yaml::Error>,
+    pub read: fn(&serde_yaml::Value) -> Result<Written, Misfit>,
     /// Its records, in the order of the reference page.
     pub records: fn() -> Vec<(&'static str, &'static [Key])>,
     /// As [`Keys::image`].
@@ -329,7 +329,7 @@ macro_rules! laws {
             key: <$folder::keys::$keys as Keys>::KEY,
             title: <$folder::keys::$keys as Record>::TITLE,
             shape: check_record::<$folder::keys::$keys>,
-            read: |value| Ok(Written::$keys(serde_yaml::from_value(value)?)),
+            read: |value| Ok(Written::$keys(Box::new(Shape::read(value)?))),
             records: <$folder::keys::$keys as Keys>::records,
             image: <$folder::keys::$keys as Keys>::image,
             twice: <$folder::keys::$keys as Keys>::TWICE,

@@ -6,6 +6,7 @@
 //! Curves of the state, too, are looked at where each step ends: one that is left so far that what it gives is made up
 //! ([`CurveInfo::trusted`]) makes a run doubtful.
 
+use super::copies;
 use super::run::{Run, Section, each};
 use crate::model::{CurveInfo, Turning};
 use crate::real::lanes::MOST_LANES;
@@ -41,7 +42,7 @@ impl<T: Several> Bends<T> {
         let bearings: Box<[(usize, usize)]> = curves
             .filter_map(|(index, curve)| Some((index, curve.turning(info.dimension)?)))
             .collect();
-        let room = || vec![[[f64::NAN; 3]; MOST_LANES]; bearings.len()].into_boxed_slice();
+        let room = || copies([[f64::NAN; 3]; MOST_LANES], bearings.len());
         let curves = info.curves.iter().map(CurveInfo::trusted).enumerate();
         let may_end = |(_, [from, to]): &(usize, [f64; 2])| from.is_finite() || to.is_finite();
         let curves: Box<[(usize, [f64; 2])]> = curves.filter(may_end).collect();
@@ -50,7 +51,7 @@ impl<T: Several> Bends<T> {
             false => info.curves.len(),
         };
         Bends {
-            arguments: vec![T::from_f64(0.0); arguments].into_boxed_slice(),
+            arguments: copies(T::from_f64(0.0), arguments),
             begin: room(),
             end: room(),
             before: room(),

@@ -4,6 +4,7 @@
 //! would be idle of a register looks at places that are likely to be asked for next ([`Hunt::ahead`]). What a search is told, and in which order, is the
 //! same as if it were alone.
 
+use super::copies;
 use super::place::Places;
 use crate::Real;
 use crate::real::Several;
@@ -45,7 +46,7 @@ fn numbers<T: Several>(scalar: T) -> Numbers {
 impl Looked {
     /// Nothing yet, of so many onsets, the last of which are `corners`.
     pub fn new(onsets: usize, corners: usize) -> Self {
-        let zeros = |length: usize| vec![[0.0; MOST_LANES]; length].into_boxed_slice();
+        let zeros = |length: usize| copies([0.0; MOST_LANES], length);
         Looked {
             onsets,
             corners,

@@ -50,3 +50,10 @@ mod watch;
 pub use run::{STEPS_BETWEEN, run};
 pub use scenario::{Doubt, Ended, Scenarios, Series, Status};
 pub use settings::{Fixed, Method, Pace, Settings};
+
+/// So many copies of a value. It is a function of its own, because a batch has dozens of such slices: inlined, they would be a seventh of the
+/// machine code of this crate.
+#[inline(never)]
+fn copies<S: Copy>(value: S, count: usize) -> Box<[S]> {
+    vec![value; count].into_boxed_slice()
+}

@@ -1,5 +1,6 @@
 //! Whether steps went over something that begins and ends in them, in each lane, as [`crate::simulate`] looks for it in a single run.
 
+use super::copies;
 use super::looked::Looked;
 use super::place::Places;
 use super::run::{Run, Section, each, replace};
@@ -40,7 +41,7 @@ impl<T: Several> Onsets<T> {
     /// Those of a model.
     pub fn new(info: &Info, adaptive: bool) -> Self {
         let count = info.onsets.len();
-        let zeros = |length: usize| vec![T::from_f64(0.0); length].into_boxed_slice();
+        let zeros = |length: usize| copies(T::from_f64(0.0), length);
         let entries = match adaptive || count == 0 {
             true => 0,
             false => info.state_length(),

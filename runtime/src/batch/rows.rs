@@ -15,7 +15,7 @@ use super::models::{Doubles, Duals, Models, OfModels, Singles, Source, with_mode
 use super::run::run_models;
 use super::{Doubt, Ended, Fixed, Pace, Scenarios, Series, Settings, Status};
 use crate::response::{Answer, Channel, Response, move_with_jumps, reduce, reduce_with_jumps};
-use crate::{Compiled, Dual, Family, Model, Real, Several, Task, Width};
+use crate::{Compiled, Dual, Family, Info, Model, Real, Several, Task, Width};
 
 /// What to run of each row.
 #[derive(Clone, Debug, PartialEq)]
@@ -297,7 +297,7 @@ struct Values<'a> {
 impl<S: Real> OfModels<S> for Values<'_> {
     type Output = Results;
     fn run<T: Several<One = S>>(self, models: Models<'_, T>) -> Results {
-        let mut table = Table::<T>::new(self.job, self.rows, |_, value| S::from_f64(value));
+        let mut table = Table::over::<T>(self.job, self.rows, |_, value| S::from_f64(value));
         table.hear = Some(self.hear);
         table.run(models);
         table.results()
@@ -319,7 +319,7 @@ impl<S: Real> OfModels<S> for Samples<'_> {
             wanted: f64::INFINITY,
             ..self.job.clone()
         };
-        let mut table = Table::<T>::new(&job, self.row, |_, value| S::from_f64(value));
+        let mut table = Table::over::<T>(&job, self.row, |_, value| S::from_f64(value));
         table.outputs = self.outputs.to_vec();
         table.keeps = true;
         table.run(models);
@@ -344,7 +344,7 @@ impl<S: Real> OfModels<Dual<S>> for Slopes<'_> {
             value: S::from_f64(value),
             slope: S::from_f64(self.directions[index]),
         };
-        let mut table = Table::<T>::new(self.job, &rows, seed);
+        let mut table = Table::over::<T>(self.job, &rows, seed);
         table.run(models);
         let asked = self.job.responses.len();
         let all = &table.responses;
@@ -357,15 +357,15 @@ impl<S: Real> OfModels<Dual<S>> for Slopes<'_> {
     }
 }
 
-/// Rows as scenarios: one each, or two where errors are estimated.
-struct Table<'a, T: Several> {
+/// Rows as scenarios: one each, or two where errors are estimated. Lanes of all widths share the code for one of their scalars.
+struct Table<'a, S> {
     job: &'a Job,
-    rows: Vec<T::One>,
-    defaults: Vec<T::One>,
+    rows: Vec<S>,
+    defaults: Vec<S>,
     outputs: Vec<usize>,
     ended: Vec<Option<Ended>>,
     /// Row by row.
-    responses: Vec<T::One>,
+    responses: Vec<S>,
     errors: Vec<f64>,
     /// Of rows that are run twice, what is known of the run that counts, and of the coarser one.
     pairs: Vec<[Option<Judged>; 2]>,
@@ -374,7 +374,7 @@ struct Table<'a, T: Several> {
     again: Vec<usize>,
     /// What the last two comparisons of each row that is run again found, the last one first.
     before: Vec<[Apart; 2]>,
-    scratch: Vec<T::One>,
+    scratch: Vec<S>,
     /// What both runs of a row differ by is about so many times the error of the finer one.
     surely: f64,
     /// Who is told of rows whose computation takes long.
@@ -382,6 +382,10 @@ struct Table<'a, T: Several> {
     /// Whether samples are kept.
     keeps: bool,
     kept: Vec<f64>,
+    /// The distance from 1 to the next number.
+    epsilon: f64,
+    /// Computes a response with the instructions of the lanes.
+    reduce: fn(Reduce<'_, S>) -> S,
 }
 
 /// The coarser run has so many times the tolerance, or steps so many times as long.
@@ -402,8 +406,18 @@ const ROUNDINGS: f64 = 500.0;
 /// Of runs with tolerances, what both differ by is about so many times the error of the finer one, or more: √10 − 1.
 const SURELY: f64 = 2.16;
 
-impl<'a, T: Several> Table<'a, T> {
-    fn new(job: &'a Job, rows: &[f64], seed: impl Fn(usize, f64) -> T::One) -> Self {
+impl<'a, S: Real> Table<'a, S> {
+    /// Rows for lanes of `T`.
+    fn over<T: Several<One = S>>(
+        job: &'a Job,
+        rows: &[f64],
+        seed: impl Fn(usize, f64) -> S,
+    ) -> Self {
+        let rows = rows.iter().enumerate().map(|(i, x)| seed(i, *x)).collect();
+        Self::new(job, rows, T::EPSILON, |task| T::dispatch(task))
+    }
+
+    fn new(job: &'a Job, rows: Vec<S>, epsilon: f64, reduce: fn(Reduce<'_, S>) -> S) -> Self {
         let across = job.varied.len().max(1);
         let count = match job.varied.len() {
             0 => 1,
@@ -415,9 +429,11 @@ impl<'a, T: Several> Table<'a, T> {
         outputs.dedup();
         let scratch = |asked: &Asked| asked.response.scratch(job.settings.samples);
         let scratch = job.responses.iter().map(scratch).max().unwrap_or(0);
-        let nan = T::One::from_f64(f64::NAN);
+        let nan = S::from_f64(f64::NAN);
         Table {
-            rows: rows.iter().enumerate().map(|(i, x)| seed(i, *x)).collect(),
+            rows,
+            epsilon,
+            reduce,
             defaults: Vec::new(),
             ended: vec![None; count],
             responses: vec![nan; count * job.responses.len()],
@@ -436,15 +452,20 @@ impl<'a, T: Several> Table<'a, T> {
         }
     }
 
-    fn run(&mut self, models: Models<'_, T>) {
-        let info = models.info();
+    fn run<T: Several<One = S>>(&mut self, models: Models<'_, T>) {
+        self.prepare(models.info());
+        run_models(models, &self.job.settings, self);
+    }
+
+    /// What depends on the model.
+    fn prepare(&mut self, info: &Info) {
         let defaults = info.parameters.iter();
         self.defaults = defaults
-            .map(|parameter| T::One::from_f64(parameter.default))
+            .map(|parameter| S::from_f64(parameter.default))
             .collect();
         for (index, value) in &self.job.fixed {
             if let Some(place) = self.defaults.get_mut(*index) {
-                *place = T::One::from_f64(*value);
+                *place = S::from_f64(*value);
             }
         }
         let settings = self.job.settings;
@@ -456,7 +477,6 @@ impl<'a, T: Several> Table<'a, T> {
                 LONGER.powi(order as i32) - 1.0
             }
         };
-        run_models(models, &settings, self);
     }
 
     fn row(&self, row: usize) -> Row {
@@ -490,17 +510,17 @@ impl<'a, T: Several> Table<'a, T> {
     }
 
     /// Those of a run that has none.
-    fn nothing(&self) -> Reduced<T::One> {
+    fn nothing(&self) -> Reduced<S> {
         let duration = self.job.settings.duration;
         let nothing = |asked: &Asked| Answer::new(asked.response, f64::NAN, 0.0, duration);
         Reduced {
-            responses: vec![T::One::from_f64(f64::NAN); self.job.responses.len()],
+            responses: vec![S::from_f64(f64::NAN); self.job.responses.len()],
             judged: self.job.responses.iter().map(nothing).collect(),
         }
     }
 
     /// The responses of a run.
-    fn reduced(&mut self, series: &Series<T::One>) -> Reduced<T::One> {
+    fn reduced(&mut self, series: &Series<S>) -> Reduced<S> {
         let every = self.job.settings.duration / (self.job.settings.samples - 1) as f64;
         let duration = self.job.settings.duration;
         let outputs = &self.outputs;
@@ -512,8 +532,8 @@ impl<'a, T: Several> Table<'a, T> {
         };
         for asked in &self.job.responses {
             let response = asked.response;
-            let mut of_samples = |samples: &[T::One]| {
-                T::dispatch(Reduce {
+            let mut of_samples = |samples: &[S]| {
+                (self.reduce)(Reduce {
                     response,
                     samples,
                     every,
@@ -584,12 +604,12 @@ fn largest(apart: &Apart) -> f64 {
     })
 }
 
-impl<T: Several> Scenarios<T::One> for Table<'_, T> {
+impl<S: Real> Scenarios<S> for Table<'_, S> {
     fn count(&self) -> usize {
         self.ended.len() * (1 + usize::from(self.job.estimate)) + self.again.len()
     }
 
-    fn parameter(&self, scenario: usize, index: usize) -> T::One {
+    fn parameter(&self, scenario: usize, index: usize) -> S {
         let (row, _) = self.which(scenario);
         let across = self.job.varied.len();
         match self.job.varied.iter().position(|varied| *varied == index) {
@@ -614,7 +634,7 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
 
     fn wants_jumps(&self) -> bool {
         // when a jump is matters to a derivative by all that is gained or lost, to a value by no more than sampling does
-        T::PARTS > 1
+        S::SLOPES
     }
 
     fn gives_up(&self, scenario: usize, steps: u64) -> bool {
@@ -637,7 +657,7 @@ impl<T: Several> Scenarios<T::One> for Table<'_, T> {
         }
     }
 
-    fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<T::One>) {
+    fn ended(&mut self, scenario: usize, ended: &Ended, series: &Series<S>) {
         let (row, turn) = self.which(scenario);
         if self.keeps {
             let samples = (0..self.outputs.len()).flat_map(|place| series.of(place));
@@ -684,7 +704,7 @@ enum Turn {
     Sharper,
 }
 
-impl<T: Several> Table<'_, T> {
+impl<S: Real> Table<'_, S> {
     /// The row of a scenario, and which of its runs it is.
     fn which(&self, scenario: usize) -> (usize, Turn) {
         let rows = self.ended.len();
@@ -713,7 +733,7 @@ impl<T: Several> Table<'_, T> {
         let Some(ended) = self.ended[row] else {
             return;
         };
-        let rounded = 0.5 * T::EPSILON * f64::from(ended.steps);
+        let rounded = 0.5 * self.epsilon * f64::from(ended.steps);
         let apart = apart(fine, coarse);
         let error_of = |difference: f64| difference / self.surely + rounded;
         let error = error_of(largest(&apart));
@@ -747,7 +767,7 @@ impl<T: Several> Table<'_, T> {
             Pace::Fixed(_) => false,
             Pace::Adaptive(tolerances) => {
                 let sharper = tolerances.relative * SHARPER.powi(often as i32 + 1);
-                often < AGAIN && sharper >= ROUNDINGS * T::EPSILON
+                often < AGAIN && sharper >= ROUNDINGS * self.epsilon
             }
         }
     }

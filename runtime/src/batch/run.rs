@@ -13,6 +13,7 @@
 //! its ends differ by, or, where steps are fixed, their span over their number. Steps below sixteen times that are refused, and kinks in time come by it too early or too late. Tolerances from 10⁻⁴ up
 //! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
 
+use super::copies;
 use super::bend::Bends;
 use super::control::{ESTIMATE, Power, first_step, norm};
 use super::event::{Sides, Values, width};
@@ -112,8 +113,8 @@ impl<T: Several> Parameters<T> {
         Parameters {
             packed: all.clone(),
             packed_lanes: None,
-            lane: vec![0.0; all.len()].into_boxed_slice(),
-            one: vec![T::One::from_f64(0.0); all.len()].into_boxed_slice(),
+            lane: copies(0.0, all.len()),
+            one: copies(T::One::from_f64(0.0), all.len()),
             all,
         }
     }
@@ -269,7 +270,7 @@ impl<'a, T: Several> Run<'a, T> {
         let info = models.info();
         let outputs = scenarios.outputs().to_vec();
         let (nought, one) = (T::from_f64(0.0), T::Part::from_f64(1.0));
-        let zeros = |count: usize| vec![nought; count].into_boxed_slice();
+        let zeros = |count: usize| copies(nought, count);
         let parameters = Parameters::defaults(info);
         let entries = info.state_length();
         let mut step = Step::new(settings.pace.method(), entries);
@@ -282,11 +283,11 @@ impl<'a, T: Several> Run<'a, T> {
         let (event_functions, kinks) = (info.event_functions.len(), info.kinks.len());
         let blank = Series {
             samples: settings.samples,
-            values: vec![T::One::from_f64(f64::NAN); settings.samples * outputs.len()],
+            values: copies(T::One::from_f64(f64::NAN), settings.samples * outputs.len()).into_vec(),
             events: Vec::new(),
             sides: Vec::new(),
         };
-        let nothing = vec![[T::One::from_f64(0.0); MOST_LANES]; outputs.len()];
+        let nothing = || copies([T::One::from_f64(0.0); MOST_LANES], outputs.len());
         Run {
             step,
             end: zeros(entries),
@@ -317,11 +318,11 @@ impl<'a, T: Several> Run<'a, T> {
             level: one,
             grid: Grid::new(),
             sided: Sided {
-                ahead: nothing.clone().into_boxed_slice(),
-                behind: nothing.clone().into_boxed_slice(),
+                ahead: nothing(),
+                behind: nothing(),
             },
-            found: nothing,
-            values: vec![[nought; 5]; event_functions.max(kinks)],
+            found: nothing().into_vec(),
+            values: copies([nought; 5], event_functions.max(kinks)).into_vec(),
             notes_jumps: scenarios.wants_jumps(),
             info,
             settings,

@@ -6,6 +6,7 @@
 //!
 //! Stages and sums are functions of their own, each compiled for the coefficients of one method.
 
+use super::copies;
 use super::settings::Method;
 use super::tolerance::Allowed;
 use crate::integrate::tableau::dormand_prince::Dopri5;
@@ -68,7 +69,7 @@ impl<T: Several> Step<T> {
     /// At time 0 and a state of zeros with so many entries.
     pub fn new(method: Method, entries: usize) -> Self {
         let nought = T::from_f64(0.0);
-        let zeros = || vec![nought; entries].into_boxed_slice();
+        let zeros = || copies(nought, entries);
         Step {
             method,
             t: nought,

@@ -2,6 +2,7 @@
 //! has them ([`crate::simulate`]). Steps under control of their error are not watched, and pay nothing: they have that control, and the
 //! estimate of their error.
 
+use super::copies;
 use super::run::{Run, Section, each, replace};
 use super::settings::{Fixed, Method, Pace};
 use super::step::Step;
@@ -57,7 +58,7 @@ const ANY: usize = NODES;
 impl<T: Several> Watch<T> {
     /// Of a model, with the share of energy and momentum that may be missing.
     fn new(info: &Info, method: Method, limit: f64) -> Self {
-        let zeros = |length: usize| vec![T::from_f64(0.0); length].into_boxed_slice();
+        let zeros = |length: usize| copies(T::from_f64(0.0), length);
         let entries = info.state_length();
         Watch {
             account: [Account::new(limit); MOST_LANES],
@@ -65,7 +66,7 @@ impl<T: Several> Watch<T> {
             effect: [None; MOST_LANES],
             errors: [Errors::new(limit); MOST_LANES],
             kinetic: [[0.0; MOST_LANES]; 2],
-            works: vec![[0.0; MOST_LANES]; info.powers.len()].into_boxed_slice(),
+            works: copies([0.0; MOST_LANES], info.powers.len()),
             momentum: [[[0.0; MOST_LANES]; 3]; 6],
             start: zeros(entries),
             error: zeros(entries),

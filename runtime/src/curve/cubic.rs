@@ -8,7 +8,7 @@
 use super::breakpoint_indicator::{breakpoint_indicator, rounding};
 use super::stop::{Searched, stop};
 use super::{Extrapolate, candidates, guard, kink};
-use crate::real::Real;
+use crate::real::{Real, Task};
 
 /// A piecewise cubic function through `N` points, continuous together with its slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -203,6 +203,20 @@ pub(super) const fn fill(
     )
 }
 
+/// [`Cubics::antiderivatives`] as a task.
+struct Antiderivatives<'a, T> {
+    curve: Cubics<'a>,
+    x: T,
+}
+
+impl<T: Real> Task for Antiderivatives<'_, T> {
+    type Output = [T; 2];
+    #[inline(always)]
+    fn run(self) -> [T; 2] {
+        self.curve.antiderivatives(self.x)
+    }
+}
+
 impl Cubics<'_> {
     /// Ordinate: [`Cubic::value`].
     #[inline(always)]
@@ -237,16 +251,16 @@ impl Cubics<'_> {
     /// ∫: [`Cubic::integral`].
     #[inline(always)]
     pub fn integral<T: Real>(&self, x: T) -> T {
-        let [from, _] = self.antiderivatives(T::from_f64(0.0));
-        let [to, _] = self.antiderivatives(x);
+        let [from, _] = self.both_integrals(T::from_f64(0.0));
+        let [to, _] = self.both_integrals(x);
         to - from
     }
 
     /// ∬: [`Cubic::double_integral`].
     #[inline(always)]
     pub fn double_integral<T: Real>(&self, x: T) -> T {
-        let [slope, from] = self.antiderivatives(T::from_f64(0.0));
-        let [_, to] = self.antiderivatives(x);
+        let [slope, from] = self.both_integrals(T::from_f64(0.0));
+        let [_, to] = self.both_integrals(x);
         to - from - slope * x
     }
 
@@ -307,6 +321,12 @@ impl Cubics<'_> {
             |x| self.value(x),
             |x| self.integral(x),
         )
+    }
+
+    /// [`Cubics::antiderivatives`], compiled once for each scalar.
+    #[inline(always)]
+    fn both_integrals<T: Real>(&self, x: T) -> [T; 2] {
+        T::dispatch_apart(Antiderivatives { curve: *self, x })
     }
 
     /// F with F' = the curve and G with G' = F, both 0 at the first point.

@@ -3,7 +3,7 @@
 use super::breakpoint_indicator::rounding;
 use super::stop::{Searched, stop};
 use super::{Extrapolate, candidates, guard};
-use crate::real::Real;
+use crate::real::{Real, Task};
 
 /// The parts of a piecewise linear function, wherever they are stored. Each part has one entry for each point.
 #[derive(Clone, Copy)]
@@ -86,6 +86,20 @@ const fn find_kinks(
     found
 }
 
+/// [`Lines::antiderivatives`] as a task.
+struct Antiderivatives<'a, T> {
+    curve: Lines<'a>,
+    x: T,
+}
+
+impl<T: Real> Task for Antiderivatives<'_, T> {
+    type Output = [T; 2];
+    #[inline(always)]
+    fn run(self) -> [T; 2] {
+        self.curve.antiderivatives(self.x)
+    }
+}
+
 impl Lines<'_> {
     /// Ordinate: [`Curve::value`](super::Curve::value).
     #[inline(always)]
@@ -117,16 +131,16 @@ impl Lines<'_> {
     /// ∫: [`Curve::integral`](super::Curve::integral).
     #[inline(always)]
     pub fn integral<T: Real>(&self, x: T) -> T {
-        let [from, _] = self.antiderivatives(T::from_f64(0.0));
-        let [to, _] = self.antiderivatives(x);
+        let [from, _] = self.both_integrals(T::from_f64(0.0));
+        let [to, _] = self.both_integrals(x);
         to - from
     }
 
     /// ∬: [`Curve::double_integral`](super::Curve::double_integral).
     #[inline(always)]
     pub fn double_integral<T: Real>(&self, x: T) -> T {
-        let [slope, from] = self.antiderivatives(T::from_f64(0.0));
-        let [_, to] = self.antiderivatives(x);
+        let [slope, from] = self.both_integrals(T::from_f64(0.0));
+        let [_, to] = self.both_integrals(x);
         to - from - slope * x
     }
 
@@ -145,6 +159,12 @@ impl Lines<'_> {
             |x| self.value(x),
             |x| self.integral(x),
         )
+    }
+
+    /// [`Lines::antiderivatives`], compiled once for each scalar.
+    #[inline(always)]
+    fn both_integrals<T: Real>(&self, x: T) -> [T; 2] {
+        T::dispatch_apart(Antiderivatives { curve: *self, x })
     }
 
     /// F with F' = the curve and G with G' = F, both 0 at the first point.

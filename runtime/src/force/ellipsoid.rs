@@ -15,21 +15,25 @@ const SMALLEST: f64 = 1e-200;
 #[inline(always)]
 pub fn support<T: Real>(x: T, y: T, z: T, power: T) -> [T; 4] {
     let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
-    let s = [x, y, z];
-    let size = s.map(T::abs);
     // relative to the largest one, so that no power overflows or underflows
-    let largest = size[0].max(size[1]).max(size[2]);
-    let part = size.map(|size| (size / largest).max(T::from_f64(SMALLEST)));
-    let rest = part.map(|part| part.powf(power - one));
-    let sum = part[0] * rest[0] + part[1] * rest[1] + part[2] * rest[2];
+    let largest = x.abs().max(y.abs()).max(z.abs());
+    let smallest = T::from_f64(SMALLEST);
+    let (mut rest, mut sum) = ([zero; 3], zero);
+    // no closures: the compiler cannot be told to inline them, and each operation on wide registers would become a call
+    for (rest, s) in rest.iter_mut().zip([x, y, z]) {
+        let part = (s.abs() / largest).max(smallest);
+        *rest = part.powf(power - one);
+        sum += part * *rest;
+    }
     // h/largest, and its power m − 1
     let reach = sum.powf(one / power);
     let scale = reach / sum;
-    let slope = |i: usize| {
-        let size = rest[i] * scale;
-        T::select(s[i].lt(zero), -size, size)
-    };
-    [largest * reach, slope(0), slope(1), slope(2)]
+    for (rest, s) in rest.iter_mut().zip([x, y, z]) {
+        let size = *rest * scale;
+        *rest = T::select(s.lt(zero), -size, size);
+    }
+    let [dx, dy, dz] = rest;
+    [largest * reach, dx, dy, dz]
 }
 
 #[cfg(test)]

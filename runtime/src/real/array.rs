@@ -4,59 +4,69 @@
 //! Over [`Dual`](super::Dual) they hold a value, the same in every lane, and its derivatives in several directions: columns of a Jacobian side by
 //! side. Each column has the bits that `Dual<f64>` gives. They need no special instructions, and use wide ones where these exist. Products and sums
 //! are fused as those of `f64` are. Machine code works on them in whole registers ([`Layout`](super::Layout)).
+//!
+//! On x86-64, tasks over an array are compiled for processors that hold it in one register, and for no others: ask [`Array4::there`] and
+//! [`Array8::there`] before.
 
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{Avx2, Avx512, Instructions};
 use super::{Base, Form, Mask, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-/// A truth value for each lane: bit i is that of lane i.
+/// A truth value for each lane: all bits of its word are set or none, so that a choice is an operation on bits, for all lanes at once.
 #[derive(Clone, Copy, Debug)]
-pub struct Bits<const N: usize>(u32);
+pub struct Words<const N: usize>([u64; N]);
 
-impl<const N: usize> Bits<N> {
-    const ALL: u32 = (1 << N) - 1;
+impl<const N: usize> Words<N> {
+    #[inline(always)]
+    fn of(truth: impl Fn(usize) -> bool) -> Self {
+        Words(core::array::from_fn(|lane| {
+            0u64.wrapping_sub(u64::from(truth(lane)))
+        }))
+    }
 }
 
-impl<const N: usize> Mask for Bits<N> {
+impl<const N: usize> Mask for Words<N> {
     #[inline(always)]
     fn any(self) -> bool {
-        self.0 != 0
+        self.0.into_iter().fold(0, |all, lane| all | lane) != 0
     }
 
     #[inline(always)]
     fn all(self) -> bool {
-        self.0 == Self::ALL
+        self.0.into_iter().fold(u64::MAX, |all, lane| all & lane) != 0
     }
 
     #[inline(always)]
     fn and(self, other: Self) -> Self {
-        Bits(self.0 & other.0)
+        Words(core::array::from_fn(|i| self.0[i] & other.0[i]))
     }
 
     #[inline(always)]
     fn or(self, other: Self) -> Self {
-        Bits(self.0 | other.0)
+        Words(core::array::from_fn(|i| self.0[i] | other.0[i]))
     }
 
     #[inline(always)]
     fn not(self) -> Self {
-        Bits(!self.0 & Self::ALL)
+        Words(self.0.map(|lane| !lane))
     }
 
     #[inline(always)]
     fn lanes(self) -> u32 {
-        self.0
+        let bit = |lane: usize| ((self.0[lane] & 1) as u32) << lane;
+        (0..N).fold(0, |bits, lane| bits | bit(lane))
     }
 
     #[inline(always)]
     fn of_lanes(lanes: u32) -> Self {
-        Bits(lanes & Self::ALL)
+        Words::of(|lane| lanes >> lane & 1 != 0)
     }
 }
 
-/// A function of each lane. If all lanes hold the same number, as values with different derivatives do, it is computed once.
-#[inline(always)]
+/// A function of each lane. If all lanes hold the same number, as values with different derivatives do, it is computed once. It is a function
+/// of its own, because it needs no instructions of registers.
+#[inline(never)]
 fn each<const N: usize, const A: usize, R: Copy>(
     lanes: [[f64; N]; A],
     function: impl Fn([f64; A]) -> R,
@@ -110,17 +120,31 @@ macro_rules! array {
             }
         }
 
+        impl $name {
+            /// Whether this processor runs tasks over it: on x86-64, whether it has registers of this length.
+            #[must_use]
+            pub fn there() -> bool {
+                #[cfg(target_arch = "x86_64")]
+                return $instructions::there();
+                #[cfg(not(target_arch = "x86_64"))]
+                return true;
+            }
+        }
+
         impl Real for $name {
-            type Mask = Bits<$lanes>;
+            type Mask = Words<$lanes>;
+            without_slopes!();
             const FORM: Option<Form> = Some(Form::of(Base::Double).times($lanes));
 
+            /// # Panics
+            /// If this processor runs no tasks over it. A second copy of each task, for such processors, would take as long to compile as the first.
             #[inline(always)]
             fn dispatch<W: Task>(task: W) -> W::Output {
+                assert!(Self::there(), "registers that this processor does not have");
                 #[cfg(target_arch = "x86_64")]
-                if $instructions::there() {
-                    return $instructions::dispatch(task);
-                }
-                task.run()
+                return $instructions::dispatch(task);
+                #[cfg(not(target_arch = "x86_64"))]
+                return task.run();
             }
 
             #[inline(always)]
@@ -188,16 +212,15 @@ macro_rules! array {
             }
 
             #[inline(always)]
-            fn lt(self, other: Self) -> Bits<$lanes> {
-                let bit = |lane: usize| u32::from(self.0[lane] < other.0[lane]) << lane;
-                Bits((0..$lanes).fold(0, |bits, lane| bits | bit(lane)))
+            fn lt(self, other: Self) -> Words<$lanes> {
+                Words::of(|lane| self.0[lane] < other.0[lane])
             }
 
             #[inline(always)]
-            fn select(mask: Bits<$lanes>, then: Self, otherwise: Self) -> Self {
-                let chosen = |lane: usize| match mask.0 >> lane & 1 != 0 {
-                    true => then.0[lane],
-                    false => otherwise.0[lane],
+            fn select(mask: Words<$lanes>, then: Self, otherwise: Self) -> Self {
+                let chosen = |lane: usize| {
+                    let (then, otherwise) = (then.0[lane].to_bits(), otherwise.0[lane].to_bits());
+                    f64::from_bits(then & mask.0[lane] | otherwise & !mask.0[lane])
                 };
                 $name(core::array::from_fn(chosen))
             }

@@ -233,6 +233,7 @@ impl AddAssign for DoubleDouble {
 
 impl super::Real for DoubleDouble {
     type Mask = bool;
+    without_slopes!();
     const FORM: Option<super::Form> = Some(super::Form::of(super::Base::DoubleDouble));
 
     #[inline(always)]

@@ -129,10 +129,22 @@ fn guarded<T: Real>(argument: T, motion: T) -> T {
 
 impl<T: Real> Real for Dual<T> {
     type Mask = T::Mask;
+    type Value = T;
+    const SLOPES: bool = true;
     const FORM: Option<Form> = match T::FORM {
         Some(form) => Some(form.dual()),
         None => None,
     };
+
+    #[inline(always)]
+    fn value(self) -> T {
+        self.value
+    }
+
+    #[inline(always)]
+    fn of_value(value: T) -> Self {
+        Self::constant(value)
+    }
 
     #[inline(always)]
     fn put(self, stride: usize, words: &mut [f64]) {

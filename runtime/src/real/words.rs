@@ -11,26 +11,23 @@ pub enum Base {
     Double = 0,
     /// `f32`
     Single = 1,
-    /// [`Fast`](super::Fast)
-    Fast = 2,
     /// [`DoubleDouble`](super::DoubleDouble)
-    DoubleDouble = 3,
+    DoubleDouble = 2,
     /// A lane of doubles with fused products and sums: [`Width::One`](super::Width::One) and wider.
-    Lane = 4,
+    Lane = 3,
     /// A lane of doubles without: [`Width::Plain`](super::Width::Plain).
-    PlainLane = 5,
+    PlainLane = 4,
     /// A lane of singles with fused products and sums.
-    SingleLane = 6,
+    SingleLane = 5,
     /// A lane of singles without.
-    PlainSingleLane = 7,
+    PlainSingleLane = 6,
 }
 
 impl Base {
     /// All of them, by their number.
-    pub const ALL: [Base; 8] = [
+    pub const ALL: [Base; 7] = [
         Base::Double,
         Base::Single,
-        Base::Fast,
         Base::DoubleDouble,
         Base::Lane,
         Base::PlainLane,
@@ -91,7 +88,7 @@ mod tests {
     use super::Base;
     use crate::real::Real;
     use crate::real::lanes::{OfAnyWidth, Several, with_width, with_width_of_singles};
-    use crate::{DoubleDouble, Dual, Fast, Width};
+    use crate::{DoubleDouble, Dual, Width};
 
     /// Writes several scalars into one array, with each lane apart, and reads them back.
     fn there_and_back<T: Real>(of: impl Fn(usize) -> T) {
@@ -136,7 +133,6 @@ mod tests {
         let third = |k: usize| (k as f64 + 1.0) / 3.0;
         there_and_back::<f64>(third);
         there_and_back::<f32>(|k| third(k) as f32);
-        there_and_back::<Fast>(|k| Fast(third(k)));
         there_and_back::<DoubleDouble>(|k| DoubleDouble::new(third(k), 1e-20));
         there_and_back(|k| dual(third(k) as f32));
         there_and_back(|k| dual(DoubleDouble::new(third(k), 1e-20)));

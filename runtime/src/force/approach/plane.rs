@@ -98,12 +98,50 @@ impl<T: Real> Task for Search<T> {
 
     #[inline(always)]
     fn run(self) -> [T; 5] {
-        self.found().0
+        // a branch on a constant
+        match T::SLOPES {
+            true => self.with_slopes(),
+            false => self.found().0,
+        }
     }
 }
 
 impl<T: Real> Search<T> {
-    /// The result, and the number of steps.
+    /// The result of a search by values, with the derivatives that one more step gives it. The step does not depend on where it starts, to first
+    /// order, so derivatives of the direction that was found are not needed.
+    #[inline(always)]
+    fn with_slopes(self) -> [T; 5] {
+        let Search {
+            both,
+            between,
+            early,
+        } = self;
+        let found = T::Value::dispatch_apart(Search {
+            both: [both[0].value(), both[1].value()],
+            between: [between[0].value(), between[1].value()],
+            early,
+        });
+        let [x, z, depth, px, pz] = found;
+        let n = [T::of_value(x), T::of_value(z)];
+        let flat = [both[0].determinant(), both[1].determinant()];
+        let size = both[0].trace().sqrt() + both[1].trace().sqrt();
+        let small = T::from_f64(Ending::of::<T>(3).small) * size;
+        let now = overlap(&both, between, flat, n);
+        let mut then = overlap(&both, between, flat, turned(n, halley(&now, small)));
+        if early.is_some() {
+            then = now.unless(T::of_value(depth).lt(T::from_f64(0.0)), then);
+        }
+        let [nx, nz, deep, qx, qz] = then.result();
+        [
+            T::of_value(x).moving_as(nx),
+            T::of_value(z).moving_as(nz),
+            T::of_value(depth).moving_as(deep),
+            T::of_value(px).moving_as(qx),
+            T::of_value(pz).moving_as(qz),
+        ]
+    }
+
+    /// The result by values, and the number of steps.
     #[inline(always)]
     pub(super) fn found(self) -> ([T; 5], u32) {
         let Search {
@@ -146,13 +184,7 @@ impl<T: Real> Search<T> {
             }
             steps += 1;
         }
-        // one more step has the derivatives that are still missing
-        let polished = turned(now.direction, halley(&now, small));
-        let mut then = overlap(&both, between, flat, polished);
-        if early.is_some() {
-            then = now.unless(now.depth.lt(zero), then);
-        }
-        (now.moving_as(then).result(), steps)
+        (now.result(), steps)
     }
 }
 
@@ -272,18 +304,6 @@ impl<T: Real> Overlap<T> {
         }
     }
 
-    /// `self` with the derivatives of `other`, as far as the result needs them.
-    #[inline(always)]
-    fn moving_as(self, other: Self) -> Self {
-        Overlap {
-            direction: moving_as(self.direction, other.direction),
-            squared: self.squared.moving_as(other.squared),
-            depth: self.depth.moving_as(other.depth),
-            furthest: moving_as(self.furthest, other.furthest),
-            ..self
-        }
-    }
-
     #[inline(always)]
     fn result(&self) -> [T; 5] {
         let scale = T::from_f64(1.0) / self.squared.sqrt();
@@ -299,6 +319,12 @@ impl<T: Real> Overlap<T> {
 }
 
 impl<T: Real> Quadric<T> {
+    #[inline(always)]
+    fn value(&self) -> Quadric<T::Value> {
+        let [xx, zz, xz] = self.0;
+        Quadric([xx.value(), zz.value(), xz.value()])
+    }
+
     #[inline(always)]
     fn trace(&self) -> T {
         self.0[0] + self.0[1]
@@ -331,11 +357,6 @@ fn scaled<T: Real>(by: T, [x, z]: [T; 2]) -> [T; 2] {
 #[inline(always)]
 fn pick<T: Real>(mask: T::Mask, a: [T; 2], b: [T; 2]) -> [T; 2] {
     [T::select(mask, a[0], b[0]), T::select(mask, a[1], b[1])]
-}
-
-#[inline(always)]
-fn moving_as<T: Real>(a: [T; 2], b: [T; 2]) -> [T; 2] {
-    [a[0].moving_as(b[0]), a[1].moving_as(b[1])]
 }
 
 #[inline(always)]

@@ -139,12 +139,54 @@ impl<T: Real> Task for Search<T> {
 
     #[inline(always)]
     fn run(self) -> [T; 7] {
-        self.found().0
+        // a branch on a constant
+        match T::SLOPES {
+            true => self.with_slopes(),
+            false => self.found().0,
+        }
     }
 }
 
 impl<T: Real> Search<T> {
-    /// The result, and the number of steps.
+    /// The result of a search by values, with the derivatives that one more Newton step gives it. The step does not depend on where it starts, to
+    /// first order, so derivatives of the direction that was found are not needed.
+    #[inline(always)]
+    fn with_slopes(self) -> [T; 7] {
+        let Search {
+            both,
+            between,
+            early,
+        } = self;
+        let [dx, dy, dz] = between;
+        let found = T::Value::dispatch_apart(Search {
+            both: [both[0].value(), both[1].value()],
+            between: [dx.value(), dy.value(), dz.value()],
+            early,
+        });
+        let [x, y, z, depth, px, py, pz] = found;
+        let n = [T::of_value(x), T::of_value(y), T::of_value(z)];
+        let size = both[0].trace().sqrt() + both[1].trace().sqrt();
+        let small = T::from_f64(Ending::of::<T>(2).small) * size;
+        let zero = T::from_f64(0.0);
+        let now = overlap(&both, between, n);
+        let step = newton(&both, between, &now, zero, small);
+        let mut then = overlap(&both, between, sum(n, step.along));
+        if early.is_some() {
+            then = now.unless(T::of_value(depth).lt(zero), then);
+        }
+        let [nx, ny, nz, deep, qx, qy, qz] = then.result();
+        [
+            T::of_value(x).moving_as(nx),
+            T::of_value(y).moving_as(ny),
+            T::of_value(z).moving_as(nz),
+            T::of_value(depth).moving_as(deep),
+            T::of_value(px).moving_as(qx),
+            T::of_value(py).moving_as(qy),
+            T::of_value(pz).moving_as(qz),
+        ]
+    }
+
+    /// The result by values, and the number of steps.
     #[inline(always)]
     pub(super) fn found(self) -> ([T; 7], u32) {
         let Search {
@@ -190,13 +232,7 @@ impl<T: Real> Search<T> {
             }
             steps += 1;
         }
-        // one more step has the derivatives that are still missing
-        let step = newton(&both, between, &now, zero, small);
-        let mut then = overlap(&both, between, sum(now.direction, step.along));
-        if early.is_some() {
-            then = now.unless(now.depth.lt(zero), then);
-        }
-        (now.moving_as(then).result(), steps)
+        (now.result(), steps)
     }
 }
 
@@ -332,21 +368,6 @@ impl<T: Real> Overlap<T> {
         }
     }
 
-    /// `self` with the derivatives of `other`, as far as the result needs them.
-    #[inline(always)]
-    fn moving_as(self, other: Self) -> Self {
-        Overlap {
-            direction: moving_as(self.direction, other.direction),
-            scale: self.scale.moving_as(other.scale),
-            depth: self.depth.moving_as(other.depth),
-            bend: self.bend,
-            furthest: [
-                moving_as(self.furthest[0], other.furthest[0]),
-                self.furthest[1],
-            ],
-        }
-    }
-
     #[inline(always)]
     fn result(&self) -> [T; 7] {
         let [x, y, z] = scaled(self.scale, self.direction);
@@ -357,6 +378,19 @@ impl<T: Real> Overlap<T> {
 }
 
 impl<T: Real> Quadric<T> {
+    #[inline(always)]
+    fn value(&self) -> Quadric<T::Value> {
+        let [xx, yy, zz, yz, xz, xy] = self.0;
+        Quadric([
+            xx.value(),
+            yy.value(),
+            zz.value(),
+            yz.value(),
+            xz.value(),
+            xy.value(),
+        ])
+    }
+
     #[inline(always)]
     fn trace(&self) -> T {
         self.0[0] + self.0[1] + self.0[2]
@@ -404,15 +438,6 @@ fn pick<T: Real>(mask: T::Mask, a: [T; 3], b: [T; 3]) -> [T; 3] {
         T::select(mask, a[0], b[0]),
         T::select(mask, a[1], b[1]),
         T::select(mask, a[2], b[2]),
-    ]
-}
-
-#[inline(always)]
-fn moving_as<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
-    [
-        a[0].moving_as(b[0]),
-        a[1].moving_as(b[1]),
-        a[2].moving_as(b[2]),
     ]
 }
 

@@ -291,8 +291,31 @@ impl<R: Register> Mask for LaneMask<R> {
     }
 }
 
+/// A power as a function of its own. It is long, and a law has several; a call takes a small part of its time.
+struct Power<R>(Lanes<R>, Lanes<R>);
+
+impl<R: Register> Task for Power<R> {
+    type Output = Lanes<R>;
+    #[inline(always)]
+    fn run(self) -> Lanes<R> {
+        Lanes(self.0.0.powf(self.1.0))
+    }
+}
+
+/// A logarithm likewise.
+struct Logarithm<R>(Lanes<R>);
+
+impl<R: Register> Task for Logarithm<R> {
+    type Output = Lanes<R>;
+    #[inline(always)]
+    fn run(self) -> Lanes<R> {
+        Lanes(self.0.0.ln())
+    }
+}
+
 impl<R: Register> Real for Lanes<R> {
     type Mask = LaneMask<R>;
+    without_slopes!();
     const FORM: Option<Form> = Some(Form::of(R::BASE).times(R::LANES));
 
     #[inline(always)]
@@ -355,7 +378,7 @@ impl<R: Register> Real for Lanes<R> {
 
     #[inline(always)]
     fn powf(self, power: Self) -> Self {
-        Lanes(self.0.powf(power.0))
+        Self::dispatch_apart(Power(self, power))
     }
 
     #[inline(always)]
@@ -365,7 +388,7 @@ impl<R: Register> Real for Lanes<R> {
 
     #[inline(always)]
     fn ln(self) -> Self {
-        Lanes(self.0.ln())
+        Self::dispatch_apart(Logarithm(self))
     }
 
     #[inline(always)]
