@@ -16,14 +16,14 @@
 use crate::dynamics::{Adjustable, Differentiable, Dynamics, Owned};
 use crate::real::lanes::{Alone, Lanes};
 use crate::real::{Base, Form, Task};
-use crate::{DoubleDouble, Dual, Model, ParameterSet, Real, Width};
+use crate::{DoubleDouble, Dual, Fast, Model, ParameterSet, Real, Width};
 use core::ffi::c_void;
 use core::marker::PhantomData;
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Version of the exported functions. It changes whenever a library that was built for an earlier version would not work.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 3;
 
 /// The value that a call returns on success.
 pub const DONE: i32 = 0;
@@ -57,6 +57,7 @@ pub fn function<F: Adapter<A, R>, const A: usize, const R: usize>(
     match *Base::ALL.get(base as usize)? {
         Base::Double => over::<F, f64, A, R>(order),
         Base::Single => over::<F, f32, A, R>(order),
+        Base::Fast => over::<F, Fast, A, R>(order),
         Base::DoubleDouble => over::<F, DoubleDouble, A, R>(order),
         // a scalar of fused registers may only be made where the processor has the instructions
         Base::Lane | Base::SingleLane if !Width::One.there() => None,

@@ -19,5 +19,5 @@ pub use model::{
     OffsetView, TailView, Change, CurveInfo, CurveKind, Info, Model, OutputInfo, ParameterInfo, ParameterSet, OutputWriter,
     StateKind, Vector, part,
 };
-pub use real::{DoubleDouble, Dual, Mask, Real, Several, Task, Width};
+pub use real::{DoubleDouble, Dual, Fast, Mask, Real, Several, Task, Width};
 pub use version::{GENERATED_CODE_VERSION, check_generated_code_version};

@@ -196,6 +196,8 @@ pub use model::{
     Change, CurveInfo, CurveKind, Info, Model, OffsetView, OutputInfo, OutputWriter, ParameterInfo,
     ParameterSet, StateKind, TailView, Vector, part,
 };
+#[cfg(any(feature = "std", feature = "libm", test))]
+pub use real::Fast;
 pub use real::{DoubleDouble, Dual, Mask, Real, Task};
 #[cfg(feature = "std")]
 pub use real::{Layout, Several, Width};

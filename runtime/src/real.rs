@@ -27,6 +27,8 @@ pub(crate) use without_slopes;
 mod array;
 mod double_double;
 mod dual;
+#[cfg(any(feature = "std", feature = "libm", test))]
+mod fast;
 #[cfg(feature = "std")]
 pub mod lanes;
 #[cfg(feature = "std")]
@@ -39,6 +41,8 @@ mod words;
 pub use array::{Array4, Array8};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
+#[cfg(any(feature = "std", feature = "libm", test))]
+pub use fast::Fast;
 #[cfg(feature = "std")]
 pub use lanes::{Several, Width};
 #[cfg(feature = "std")]

@@ -82,6 +82,7 @@ files! {
     "real/double_double/elementary.rs",
     "real/double_double/tests.rs",
     "real/dual.rs",
+    "real/fast.rs",
     "real/lanes/alone.rs",
     "real/lanes/avx2.rs",
     "real/lanes/avx2/singles.rs",

@@ -9,6 +9,8 @@ use bryant_runtime::Report;
 pub struct Operations {
     /// Additions, multiplications, divisions, roots; a sine, a cosine and a call of a law count as one each.
     pub evaluation: u64,
+    /// Sines and cosines among them.
+    pub sines: u64,
 }
 
 /// A dual number costs about three times as much as a number: a product becomes three products and a sum.
@@ -35,6 +37,7 @@ impl Operations {
         let calls: usize = count.calls.values().sum();
         Operations {
             evaluation: (count.total() + sines + count.atan2 + calls) as u64,
+            sines: sines as u64,
         }
     }
 

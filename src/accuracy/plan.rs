@@ -4,10 +4,11 @@
 //! |---|---|---|---|
 //! | every formula with fixed steps | half decades | `f64`, and decades in `f32` | located and, by decades, passed |
 //! | every pair with control of its error | half decades | as above, in `f32` not below its rounding | as above |
-//! | some, with curves exchanged | decades | `f64` | located |
+//! | some, with fast sine and cosine | decades | `fast` | located |
+//! | the same, with curves exchanged | decades | `f64` | located |
 //!
-//! Nothing is run twice that cannot differ: kinks are passed only if the scene comes to a kink, and curves are exchanged
-//! only if there are curves.
+//! Nothing is run twice that cannot differ: kinks are passed only if the scene comes to a kink, sines are fast only if there are sines, and
+//! curves are exchanged only if there are curves.
 
 use super::setting::{Curves, Pace, Setting};
 use bryant_runtime::Formula;
@@ -38,6 +39,8 @@ pub struct Range {
 pub struct Scene {
     /// The motion comes to kinks of force laws.
     pub kinks: bool,
+    /// The equations have sines and cosines.
+    pub sines: bool,
     /// The laws have curves that can be exchanged.
     pub curves: bool,
 }
@@ -172,21 +175,24 @@ pub fn series(request: &Request, scene: Scene) -> Vec<Series> {
         }
     }
     for formula in compared(&request.formulas) {
-        let of = |curves| Setting {
+        let of = |scalar, curves| Setting {
             formula,
             pace: Pace::Tolerance(1.0),
-            scalar: Scalar::F64,
+            scalar,
             locate: true,
             curves,
         };
+        if scene.sines {
+            all.extend(both(request, of(Scalar::Fast, Curves::Written), false));
+        }
         if scene.curves {
-            all.extend(both(request, of(Curves::Exchanged), false));
+            all.extend(both(request, of(Scalar::F64, Curves::Exchanged), false));
         }
     }
     all
 }
 
-/// The formulas for which curves are compared: a usual one of each kind, or those that the user asks for.
+/// The formulas for which arithmetic and curves are compared: a usual one of each kind, or those that the user asks for.
 fn compared(formulas: &[Formula]) -> Vec<Formula> {
     let usual = [Formula::Rk4, Formula::Tsit5, Formula::Dop853];
     let found: Vec<Formula> = usual.into_iter().filter(|f| formulas.contains(f)).collect();
@@ -243,6 +249,7 @@ mod tests {
 
     const ALL: Scene = Scene {
         kinks: true,
+        sines: true,
         curves: true,
     };
 
@@ -304,11 +311,14 @@ mod tests {
     fn what_cannot_differ_is_not_run() {
         let none = Scene {
             kinks: false,
+            sines: false,
             curves: false,
         };
         let series = series(&request(false), none);
         assert!(
-            (series.iter()).all(|s| s.of.locate && s.of.curves == Curves::Written)
+            series.iter().all(|s| s.of.locate
+                && s.of.scalar != Scalar::Fast
+                && s.of.curves == Curves::Written)
         );
         let quick = super::series(&request(true), ALL);
         let count = |all: &[Series]| all.iter().map(|s| s.paces.len()).sum::<usize>();

@@ -171,6 +171,7 @@ pub fn study(
     progress(Stage::Reference, 1.0);
     let scene = Scene {
         kinks: reference.report.events > 0,
+        sines: operations.sines > 0,
         curves: exchanged.is_some(),
     };
     let of = of(&reference.readings)?;

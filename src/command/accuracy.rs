@@ -29,7 +29,7 @@ use std::path::{Component, Path, PathBuf};
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Every method runs over fixed steps and, where it estimates its error, over tolerances; in f64 and f32, with kinks of force
-laws located and passed over, and with cubics in the place of linear curves. Errors are against dop853 in
+laws located and passed over, with fast sines, and with cubics in the place of linear curves. Errors are against dop853 in
 double-double arithmetic, or against a closed form where there is one.
 
 error in the state   the largest over all samples and entries: of positions and angles relative to the range they go

@@ -11,7 +11,7 @@ use bryant_generator::{Config, model};
 use bryant_runtime::real::Form;
 use bryant_runtime::real::lanes::{OfAnyWidth, Several, with_width, with_width_of_singles};
 use bryant_runtime::{
-    Adjustable, Compiled, DoubleDouble, Dual, Dynamics, Family, Model as _, Real, Width,
+    Adjustable, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast, Model as _, Real, Width,
 };
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::path::{Path, PathBuf};
@@ -238,6 +238,7 @@ impl<const A: usize, const R: usize> Compare<'_, A, R> {
     fn all<F: Generated<A, R>>(self) {
         self.with_slopes::<f64, F>();
         self.with_slopes::<f32, F>();
+        self.with_slopes::<Fast, F>();
         self.with_slopes::<DoubleDouble, F>();
         for width in Width::ALL {
             let task = Lanes::<F, A, R>(self, std::marker::PhantomData);

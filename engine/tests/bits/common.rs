@@ -5,7 +5,7 @@ use bryant_generator::{Config, model};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::real::{Base, Form};
 use bryant_runtime::{
-    AccountArrival, Adjustable, Arrival, Compiled, DoubleDouble, Dual, Dynamics, Family,
+    AccountArrival, Adjustable, Arrival, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast,
     Model, Real, Several, Width,
 };
 use std::path::Path;
@@ -33,6 +33,12 @@ impl Bits for f32 {
         } else {
             self.to_bits().into()
         }]
+    }
+}
+
+impl Bits for Fast {
+    fn bits(&self) -> Vec<u64> {
+        self.0.bits()
     }
 }
 
@@ -98,6 +104,7 @@ impl Users {
             (Base::Double, 0) => lane.over::<f64>(),
             (Base::Double, 1) => lane.over::<Dual<f64>>(),
             (Base::Single, 0) => lane.over::<f32>(),
+            (Base::Fast, 0) => lane.over::<Fast>(),
             (Base::DoubleDouble, 0) => lane.over::<DoubleDouble>(),
             (Base::Lane, 0) => with_width(Width::One, lane).expect("registers"),
             (Base::PlainLane, 0) => with_width(Width::Plain, lane).expect("registers"),
@@ -398,6 +405,12 @@ impl Near for f64 {
 impl Near for f32 {
     fn near(value: f64, size: f64, random: &mut Random) -> f32 {
         f64::near(value, size, random) as f32
+    }
+}
+
+impl Near for Fast {
+    fn near(value: f64, size: f64, random: &mut Random) -> Fast {
+        Fast(f64::near(value, size, random))
     }
 }
 

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `doubles` | doubles, with the Jacobian |
 //! | `singles` | singles |
+//! | `fast` | doubles with a fast sine |
 //! | `double_doubles` | double-doubles |
 //! | `duals` | dual numbers |
 //! | `lanes` | lanes of every width |
@@ -15,6 +16,7 @@ mod common;
 mod double_doubles;
 mod doubles;
 mod duals;
+mod fast;
 mod lanes;
 mod scenes;
 mod singles;

@@ -56,19 +56,22 @@ pub enum Scalar {
     F64,
     /// Single precision.
     F32,
+    /// Double precision with faster, less accurate sines and cosines ([`crate::Fast`]).
+    Fast,
     /// About 32 digits ([`crate::DoubleDouble`]).
     DoubleDouble,
 }
 
 impl Scalar {
     /// All of them.
-    pub const ALL: [Scalar; 3] = [Scalar::F64, Scalar::F32, Scalar::DoubleDouble];
+    pub const ALL: [Scalar; 4] = [Scalar::F64, Scalar::F32, Scalar::Fast, Scalar::DoubleDouble];
 
     /// Its name in commands and files.
     pub const fn name(self) -> &'static str {
         match self {
             Scalar::F64 => "f64",
             Scalar::F32 => "f32",
+            Scalar::Fast => "fast",
             Scalar::DoubleDouble => "double-double",
         }
     }

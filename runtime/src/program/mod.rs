@@ -19,7 +19,7 @@ use crate::dynamics::{made, made_differentiable};
 use crate::patience::Patience;
 use crate::response::Answer;
 use crate::simulate::{self, Balance, ENERGY_LIMIT, Sample, SampleKind, Watch};
-use crate::{Adjustable, DoubleDouble, Family, Info, Model, Real, Report};
+use crate::{Adjustable, DoubleDouble, Family, Fast, Info, Model, Real, Report};
 use reading::Signals;
 use std::ops::ControlFlow;
 
@@ -274,6 +274,7 @@ pub fn run_job_observed(
     match job.scalar {
         Scalar::F64 => execute_in_double(family.over(), job, balanced, writer, observer),
         Scalar::F32 => execute(family.over::<f32>(), job, balanced, writer, observer),
+        Scalar::Fast => execute(family.over::<Fast>(), job, balanced, writer, observer),
         Scalar::DoubleDouble => execute(
             family.over::<DoubleDouble>(),
             job,

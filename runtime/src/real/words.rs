@@ -11,23 +11,26 @@ pub enum Base {
     Double = 0,
     /// `f32`
     Single = 1,
+    /// [`Fast`](super::Fast)
+    Fast = 2,
     /// [`DoubleDouble`](super::DoubleDouble)
-    DoubleDouble = 2,
+    DoubleDouble = 3,
     /// A lane of doubles with fused products and sums: [`Width::One`](super::Width::One) and wider.
-    Lane = 3,
+    Lane = 4,
     /// A lane of doubles without: [`Width::Plain`](super::Width::Plain).
-    PlainLane = 4,
+    PlainLane = 5,
     /// A lane of singles with fused products and sums.
-    SingleLane = 5,
+    SingleLane = 6,
     /// A lane of singles without.
-    PlainSingleLane = 6,
+    PlainSingleLane = 7,
 }
 
 impl Base {
     /// All of them, by their number.
-    pub const ALL: [Base; 7] = [
+    pub const ALL: [Base; 8] = [
         Base::Double,
         Base::Single,
+        Base::Fast,
         Base::DoubleDouble,
         Base::Lane,
         Base::PlainLane,
@@ -88,7 +91,7 @@ mod tests {
     use super::Base;
     use crate::real::Real;
     use crate::real::lanes::{OfAnyWidth, Several, with_width, with_width_of_singles};
-    use crate::{DoubleDouble, Dual, Width};
+    use crate::{DoubleDouble, Dual, Fast, Width};
 
     /// Writes several scalars into one array, with each lane apart, and reads them back.
     fn there_and_back<T: Real>(of: impl Fn(usize) -> T) {
@@ -133,6 +136,7 @@ mod tests {
         let third = |k: usize| (k as f64 + 1.0) / 3.0;
         there_and_back::<f64>(third);
         there_and_back::<f32>(|k| third(k) as f32);
+        there_and_back::<Fast>(|k| Fast(third(k)));
         there_and_back::<DoubleDouble>(|k| DoubleDouble::new(third(k), 1e-20));
         there_and_back(|k| dual(third(k) as f32));
         there_and_back(|k| dual(DoubleDouble::new(third(k), 1e-20)));

@@ -65,11 +65,12 @@ pub fn diagram(study: &Study, conclusion: &Conclusion) -> Diagram {
 }
 
 /// The variants in the order in which they are drawn, the usual one first.
-const VARIANTS: [(Scalar, bool); 4] = [
+const VARIANTS: [(Scalar, bool); 5] = [
     (Scalar::F64, true),
     (Scalar::F64, false),
     (Scalar::F32, true),
     (Scalar::F32, false),
+    (Scalar::Fast, true),
 ];
 
 fn of(setting: &Setting) -> (Scalar, bool) {
@@ -78,7 +79,10 @@ fn of(setting: &Setting) -> (Scalar, bool) {
 
 /// "f32, kinks passed"; kinks are mentioned only if the scene comes to some.
 fn name((scalar, locate): (Scalar, bool), all: &[(Scalar, bool)]) -> String {
-    let scalar = scalar.name();
+    let scalar = match scalar {
+        Scalar::Fast => "f64, fast sines",
+        other => other.name(),
+    };
     match (locate, all.iter().any(|(_, locate)| !locate)) {
         (_, false) => scalar.to_owned(),
         (true, true) => format!("{scalar}, kinks located"),

@@ -241,7 +241,7 @@ fn parameters(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "lengthening",
     ];
     let scalars = match bench.full() {
-        true => &[Scalar::F64, Scalar::F32, Scalar::DoubleDouble][..],
+        true => &[Scalar::F64, Scalar::F32, Scalar::Fast, Scalar::DoubleDouble][..],
         false => &[Scalar::F64],
     };
     for scalar in scalars {

@@ -1,0 +1,11 @@
+//! Over doubles with a fast sine, every method of every bundled model has the bits of the generated Rust.
+
+use crate::common::{self, Single};
+use bryant_runtime::{Fast, Model};
+
+/// Compares one model.
+fn check<M: Model<f64>>(name: &str) {
+    common::check::<M, Fast, Single>(name);
+}
+
+models!(check);
