@@ -10,6 +10,7 @@ use crate::user::UserFunctions;
 use bryant_generator::expression::Function;
 use bryant_generator::program::{Combination, List, Lists, Method, Operation, Start};
 use bryant_runtime::dynamics::{arrive, exchange};
+use bryant_runtime::real::Base;
 use bryant_runtime::{Adjustable, Arrival, Dynamics, Family, Info, Real, Schedule, Task};
 use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
@@ -152,8 +153,13 @@ impl Family for Engine {
         self.shared.info
     }
 
+    /// The model has its Jacobian, except over double-doubles: reference solutions are computed by explicit methods.
     fn over<T: Real>(&self) -> Box<dyn Adjustable<T> + '_> {
-        Box::new(Engine::over::<T>(self))
+        // a branch on a constant: dual numbers over double-doubles are not compiled
+        match const { is_double_double::<T>() } {
+            true => Box::new(WithoutJacobian(Engine::over::<T>(self))),
+            false => Box::new(Engine::over::<T>(self)),
+        }
     }
 
     fn for_batch<T: Real>(&self) -> Box<dyn Adjustable<T> + '_> {
@@ -163,6 +169,13 @@ impl Family for Engine {
     fn schedule<T: Real>(&self) -> Box<dyn Schedule<T> + '_> {
         let model: Box<dyn Adjustable<T> + '_> = Family::for_batch(self);
         Box::new(model)
+    }
+}
+
+const fn is_double_double<T: Real>() -> bool {
+    match T::FORM {
+        Some(form) => form.order == 0 && matches!(form.base, Base::DoubleDouble),
+        None => false,
     }
 }
 
@@ -194,7 +207,7 @@ pub struct Machine<T, E> {
     jacobian: RefCell<Option<Box<dyn Jacobian<T>>>>,
 }
 
-/// A model over one scalar for a batch. A batch never uses the Jacobian, so the equations are not compiled over dual numbers.
+/// A model over one scalar without its Jacobian, for which the equations are not compiled over dual numbers. A batch never uses one.
 struct WithoutJacobian<M>(M);
 
 impl<T: Real, E: Execute<T>> Machine<T, E> {

@@ -1,7 +1,7 @@
-//! The YAML as written: serde types, one file per concept, and the places of everything in the text.
+//! The YAML as written: a type for each record, one file per concept, and the places of everything in the text.
 //!
 //! ```text
-//! text ─tree→ located tree ─shape→ checked ─expand→ long form ─serde→ Model, Included ─load→ all files of a model
+//! text ─tree→ located tree ─shape→ checked ─expand→ long form ─read→ Model, Included ─load→ all files of a model
 //! ```
 //!
 //! Unknown keys are errors. Limits keep hostile text from costing time: files up to 16 MiB, nesting up to 32, 2000

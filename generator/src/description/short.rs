@@ -1,5 +1,5 @@
-//! Short forms as written: one entry that stands for several. [`expand`](super::expand) writes them out before serde reads,
-//! so that serde meets the long form only.
+//! Short forms as written: one entry that stands for several. [`expand`](super::expand) writes them out before values
+//! are read, so that only the long form is read.
 
 use super::place::At;
 use super::quantity::Quantity;

@@ -1,7 +1,7 @@
 //! The YAML as a tree whose every node knows its line and column.
 //!
-//! serde reads the values; this tree, built by a marked parser from the same text, says where they stand. Building it is
-//! also where text that no model needs is turned away before serde sees it: nesting, size, aliases, tags, duplicate keys.
+//! This tree, built by a marked parser from the text, says where values stand. Building it is
+//! also where text that no model needs is turned away before it is read: nesting, size, aliases, tags, duplicate keys.
 
 use super::place::At;
 use crate::diagnostic::{Diagnostic, quoted};

@@ -1,7 +1,7 @@
 //! Short forms to long ones: a located tree in, a located tree out, before anything is read from it.
 //!
 //! ```text
-//! tree ─instance→ under another name ─expand→ lists → mirror images → surfaces by name ─serde→ Included
+//! tree ─instance→ under another name ─expand→ lists → mirror images → surfaces by name ─read→ Included
 //! ```
 //!
 //! What is written out stands in the tree as if the user had written it, with the places of what it comes from. So nothing
