@@ -307,9 +307,7 @@ mod tests {
             curves: false,
         };
         let series = series(&request(false), none);
-        assert!(
-            (series.iter()).all(|s| s.of.locate && s.of.curves == Curves::Written)
-        );
+        assert!((series.iter()).all(|s| s.of.locate && s.of.curves == Curves::Written));
         let quick = super::series(&request(true), ALL);
         let count = |all: &[Series]| all.iter().map(|s| s.paces.len()).sum::<usize>();
         assert!(count(&quick) * 2 < count(&super::series(&request(false), ALL)));

@@ -5,8 +5,8 @@ use bryant_generator::{Config, model};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::real::{Base, Form};
 use bryant_runtime::{
-    AccountArrival, Adjustable, Arrival, Compiled, DoubleDouble, Dual, Dynamics, Family,
-    Model, Real, Several, Width,
+    AccountArrival, Adjustable, Arrival, Compiled, DoubleDouble, Dual, Dynamics, Family, Model,
+    Real, Several, Width,
 };
 use std::path::Path;
 use std::sync::Arc;
