@@ -167,7 +167,9 @@ impl<T: Real> Execute<T> for Interpreter<T> {
         let mut values = self.values.borrow_mut();
         values.give(&programs.layout, given);
         // A branch on a constant: over other scalars no loop for runs is compiled.
-        if Self::RUNS && let Some(code) = programs.runs(lists, method) {
+        if Self::RUNS
+            && let Some(code) = programs.runs(lists, method)
+        {
             values.make_room(code.end(), code.most_arguments());
             let Values { frame, arguments } = &mut *values;
             T::dispatch(Runs {

@@ -84,9 +84,13 @@ impl Shape for Freedom {
     fn read(value: &Value) -> Result<Self, Misfit> {
         let entries = (value.as_mapping()).ok_or_else(|| misfit(value, Self::TITLE))?;
         let of_all = ["name", "zero", "armature", "follows"];
-        let texts = entries.iter().map(|(key, value)| Ok((String::read(key)?, value)));
+        let texts = entries
+            .iter()
+            .map(|(key, value)| Ok((String::read(key)?, value)));
         let texts: Vec<(String, &Value)> = texts.collect::<Result<_, Misfit>>()?;
-        let of_kind = texts.into_iter().filter(|(key, _)| !of_all.contains(&key.as_str()));
+        let of_kind = texts
+            .into_iter()
+            .filter(|(key, _)| !of_all.contains(&key.as_str()));
         Ok(Freedom {
             name: of_key(value, "name")?,
             zero: of_key(value, "zero")?,

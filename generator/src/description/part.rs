@@ -1,10 +1,10 @@
 //! Parts among the included: a seat or a steering column by name, as the text of a file.
 
-use super::shape::Shape as _;
 use super::person::{is_word, plain};
 use super::place::At;
 use super::quantity::Quantity;
 use super::shape::Problems;
+use super::shape::Shape as _;
 use super::short::{Part as Written, PartName};
 use super::tree;
 use crate::car_part::{CarPart, CarPartKind};

@@ -1,9 +1,9 @@
 //! People among the included: a person by size and posture, as the text of a file.
 
-use super::shape::Shape as _;
 use super::place::At;
 use super::quantity::Quantity;
 use super::shape::Problems;
+use super::shape::Shape as _;
 use super::short::{Human, HumanAngles, HumanName, HumanPosture, HumanSex};
 use super::tree::Kind;
 use super::unit::{Dimension, unit};

@@ -41,7 +41,10 @@ impl Shape for Quantity {
             Value::String(text) => Ok(Quantity::Text(text.clone())),
             Value::Mapping(_) => Param::read(value).map(|of| Quantity::Param(of.param)),
             _ => (value.as_f64().map(Quantity::Number)).ok_or_else(|| {
-                misfit(value, "a number, a number with its unit, or an expression of parameters")
+                misfit(
+                    value,
+                    "a number, a number with its unit, or an expression of parameters",
+                )
             }),
         }
     }

@@ -197,11 +197,7 @@ fn check_keys(title: &str, all: &'static [Key], at: At<'_>, problems: &Problems)
             false => keys,
         };
         problems.add(at.problem(
-            format!(
-                "here stands {}, but {} has keys",
-                at.node.article(),
-                title
-            ),
+            format!("here stands {}, but {} has keys", at.node.article(), title),
             format!("write `{{ {} }}`", keys.join(", ")),
         ));
         return;
@@ -429,8 +425,11 @@ impl<T: Shape> Shape for Named<T> {
     }
 
     fn read(value: &Value) -> Result<Self, Misfit> {
-        let entries = (value.as_mapping()).ok_or_else(|| misfit(value, "names and their values"))?;
+        let entries =
+            (value.as_mapping()).ok_or_else(|| misfit(value, "names and their values"))?;
         let entry = |(name, value): (&Value, &Value)| Ok((String::read(name)?, T::read(value)?));
-        Ok(Named(entries.iter().map(entry).collect::<Result<_, Misfit>>()?))
+        Ok(Named(
+            entries.iter().map(entry).collect::<Result<_, Misfit>>()?,
+        ))
     }
 }

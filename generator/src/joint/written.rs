@@ -233,9 +233,7 @@ impl<'r> Reader<'r> {
             Err(error) => {
                 let place = self.at.key(key);
                 let help = "see the reference of the language";
-                self.resolver
-                    .problems
-                    .add(place.problem(error, help));
+                self.resolver.problems.add(place.problem(error, help));
                 None
             }
         }

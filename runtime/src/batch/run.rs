@@ -13,9 +13,9 @@
 //! its ends differ by, or, where steps are fixed, their span over their number. Steps below sixteen times that are refused, and kinks in time come by it too early or too late. Tolerances from 10⁻⁴ up
 //! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
 
-use super::copies;
 use super::bend::Bends;
 use super::control::{ESTIMATE, Power, first_step, norm};
+use super::copies;
 use super::event::{Sides, Values, width};
 use super::jump::Sided;
 use super::models::Models;
