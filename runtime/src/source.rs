@@ -53,6 +53,7 @@ files! {
     "force/mod.rs",
     "force/power.rs",
     "force/switch.rs",
+    "integrate/acceleration.rs",
     "integrate/adams.rs",
     "integrate/control.rs",
     "integrate/euler.rs",

@@ -1342,6 +1342,26 @@ fn check_warns_of_singular_positions_of_a_joint() {
             "",
             None,
         ),
+        (
+            "[ { hinge: x, name: a }, { hinge: [1, 1e-5, 0], name: b } ]",
+            "",
+            Some("the axes of a and b of \"arm/hand\" are only 6e-4° apart"),
+        ),
+        (
+            "[ { slider: z, name: a }, { slider: [0.02, 0, -1], name: b } ]",
+            "",
+            Some("are only 1.1° apart"),
+        ),
+        (
+            "[ { hinge: x, name: a }, { hinge: [1, 0.05, 0], name: b } ]",
+            "",
+            None,
+        ),
+        (
+            "[ { hinge: x, name: a }, { slider: [1, 1e-5, 0], name: b } ]",
+            "",
+            None,
+        ),
         ("{ universal: [x, y] }", "", None),
         ("{ cylinder: z }", "", None),
         ("{ planar: z }", "", None),
@@ -1357,8 +1377,47 @@ fn check_warns_of_singular_positions_of_a_joint() {
         let (_, stderr) = call(directory.path(), &["check", "several.yaml"], 0);
         match told {
             Some(told) => assert!(stderr.contains(told), "{joint}: {stderr}"),
-            None => assert!(!stderr.contains("singular"), "{joint}: {stderr}"),
+            None => assert!(
+                !stderr.contains("singular") && !stderr.contains("apart"),
+                "{joint}: {stderr}"
+            ),
         }
+    }
+}
+
+#[test]
+fn an_axis_of_parameters_needs_a_direction() {
+    let directory = tempfile::tempdir().unwrap();
+    let scene = on_a_joint("{ hinge: [a, 0, b] }", "")
+        .replace("dimension: 3", "dimension: 3\nparameters: { a: 1, b: 1 }");
+    std::fs::write(directory.path().join("axis.yaml"), scene).unwrap();
+    let run = |set: [&str; 2], code: i32| {
+        let arguments = [
+            "run",
+            "axis.yaml",
+            "--no-files",
+            "--set",
+            set[0],
+            "--set",
+            set[1],
+        ];
+        call(directory.path(), &arguments, code).1
+    };
+    // squares that overflow, vanish, or keep few digits; no direction; no number
+    for set in [
+        ["a=1e200", "b=1"],
+        ["a=1e-200", "b=0"],
+        ["a=1e-162", "b=0"],
+        ["a=0", "b=0"],
+    ] {
+        let told = run(set, 2);
+        assert!(
+            told.contains("`joint` of arm/hand must have an axis with a direction"),
+            "{set:?}: {told}"
+        );
+    }
+    for set in [["a=1e100", "b=1"], ["a=1e-100", "b=0"], ["a=0", "b=-3"]] {
+        run(set, 0);
     }
 }
 

@@ -162,6 +162,27 @@ impl Element {
         list.number("mass".into(), &self.mass, Rule::Positive);
         for freedom in self.joint.freedoms() {
             list.number("armature".into(), &freedom.armature, Rule::NotNegative);
+            if freedom
+                .axis
+                .iter()
+                .any(|component| component.constant().is_none())
+            {
+                // it is divided by its length, which is wrong where squares overflow or vanish
+                let squares = freedom
+                    .axis
+                    .each_ref()
+                    .map(|a| Number::product(a.clone(), a.clone()));
+                list.together(
+                    "joint",
+                    "must have an axis with a direction",
+                    Number::difference(
+                        squares.into_iter().fold(Number::ZERO, Number::sum),
+                        0.5.into(),
+                    ),
+                    Rule::Positive,
+                    "give components of which one at least is not 0, between 1e-100 and 1e100",
+                );
+            }
         }
         match dimension {
             Dimension::Plane => {

@@ -27,6 +27,7 @@ use super::settings::{Pace, Settings};
 use super::step::Step;
 use super::tolerance::Allowed;
 use super::watch::Watch;
+use crate::integrate::acceleration::{Accelerations, parts};
 use crate::integrate::control::Controller;
 use crate::model::CurveKind;
 use crate::patience::Patience;
@@ -34,7 +35,7 @@ use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, Task};
 use crate::simulate::finest;
 use crate::simulate::standing::Standing;
-use crate::{Arrival, Family, Info, Real, Schedule};
+use crate::{Arrival, Family, Formula, Info, Real, Schedule};
 
 /// Smallest step \[s\].
 pub(super) const SMALLEST: f64 = 1e-14;
@@ -169,6 +170,9 @@ pub(super) struct Run<'a, T: Several> {
     /// The error allowed in each entry of a state; nothing where steps are fixed.
     pub(super) allowed: Vec<Allowed<T::Part>>,
     pub(super) controller: Controller<T::Part>,
+    pub(super) accelerations: Accelerations<T::Part>,
+    /// Room for the powers of all effects, twice.
+    powers: [Box<[T]>; 2],
     /// What the controller asks for next \[s\].
     pub(super) h: T::Part,
     /// What the tolerances are multiplied by.
@@ -255,6 +259,19 @@ impl<T: Several> Section<T> for Start<T::Mask> {
     }
 }
 
+/// The largest accelerations that effects cause by themselves where steps begin.
+struct Parts;
+
+impl<T: Several> Section<T> for Parts {
+    type Output = [T::Part; 2];
+    #[inline(always)]
+    fn run(self, run: &mut Run<'_, T>) -> Self::Output {
+        let Step { t, y, .. } = &run.step;
+        let [one, other] = &mut run.powers;
+        parts(&*run.models.all, *t, y, &mut run.state, [one, other]).map(|found| found.part(0))
+    }
+}
+
 impl<'a, T: Several> Run<'a, T> {
     /// Does a section.
     #[inline(always)]
@@ -314,6 +331,14 @@ impl<'a, T: Several> Run<'a, T> {
             series: vec![blank; T::LANES],
             next: 0,
             controller: Controller::new(ESTIMATE),
+            accelerations: Accelerations::new(
+                Formula::Dopri5,
+                match &settings.pace {
+                    Pace::Adaptive(tolerances) => tolerances.accelerations,
+                    Pace::Fixed(_) => f64::INFINITY,
+                },
+            ),
+            powers: [(); 2].map(|()| zeros(info.powers.len())),
             h: one,
             level: one,
             grid: Grid::new(),
@@ -406,6 +431,7 @@ impl<'a, T: Several> Run<'a, T> {
         self.renew(fresh);
         self.step.latest = self.latest();
         self.controller.reset(fresh);
+        self.accelerations.reset(fresh);
         self.advance_onsets(fresh);
         replace(
             fresh,
@@ -531,12 +557,16 @@ impl<'a, T: Several> Run<'a, T> {
     #[inline(always)]
     fn judge(&mut self, busy: T::Mask, reached: T) -> [T::Mask; 2] {
         let c = T::Part::from_f64;
-        let (error, adaptive) = match self.settings.pace {
+        let (mut error, adaptive) = match self.settings.pace {
             Pace::Adaptive(_) => (self.step.error(&self.allowed) / self.level, true),
             Pace::Fixed(_) => (self.finite(), false),
         };
         let finite = error.abs().lt(c(f64::INFINITY));
         let mut accepted = busy.and(finite).and(c(1.0).lt(error).not());
+        if adaptive && self.accelerations.controlled() {
+            error = self.with_accelerations(error, accepted);
+            accepted = accepted.and(c(1.0).lt(error).not());
+        }
         let easy = self.is_easy(adaptive.then_some(error));
         self.look_at_end(accepted, reached);
         if adaptive {
@@ -559,6 +589,28 @@ impl<'a, T: Several> Run<'a, T> {
             self.turn_down(i, finite.lanes() >> i & 1 != 0);
         }
         [accepted, easy]
+    }
+
+    /// The error of the step, in these lanes with that of the accelerations at its end.
+    #[inline(always)]
+    fn with_accelerations(&mut self, error: T::Part, good: T::Mask) -> T::Part {
+        let one = T::Part::from_f64(1.0);
+        let apart = self.step.apart(self.info);
+        let of = [self.step.h.part(0), self.level];
+        let mut found = self.accelerations.error::<Power>(&apart, of, T::EPSILON);
+        let mut rejected = good.and(one.lt(found));
+        if rejected.any() {
+            let asking = self.accelerations.asks(rejected);
+            if asking.any() {
+                let parts = self.apart(Parts);
+                self.accelerations.learn(asking, parts);
+                found = self.accelerations.error::<Power>(&apart, of, T::EPSILON);
+                rejected = good.and(one.lt(found));
+            }
+        }
+        let accepted = good.and(rejected.not());
+        self.accelerations.leave(&apart, of[0], accepted, rejected);
+        T::Part::select(good, error.max(found), error)
     }
 
     /// In which of these lanes something is hidden in the step, so that it is taken again, and which part of it.

@@ -9,11 +9,12 @@
 use super::copies;
 use super::settings::Method;
 use super::tolerance::Allowed;
+use crate::integrate::acceleration::{Apart, kind};
 use crate::integrate::tableau::dormand_prince::Dopri5;
 use crate::integrate::tableau::kutta::{Heun, Merson, Rk4};
 use crate::integrate::tableau::{Tableau, hermite};
 use crate::real::{Mask, Several, Task};
-use crate::{Dynamics, Real};
+use crate::{Dynamics, Info, Real};
 use core::marker::PhantomData;
 
 /// Stages of any method here, those for the inside included, at most.
@@ -268,6 +269,36 @@ impl<T: Several> Step<T> {
             }
         }
         worst + sum.taint()
+    }
+
+    /// How the results of its last two stages differ, both for the time of its end.
+    #[inline(always)]
+    pub fn apart(&self, info: &Info) -> Apart<T::Part> {
+        let coordinates = info.coordinates.len();
+        let entries = coordinates + info.velocities.len();
+        let (y, end) = (&self.y[..entries], &self.end[..entries]);
+        let k = stages(&self.k, entries);
+        let [first, .., near, last] = k;
+        let mut lengths = [T::from_f64(0.0); STAGES];
+        for (length, weight) in lengths.iter_mut().zip(Dopri5::A[STAGES - 2]) {
+            *length = T::from_f64(*weight) * self.h;
+        }
+        let mut apart = Apart::new();
+        for i in 0..entries {
+            let mut state = y[i];
+            for j in 0..STAGES - 2 {
+                state = lengths[j].mul_add(k[j][i], state);
+            }
+            let between = [end[i] - state, last[i] - near[i]].map(|value| value.part(0));
+            let y = end[i].part(0);
+            if i < coordinates {
+                apart.coordinate(y, between);
+            } else {
+                let ends = [first[i], last[i]].map(|value| value.part(0));
+                apart.velocity(kind(info, i), y, between, ends);
+            }
+        }
+        apart
     }
 }
 

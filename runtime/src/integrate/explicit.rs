@@ -15,8 +15,8 @@ pub(crate) struct Explicit<'w, T, B> {
     k: &'w mut [T],
     /// The state of a stage.
     stage: &'w mut [T],
-    /// Whether the stages of the interpolant have been evaluated.
-    complete: bool,
+    /// Number of stages that have been evaluated.
+    known: usize,
     by: PhantomData<B>,
 }
 
@@ -34,7 +34,7 @@ impl<'w, T: Real, B: Tableau> Explicit<'w, T, B> {
             span: Span::new(state, workspace),
             k: workspace.part(B::ALL * state),
             stage: workspace.part(state),
-            complete: false,
+            known: 0,
             by: PhantomData,
         }
     }
@@ -77,8 +77,8 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
 
     fn take(&mut self, f: &mut Evaluator<'_, T>, h: f64) -> Result<(), Reason> {
         self.span.h = h;
-        self.complete = B::STAGES == B::ALL;
         self.stages(f, 1, B::STAGES);
+        self.known = B::STAGES;
         if !B::LAST_IS_FIRST {
             let Span { y, end, .. } = &mut self.span;
             combine(y, h, B::B, self.k, end);
@@ -88,6 +88,13 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
 
     fn span(&self) -> &Span<'_, T> {
         &self.span
+    }
+
+    fn finish(&mut self, f: &mut Evaluator<'_, T>) {
+        if !B::LAST_IS_FIRST && self.known == B::STAGES && B::STAGES < B::ALL {
+            self.stages(f, B::STAGES, B::STAGES + 1);
+            self.known = B::STAGES + 1;
+        }
     }
 
     fn estimate(&mut self, errors: &mut [T]) {
@@ -116,10 +123,8 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
     }
 
     fn complete(&mut self, f: &mut Evaluator<'_, T>) {
-        if !self.complete {
-            self.stages(f, B::STAGES, B::ALL);
-            self.complete = true;
-        }
+        self.stages(f, self.known, B::ALL);
+        self.known = B::ALL;
     }
 
     fn interpolate(&self, theta: f64, inside: &mut [T]) {
@@ -166,7 +171,7 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
     fn end_rate(&self) -> Option<&[T]> {
         // the last stage of the step, or the first stage for the interpolant, is at the end
         let index = B::STAGES - usize::from(B::LAST_IS_FIRST);
-        if !(self.complete || B::LAST_IS_FIRST) || index >= B::ALL {
+        if index >= self.known {
             return None;
         }
         let length = self.span.y.len();

@@ -14,7 +14,9 @@
 //! | [`march`](march()) | many steps of one length and nothing else, by Runge–Kutta methods |
 //! | `adams` | the same by a multistep method |
 //! | [`control`] | tolerances, first step, next step |
+//! | `acceleration` | accelerations in that control |
 
+pub(crate) mod acceleration;
 mod adams;
 pub mod control;
 pub(crate) mod euler;
@@ -176,6 +178,8 @@ pub(crate) trait Stepper<T: Real> {
     fn take(&mut self, f: &mut Evaluator<'_, T>, h: f64) -> Result<(), Reason>;
     /// Where the step begins, its length, and where it ends.
     fn span(&self) -> &Span<'_, T>;
+    /// Evaluates the derivative at the end, if the next step begins with it anyway. At most once a step.
+    fn finish(&mut self, _: &mut Evaluator<'_, T>) {}
     /// Writes the estimated error of each entry at the end. Without an estimate the content is arbitrary.
     fn estimate(&mut self, errors: &mut [T]);
     /// Evaluates what [`Stepper::interpolate`] needs beyond the step itself, at most once a step.

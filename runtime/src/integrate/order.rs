@@ -5,6 +5,7 @@
 //! IV.7).
 
 use super::Formula;
+use super::acceleration::limits;
 use super::rosenbrock::original;
 use super::tableau::Tableau;
 use super::tableau::dormand_prince::{Dop853, Dopri5};
@@ -269,4 +270,55 @@ fn limits_of_stability_are_those_of_the_polynomials() {
     close(farthest::<Dopri5>(), Formula::Dopri5);
     close(farthest::<Tsit5>(), Formula::Tsit5);
     close(farthest::<Dop853>(), Formula::Dop853);
+}
+
+/// (|R(iy)|, |P(iy)|) of an undamped oscillation: what a step makes of it, and how far the last state before the end for the time of the end is from
+/// the end.
+fn swings<B: Tableau>(y: f64) -> [f64; 2] {
+    let times = |(re, im): (f64, f64)| (-y * im, y * re);
+    let mut rates: Vec<(f64, f64)> = Vec::new();
+    let state = |rates: &[(f64, f64)], weights: &[f64]| {
+        let sum = rates.iter().zip(weights);
+        sum.fold((1.0, 0.0), |(re, im), (k, w)| (re + w * k.0, im + w * k.1))
+    };
+    let before = B::STAGES - usize::from(B::LAST_IS_FIRST);
+    let near = (1..before).rev().find(|&i| B::C[i] == 1.0);
+    let near = near.expect("a stage at the end");
+    let mut other = (0.0, 0.0);
+    for i in 0..B::STAGES {
+        let stage = state(&rates, B::A[i]);
+        if i == near {
+            other = stage;
+        }
+        rates.push(times(stage));
+    }
+    let end = state(&rates, B::B);
+    [end.0.hypot(end.1), (end.0 - other.0).hypot(end.1 - other.1)]
+}
+
+#[test]
+fn oscillations_grow_from_the_limits_stated() {
+    fn compare<B: Tableau>(formula: Formula) {
+        let [limit, polynomial] = limits(formula).expect("a method with two stages at the end");
+        let mut places = (1..100_000).map(|i| 1e-4 * f64::from(i));
+        let found = places.find(|y| swings::<B>(*y)[0] > 1.0 + 1e-5);
+        let found = found.expect("an explicit method").min(std::f64::consts::PI);
+        // found on a grid of 0.0001, stated with three digits
+        let close = |stated: f64, found: f64| (stated / found - 1.0).abs() < 5e-3;
+        assert!(close(limit, found), "{formula}: {limit}, found {found}");
+        let [_, apart] = swings::<B>(limit);
+        assert!(
+            close(polynomial, apart),
+            "{formula}: {polynomial}, found {apart}"
+        );
+    }
+    compare::<Heun>(Formula::Heun);
+    compare::<Merson>(Formula::Merson);
+    compare::<Dopri5>(Formula::Dopri5);
+    compare::<Tsit5>(Formula::Tsit5);
+    compare::<Dop853>(Formula::Dop853);
+    for formula in Formula::ALL {
+        let adaptive = formula.estimates_error() && formula != Formula::Rodas5;
+        assert_eq!(limits(formula).is_some(), adaptive, "{formula}");
+    }
 }

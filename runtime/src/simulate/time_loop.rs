@@ -28,7 +28,8 @@ use super::standing::Standing;
 use super::watch::Watch;
 use super::{Cause, Observer, Pace, Receiver, Report, Settings};
 use crate::failure::Reason;
-use crate::integrate::control::{Allowed, Controller, Tolerances, first_step};
+use crate::integrate::acceleration::{Accelerations, Apart, kind, parts};
+use crate::integrate::control::{Allowed, Basic, Controller, Tolerances, first_step};
 use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper, first_non_finite};
 use crate::{Arrival, Dynamics, Info, Real};
@@ -109,13 +110,15 @@ pub(crate) fn finest(t: f64) -> f64 {
 /// The same as a scalar tells the time, at which it evaluates the equations: of singles 2²⁹ times as long. Over less, nothing that it computes is
 /// of another time.
 fn finest_of<T: Real>(t: f64) -> f64 {
-    let few_digits = T::from_f64(1.0 + 1e-10).to_f64() == 1.0;
-    let coarser = if few_digits {
-        f64::from(f32::EPSILON) / f64::EPSILON
-    } else {
-        1.0
-    };
-    coarser * finest(t)
+    epsilon_of::<T>() / f64::EPSILON * finest(t)
+}
+
+/// The distance from 1 to the next number of a scalar: of doubles, or of singles.
+fn epsilon_of<T: Real>() -> f64 {
+    match T::from_f64(1.0 + 1e-10).to_f64() == 1.0 {
+        true => f64::from(f32::EPSILON),
+        false => f64::EPSILON,
+    }
 }
 
 /// The time loop of a run; the time reached is `report.t`. It can be left at a sample and entered again, which changes no bit of what follows.
@@ -154,6 +157,9 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     onsets: Onsets<'a, T>,
     /// Errors allowed, which count where steps are chosen by them.
     allowed: Allowed<'a, T>,
+    accelerations: Accelerations<f64>,
+    /// Room for the powers of all effects, twice.
+    powers: [&'a mut [T]; 2],
 
     /// What the controller asks for next \[s\].
     h: f64,
@@ -188,6 +194,7 @@ pub(super) const fn length(info: &Info) -> usize {
         + values(info)
         + info.outputs.len()
         + info.curves.len()
+        + 2 * info.powers.len()
 }
 
 /// How many values of event functions or kinks are kept at the same time.
@@ -260,6 +267,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 workspace.part(2 * KEPT * info.onsets.len()),
             ),
             allowed: Allowed::new(&tolerances, info, workspace),
+            accelerations: Accelerations::new(settings.method.formula, tolerances.accelerations),
+            powers: [(); 2].map(|()| workspace.part(info.powers.len())),
             h: 0.0,
             controller: Controller::new(0),
             grid: None,
@@ -557,9 +566,49 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             Pace::Adaptive(_) => {
                 step.estimate(self.spare);
                 let span = step.span();
-                self.allowed.error(span.y, span.end, self.spare)
+                let error = self.allowed.error(span.y, span.end, self.spare)?;
+                Some(match error <= 1.0 && self.accelerations.controlled() {
+                    true => error.max(self.error_of_accelerations(step)),
+                    false => error,
+                })
             }
         }
+    }
+
+    /// Of a step that is good otherwise: the error of the accelerations at its end over what is allowed.
+    fn error_of_accelerations(&mut self, step: &mut dyn Stepper<T>) -> f64 {
+        step.finish(&mut self.f);
+        let (Some(near), Some(last)) = (step.neighbour(self.inside), step.end_rate()) else {
+            return 0.0;
+        };
+        let span = step.span();
+        let coordinates = self.info.coordinates.len();
+        let size = |value: T| value.abs().to_f64();
+        let mut apart = Apart::new();
+        for i in 0..coordinates + self.info.velocities.len() {
+            let between = [span.end[i] - self.inside[i], last[i] - near[i]].map(size);
+            let y = size(span.end[i]);
+            match i < coordinates {
+                true => apart.coordinate(y, between),
+                false => {
+                    let ends = [self.rate[i], last[i]].map(size);
+                    apart.velocity(kind(self.info, i), y, between, ends);
+                }
+            }
+        }
+        let of = [span.h, 1.0];
+        let epsilon = epsilon_of::<T>();
+        let mut error = self.accelerations.error::<Basic>(&apart, of, epsilon);
+        if error > 1.0 && self.accelerations.asks(true) {
+            let t = T::from_f64(self.f.time(span.t));
+            let [one, other] = &mut self.powers;
+            let found = parts(self.model, t, span.y, self.inside, [one, other]);
+            self.accelerations.learn(true, found.map(T::to_f64));
+            error = self.accelerations.error::<Basic>(&apart, of, epsilon);
+        }
+        self.accelerations
+            .leave(&apart, span.h, error <= 1.0, error > 1.0);
+        error
     }
 
     /// Takes over the end of a step that is accepted. It is cut short where an event function changes its sign.

@@ -170,6 +170,9 @@ fn stops(model: &Model, joint: ElementId, index: usize, defaults: &[f64]) -> [f6
 
 impl Several {
     fn caution(&self) -> Option<String> {
+        if let Some(found) = self.nearly_alike() {
+            return Some(found);
+        }
         let inner = self.degrees_of_freedom.len() - 1;
         let ranges: Vec<[f64; 2]> = self.degrees_of_freedom[..inner]
             .iter()
@@ -212,6 +215,29 @@ impl Several {
              about all axes has a ball joint",
             self.name
         ))
+    }
+
+    /// Two neighbours that turn about nearly the same axis, or slide along it, wherever the joint is. (The same axis is refused with the model.)
+    fn nearly_alike(&self) -> Option<String> {
+        self.degrees_of_freedom.windows(2).find_map(|pair| {
+            let [one, other] = pair else { return None };
+            let pure = |one: &One| one.turns != one.advance.is_some() && one.rotor == 0.0;
+            let across = cross(one.axis, other.axis);
+            let squared: f64 = across.iter().map(|c| c * c).sum();
+            let alike = one.turns == other.turns && pure(one) && pure(other) && squared < CLOSE;
+            let angle = squared.sqrt().asin().to_degrees();
+            let angle = match angle < 0.1 {
+                true => format!("{angle:.0e}"),
+                false => format!("{angle:.1}"),
+            };
+            alike.then(|| {
+                format!(
+                    "the axes of {} and {} of \"{}\" are only {angle}° apart: both move the element nearly alike, and rounding errors grow by the inverse of this angle\n  \
+                     help: remove one of them, or turn its axis",
+                    one.name, other.name, self.name
+                )
+            })
+        })
     }
 
     /// H, one column for each degree of freedom: the velocity of the element's origin divided by `LENGTH`, and its angular velocity.

@@ -1,0 +1,293 @@
+//! Accelerations in the control of the step, for single runs and lanes alike.
+//!
+//! A tolerance of positions says nothing of forces: 10 nm on a stiffness of 10⁸ N/m are 1 N. Where stability bounds the steps, an explicit method
+//! lets a fast oscillation grow until its error in a state is as large as allowed. What it has become in the accelerations by then is left to chance.
+//!
+//! **What is compared.** Two stages of a step are at its end: its result y⁺, and a state g that is less exact. With d = y⁺ − g and D = f(y⁺) − f(g),
+//! the rate of the fastest motion is λ, with λ⁴ = ‖D_q‖²‖D_v‖²/(‖d_q‖²‖d_v‖²) over coordinates q and velocities v. This is exact for an oscillation,
+//! whatever its phase. An oscillation whose acceleration has the amplitude A makes D_v = P(h|λ|) A, where P is a polynomial of the method.
+//!
+//! **What is controlled.** Let η be the h|λ| at which an undamped oscillation begins to grow by 10⁻⁵ in a step, but at
+//! most π, half a period: what oscillates faster is not seen between the ends of the step. Below η an oscillation is a part of the
+//! motion, and is resolved as the tolerances ask. From η on it must stay below the share s of the largest acceleration so far:
+//!
+//! x = √(|D_v|² + λ²|d_v|²) (h|λ|/η)⁸ / (P(η) s · largest) ≤ 1
+//!
+//! The root is the amplitude of D_v, whatever the phase.
+//! The power makes x small below η, and makes it fall like the eleventh power of the step for methods of order 5, so √x goes to the controller as an
+//! error does.
+//!
+//! **The largest acceleration.** At rest accelerations are 0, but the forces that cancel are not. So the largest acceleration so far, for velocities and
+//! for angular velocities each, includes that of each effect by itself. With velocities ±w, all of one kind, effect i has the power ±Q_i·w and the
+//! same from what is even in velocities, so |Q_i·w|/(w·S w) is an acceleration that it causes. These are evaluated when a step is to be rejected for
+//! the first, second, fourth, eighth, … time, and not before.
+//!
+//! **Where it does not help.** If x is due to rounding, or to a force that jumps, shorter steps do not make it smaller. If x is still more than half of
+//! what it was when the step is at most half as long, the step is accepted, and x is left out for [`ASLEEP`] steps.
+
+use super::Formula;
+use super::control::Roots;
+use crate::real::{Mask, Number};
+use crate::{Dynamics, Info, Real, StateKind};
+use core::f64::consts::PI;
+
+/// Steps for which accelerations are left out once a shorter step did not help.
+const ASLEEP: f64 = 32.0;
+/// Roundings of a state by which two results must differ, to tell of anything else.
+const ROUNDINGS: f64 = 16.0;
+
+/// η and P(η) of a method; `None` of one that has no two stages at the end of a step, or takes fixed steps only.
+pub(crate) const fn limits(formula: Formula) -> Option<[f64; 2]> {
+    match formula {
+        Formula::Heun => Some([0.0946, 0.00447]),
+        Formula::Merson => Some([PI, 2.125]),
+        Formula::Dopri5 => Some([1.016, 0.241]),
+        Formula::Tsit5 => Some([0.746, 0.0998]),
+        Formula::Dop853 => Some([PI, 0.08283]),
+        Formula::SemiImplicitEuler | Formula::Rk4 | Formula::Rodas5 => None,
+    }
+}
+
+/// 0 for a velocity, 1 for an angular velocity.
+#[inline(always)]
+pub(crate) fn kind(info: &Info, index: usize) -> usize {
+    usize::from(info.kind(index) == StateKind::AngularVelocity)
+}
+
+/// How two results of a step differ.
+pub(crate) struct Apart<P> {
+    /// Σ d², Σ D², Σ y², of coordinates and of velocities.
+    sums: [[P; 3]; 2],
+    /// The largest |D_v|, the largest |d_v|, and the largest acceleration at the ends of the step, for each kind.
+    accelerations: [[P; 3]; 2],
+}
+
+impl<P: Number> Apart<P> {
+    /// Without any entry.
+    #[inline(always)]
+    pub fn new() -> Self {
+        let nought = P::from_f64(0.0);
+        Apart {
+            sums: [[nought; 3]; 2],
+            accelerations: [[nought; 3]; 2],
+        }
+    }
+
+    /// Adds a coordinate, with d and D.
+    #[inline(always)]
+    pub fn coordinate(&mut self, y: P, [d, rate]: [P; 2]) {
+        self.add(0, y, [d, rate]);
+    }
+
+    /// Adds a velocity, with d and D, and the accelerations at both ends.
+    #[inline(always)]
+    pub fn velocity(&mut self, kind: usize, y: P, [d, rate]: [P; 2], ends: [P; 2]) {
+        self.add(1, y, [d, rate]);
+        let [of_accelerations, of_velocities, largest] = &mut self.accelerations[kind];
+        *of_accelerations = (*of_accelerations).max(rate.abs());
+        *of_velocities = (*of_velocities).max(d.abs());
+        *largest = (*largest).max(ends[0].abs()).max(ends[1].abs());
+    }
+
+    #[inline(always)]
+    fn add(&mut self, of: usize, y: P, [d, rate]: [P; 2]) {
+        let [apart, rates, size] = &mut self.sums[of];
+        *apart = *apart + d * d;
+        *rates = *rates + rate * rate;
+        *size = *size + y * y;
+    }
+
+    /// (h|λ|)⁴ of a step of length `h`; 0 where the results differ by rounding alone.
+    #[inline(always)]
+    fn reach(&self, h: P, epsilon: f64) -> P {
+        let c = P::from_f64;
+        let least = c(ROUNDINGS * ROUNDINGS * epsilon * epsilon);
+        let mut product = (h * h) * (h * h);
+        let mut tells = P::Mask::of_lanes(0).not();
+        for [apart, rates, size] in self.sums {
+            // below the range of squares nothing can be told
+            tells = tells.and((least * size + c(1e-250)).lt(apart));
+            product = product * (rates / P::select(tells, apart, c(1.0)));
+        }
+        P::select(tells.and(product.lt(c(f64::INFINITY))), product, c(0.0))
+    }
+}
+
+/// The control of accelerations of a single run or of each lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Accelerations<P: Number> {
+    /// The share of the largest acceleration by which they may be wrong.
+    share: f64,
+    limits: Option<[f64; 2]>,
+    /// The largest so far, of either kind.
+    largest: [P; 2],
+    /// x of the last try of this step.
+    x: P,
+    /// x and the length of the first try of this step that was rejected for x; of length 0 if there was none.
+    before: [P; 2],
+    /// Steps for which accelerations are left out.
+    asleep: P,
+    /// How often a step was to be rejected for them, and how often it has to be until effects are evaluated again.
+    due: P,
+    next: P,
+}
+
+impl<P: Number> Accelerations<P> {
+    /// Before a run by this method, with the share of the largest acceleration that is allowed.
+    pub fn new(formula: Formula, share: f64) -> Self {
+        let c = P::from_f64;
+        Accelerations {
+            share,
+            limits: limits(formula),
+            largest: [c(0.0); 2],
+            x: c(0.0),
+            before: [c(0.0); 2],
+            asleep: c(0.0),
+            due: c(0.0),
+            next: c(1.0),
+        }
+    }
+
+    /// Whether they are controlled at all.
+    pub fn controlled(&self) -> bool {
+        self.limits.is_some() && self.share < f64::INFINITY
+    }
+
+    /// Runs begin in these lanes.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub fn reset(&mut self, lanes: P::Mask) {
+        let c = P::from_f64;
+        let put = |value: f64, to: &mut P| *to = P::select(lanes, c(value), *to);
+        self.largest
+            .iter_mut()
+            .for_each(|largest| put(0.0, largest));
+        put(0.0, &mut self.x);
+        self.before.iter_mut().for_each(|before| put(0.0, before));
+        put(0.0, &mut self.asleep);
+        put(0.0, &mut self.due);
+        put(1.0, &mut self.next);
+    }
+
+    /// The error of the accelerations of a step of length `h`, over what is allowed; a good step has at most 1. `level` is what tolerances are
+    /// multiplied by.
+    #[inline(always)]
+    pub fn error<R: Roots<P>>(&mut self, apart: &Apart<P>, [h, level]: [P; 2], epsilon: f64) -> P {
+        let c = P::from_f64;
+        let Some([limit, polynomial]) = self.limits else {
+            return c(0.0);
+        };
+        let fourth = c(limit * limit * limit * limit);
+        let reach = apart.reach(h, epsilon);
+        let rate_squared = R::root(reach, [2, 1]) / (h * h);
+        let mut share_squared = c(0.0);
+        for (so_far, of_kind) in self.largest.iter().zip(apart.accelerations) {
+            let [of_accelerations, of_velocities, here] = of_kind;
+            let amplitude_squared = of_accelerations * of_accelerations
+                + rate_squared * (of_velocities * of_velocities);
+            let largest = so_far.max(here);
+            let largest = P::select(c(0.0).lt(largest), largest, c(1.0));
+            share_squared = share_squared.max(amplitude_squared / (largest * largest));
+        }
+        let power = reach / fourth;
+        let share = R::root(share_squared, [2, 1]);
+        let x = share * (power * power) / (c(polynomial * self.share) * level);
+        self.x = P::select(x.lt(c(f64::INFINITY)), x, c(0.0));
+        let awake = c(0.0).lt(self.asleep).not();
+        let counts = self.helps(h).and(awake);
+        P::select(counts, R::root(self.x, [2, 1]), c(0.0))
+    }
+
+    /// Where a step of half the length made x smaller, or was not tried.
+    #[inline(always)]
+    fn helps(&self, h: P) -> P::Mask {
+        let half = P::from_f64(0.5);
+        let [x, length] = self.before;
+        self.x.lt(half * x).or((half * length).lt(h))
+    }
+
+    /// In which of these lanes, whose steps are to be rejected, the effects are to be evaluated first.
+    #[inline(always)]
+    pub fn asks(&mut self, rejected: P::Mask) -> P::Mask {
+        let c = P::from_f64;
+        self.due = P::select(rejected, self.due + c(1.0), self.due);
+        let asks = rejected.and(self.due.lt(self.next).not());
+        self.next = P::select(asks, c(2.0) * self.next, self.next);
+        asks
+    }
+
+    /// Takes the largest accelerations that effects cause in these lanes.
+    #[inline(always)]
+    pub fn learn(&mut self, lanes: P::Mask, parts: [P; 2]) {
+        for (largest, part) in self.largest.iter_mut().zip(parts) {
+            let more = lanes
+                .and(largest.lt(part))
+                .and(part.lt(P::from_f64(f64::INFINITY)));
+            *largest = P::select(more, part, *largest);
+        }
+    }
+
+    /// Leaves a try of a step of length `h`: where it was `accepted`, and where it was `rejected` for x.
+    #[inline(always)]
+    pub fn leave(&mut self, apart: &Apart<P>, h: P, accepted: P::Mask, rejected: P::Mask) {
+        let c = P::from_f64;
+        for (largest, [_, _, here]) in self.largest.iter_mut().zip(apart.accelerations) {
+            *largest = P::select(accepted, largest.max(here), *largest);
+        }
+        let less = (self.asleep - c(1.0)).max(c(0.0));
+        let asleep = P::select(self.helps(h), less, c(ASLEEP));
+        self.asleep = P::select(accepted, asleep, self.asleep);
+        let first = rejected.and(c(0.0).lt(self.before[1]).not());
+        for (before, now) in self.before.iter_mut().zip([self.x, h]) {
+            *before = P::select(first, now, *before);
+            *before = P::select(accepted, c(0.0), *before);
+        }
+    }
+}
+
+/// The largest acceleration that an effect causes by itself at (`t`, `y`), for velocities and angular velocities. `state` is room for a state, and each
+/// of `powers` for the powers of all effects.
+pub(crate) fn parts<T: Real>(
+    model: &dyn Dynamics<T>,
+    t: T,
+    y: &[T],
+    state: &mut [T],
+    powers: [&mut [T]; 2],
+) -> [T; 2] {
+    let info = model.info();
+    let velocities = info.coordinates.len()..info.coordinates.len() + info.velocities.len();
+    let nought = T::from_f64(0.0);
+    let [forwards, backwards] = powers;
+    let mut found = [nought; 2];
+    state.copy_from_slice(y);
+    for (which, found) in found.iter_mut().enumerate() {
+        if !velocities.clone().any(|i| kind(info, i) == which) {
+            continue;
+        }
+        let mut at = |sign: f64, powers: Option<&mut [T]>| {
+            let mut share = 0.0;
+            for i in velocities.clone() {
+                // no two velocities are alike, so that the power of a force between two bodies is not 0
+                share += GOLDEN;
+                let w = sign * (0.5 + share % 1.0);
+                state[i] = T::from_f64(if kind(info, i) == which { w } else { 0.0 });
+            }
+            if let Some(powers) = powers {
+                model.powers(t, state, powers);
+            }
+            model.kinetic_energy(t, state)
+        };
+        let moving = at(1.0, Some(&mut *forwards)) + at(-1.0, Some(&mut *backwards));
+        let rest = at(0.0, None);
+        let twice = moving - (rest + rest);
+        for (one, other) in forwards.iter().zip(&*backwards) {
+            let power = (*one - *other).abs() * T::from_f64(0.5);
+            let part = T::select(nought.lt(twice), power / twice, nought);
+            *found = found.max(part);
+        }
+    }
+    found
+}
+
+/// The golden ratio less 1: its multiples are spread evenly over the unit interval.
+const GOLDEN: f64 = 0.618_033_988_749_895;
