@@ -27,12 +27,11 @@ fn main() -> Result<(), Failed> {
     std::fs::create_dir_all(&place)?;
     let asked = |option: &str| arguments.iter().any(|argument| argument == option);
     let mut result = commands(&place, measures);
-    let parts: [(&str, fn(&Path) -> Result<(), Failed>); 2] =
-        [("--crates", crates), ("--clone", clone)];
-    for (option, part) in parts {
-        if result.is_ok() && asked(option) {
-            result = part(&place);
-        }
+    if result.is_ok() && asked("--crates") {
+        result = crates(&place);
+    }
+    if result.is_ok() && asked("--clone") {
+        result = clone(&place);
     }
     std::fs::remove_dir_all(&place)?;
     result
