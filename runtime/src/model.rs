@@ -382,7 +382,7 @@ pub enum CurveKind {
     /// A curve of the state.
     Curve,
     /// The bearing of a bent joint \[rad\], from −π to π: the direction, seen along the long axis of the carrying element, to which the other long
-    /// axis is bent. [`CurveInfo::last`] where the bend is less than 90°. Of a bushing it is the angle about x, [`CurveInfo::last`] where the angle about y
+    /// axis is bent. [`CurveInfo::last`] where the bend is less than 90°. Of a bushing, or of laws of a joint about x, y and z, it is the angle about x, [`CurveInfo::last`] where the angle about y
     /// is far from ±90°.
     Bearing,
     /// A component of the direction in which two ellipsoids push each other; [`CurveInfo::last`] where they do not. The components of one contact
@@ -424,11 +424,16 @@ impl CurveInfo {
         self.name.starts_with("bushing ")
     }
 
+    /// Whether it belongs to the laws about x, y and z of a joint: its name ends like this.
+    pub(crate) fn is_of_angles(&self) -> bool {
+        self.name.ends_with(" about x, y and z")
+    }
+
     /// Of a [bearing](CurveKind::Bearing) that leapt, what became of its law.
     pub fn singular(&self) -> &'static str {
-        match self.is_of_bushing() {
+        match self.is_of_bushing() || self.is_of_angles() {
             true => {
-                "is turned through ±90° about y, where its angles about x and z are not defined"
+                "is turned through ±90° about y, where the angles about x and z are not defined"
             }
             false => "is bent through 180°, where flexion has no direction and torsion no angle",
         }

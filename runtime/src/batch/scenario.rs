@@ -49,7 +49,7 @@ pub struct Ended {
 /// Why a run that reached its end cannot be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
-    /// A joint was bent through 180°, where flexion has no direction, or a bushing turned through ±90° about y: its bearing, an index in [`Info::curves`](crate::Info::curves).
+    /// A joint was bent through 180°, where flexion has no direction, or a bushing or a joint with laws about x, y and z turned through ±90° about y: its bearing, an index in [`Info::curves`](crate::Info::curves).
     Bent(usize),
     /// Two ellipsoids sank into each other until the direction of their force jumped: this direction, an index in
     /// [`Info::curves`](crate::Info::curves).

@@ -44,7 +44,7 @@ pub enum Problem {
         /// The number of such steps.
         steps: u64,
     },
-    /// A flexion went through 180°, or a bushing through ±90° about y.
+    /// A flexion went through 180°; or a bushing, or a joint with laws about x, y and z, through ±90° about y.
     Flexion {
         /// The direction of bending that jumped, an index in [`Info::curves`].
         bearing: usize,
@@ -122,6 +122,7 @@ impl Diagnostic {
             Problem::Curve { .. } => "curve",
             Problem::Missed { .. } => "missed",
             Problem::Flexion { bearing } if self.is_bushing(bearing) => "bushing",
+            Problem::Flexion { bearing } if self.is_angles(bearing) => "angles",
             Problem::Flexion { .. } => "flexion",
             Problem::Sunk { .. } => "sunk",
             Problem::Energy { .. } => "energy",
@@ -134,6 +135,12 @@ impl Diagnostic {
     fn is_bushing(&self, bearing: usize) -> bool {
         let curve = self.info.curves.get(bearing);
         curve.is_some_and(CurveInfo::is_of_bushing)
+    }
+
+    /// Whether an entry of [`Info::curves`] belongs to the laws about x, y and z of a joint.
+    fn is_angles(&self, bearing: usize) -> bool {
+        let curve = self.info.curves.get(bearing);
+        curve.is_some_and(CurveInfo::is_of_angles)
     }
 
     /// Whether an entry of [`Info::curves`] is the volume of an airbag.
@@ -159,6 +166,9 @@ impl Diagnostic {
             }
             Problem::Flexion { bearing } if self.is_bushing(bearing) => {
                 "give it a stiffness about y that ends the rotation before 90°, or turn its frames so that the widest rotation is about x or z"
+            }
+            Problem::Flexion { bearing } if self.is_angles(bearing) => {
+                "end the rotation about y by stops within ±80°, or turn the frames so that the widest rotation is about x or z, or use `flexion` and `torsion`"
             }
             Problem::Flexion { .. } => {
                 "let a stop or a stiffer curve end the bending before 180°, start the joint straighter, or give it laws `about` x, y, z"

@@ -11,24 +11,20 @@
 //! M = −Σ (g_i(θ_i) + e_i θ̇_i) n_i,   θ̇_i = n_i · (ω₂ − ω₁)
 //!
 //! For small angles n_i are the axes. At θ₂ = ±90° the first and the third angle are not defined: they leap by half a turn, and θ₂ turns back. A run that
-//! goes through that says so by the [bearing]. In the plane there are d₁, d₃ and θ₂, and nothing is singular.
+//! goes through that says so by the [bearing](bryant_bearing). In the plane there are d₁, d₃ and θ₂, and nothing is singular.
 
 use super::check::{Bushing, Direction, Mount};
 use super::outputs::BushingMeasures;
-use crate::dynamics::force::{Acts, AppliedForces, Product, choose};
+use crate::dynamics::force::{Acts, AppliedForces, Product};
 use crate::dynamics::kinematics::constant_rotation;
 use crate::dynamics::numbers::{curve, number};
-use crate::equations::NO_BEARING;
+use crate::expression::Expr;
 use crate::expression::vector::{Mat3, Vec3};
-use crate::expression::{Expr, Graph};
-use crate::law::joint::force::bryant;
+use crate::law::joint::force::{bryant, bryant_bearing};
 use crate::law::{Equations, Measures, Setting};
 use crate::model::Dimension;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
-
-/// cos² of the second angle at which the bearing begins to be looked at: 60°.
-const NEAR: f64 = 0.25;
 
 impl Equations for Bushing {
     fn apply<'g>(
@@ -45,7 +41,10 @@ impl Equations for Bushing {
         let turns = self.about.iter().any(|law| *law != Direction::default());
         if turns && setting.model.dimension == Dimension::Space {
             let frames = [&self.from, &self.to].map(|end| axes(setting, end));
-            applied.bearing(&format!("bushing {name}"), move || bearing(graph, frames));
+            applied.bearing(&format!("bushing {name}"), move || {
+                let [inboard, outboard] = &frames;
+                bryant_bearing(graph, [inboard, outboard])
+            });
         }
         if gate.waits() {
             applied.curves_act(curves, gate.of(graph.constant(1.0)));
@@ -114,15 +113,6 @@ fn turn<'g>(
     applied.turn(first, moment);
     applied.turn(second, -moment);
     (angles, moment)
-}
-
-/// The first angle \[rad\] where the second is beyond ±60°, elsewhere [`NO_BEARING`]. It leaps by half a turn where the second angle goes through ±90°.
-fn bearing<'g>(graph: &'g Graph, [inboard, outboard]: [Mat3<'g>; 2]) -> Expr<'g> {
-    let sine = inboard.column(0).dot(outboard.column(2));
-    let cosine_squared = graph.constant(1.0) - sine.squared();
-    let (angle, _) = bryant(graph, [&inboard, &outboard], 0);
-    let none = graph.constant(NO_BEARING);
-    choose(cosine_squared, graph.constant(NEAR), angle, none)
 }
 
 /// The axes of a frame in absolute axes.

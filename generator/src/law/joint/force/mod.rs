@@ -9,7 +9,7 @@
 //! M = Σ Q_i n_i,   n₂ = (e₃ × e₁)/c,   n₁ = (e₁ − s e₃)/c²,   n₃ = (e₃ − s e₁)/c²,   s = sin θ₂ = e₁·e₃,   c² = 1 − s²
 //!
 //! and by the same vectors θ̇_i = n_i · (ω_child − ω_parent). At θ₂ = ±90° the angles are undefined; c² is kept ≥ 1e-12, so
-//! that forces stay finite there. [Flexion and torsion](bending) are two more such coordinates, in space.
+//! that forces stay finite there, and a run that goes through it says so by the [bearing](bryant_bearing). [Flexion and torsion](bending) are two more such coordinates, in space.
 //!
 //! At a depth δ > 0 behind a stop, N = max(0, k δ + d min(δ/fade, 1) δ̇) pushes back; a lock pulls with −k (θ − θ_l) − d θ̇ to the
 //! angle θ_l that there was when its switch began to act, which is remembered. [Friction](sticking), [motors and drives](drive), and
@@ -27,6 +27,7 @@ use crate::dynamics::force::onset::{Onset, absolute};
 use crate::dynamics::force::switch::Gate;
 use crate::dynamics::force::{Acts, AppliedForces, Motion, Product, choose};
 use crate::dynamics::numbers::{curve, number};
+use crate::equations::NO_BEARING;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, sum};
 use crate::law::{Asked, Equations, Measures, Setting};
@@ -37,6 +38,9 @@ use crate::model::{
 
 /// Below this, cos² θ₂ is taken for it.
 const SMALLEST_COSINE_SQUARED: f64 = 1e-12;
+
+/// cos² θ₂ below which the bearing of Bryant angles is looked at: 60°.
+const NEAR: f64 = 0.25;
 
 /// One relative rotation: its angle, its rate, and the moment that does work on it alone.
 #[derive(Clone, Copy)]
@@ -130,6 +134,13 @@ fn apply<'g>(
             measures[4] = Some(measured);
         }
     }
+    if model.dimension == Dimension::Space && needs_angles(&joint.about) {
+        let axes = [motion.body(parent), motion.element(child)].map(|body| body.rotation);
+        applied.bearing(&format!("{owner} about x, y and z"), move || {
+            let [inboard, outboard] = &axes;
+            bryant_bearing(graph, [inboard, outboard])
+        });
+    }
     if gate.waits() {
         applied.curves_act(curves, gate.of(graph.constant(1.0)));
     }
@@ -143,6 +154,19 @@ fn apply<'g>(
     }
     applied.turn_joint(child, parent, moment);
     measures
+}
+
+/// Whether laws about x, y and z mean something else behind θ₂ = ±90°. There n₂ turns round, but the moment −d (n₂·ω) n₂ of damping about y, or of
+/// friction that does not hold, is the same for n₂ and −n₂.
+fn needs_angles([x, y, z]: &[JointTorque; 3]) -> bool {
+    let none = JointTorque::default();
+    let (damping, friction) = (y.damping.clone(), y.friction.clone());
+    let resists = JointTorque {
+        damping,
+        friction,
+        ..JointTorque::default()
+    };
+    *x != none || *z != none || *y != resists
 }
 
 /// The law of one freedom of a joint, on its own coordinate: Q as of a relative rotation, in \[N\] where it slides.
@@ -452,6 +476,15 @@ pub fn in_space<'g>(
         direction,
         unit: "rad",
     }
+}
+
+/// The first angle \[rad\] where the second is beyond ±60°, elsewhere [`NO_BEARING`]. It leaps by half a turn where the second angle goes through ±90°.
+pub fn bryant_bearing<'g>(graph: &'g Graph, axes: [&Mat3<'g>; 2]) -> Expr<'g> {
+    let sine = axes[0].column(0).dot(axes[1].column(2));
+    let cosine_squared = graph.constant(1.0) - sine.squared();
+    let (angle, _) = bryant(graph, axes, 0);
+    let none = graph.constant(NO_BEARING);
+    choose(cosine_squared, graph.constant(NEAR), angle, none)
 }
 
 /// θ_i and n_i of the second axes relative to the first.
