@@ -123,7 +123,7 @@ pub fn sin_cos<T: Real>(angle: T) -> (T, T) {
 }
 
 /// `atan2` as a task.
-struct Atan2<T>(T, T);
+pub struct Atan2<T>(pub T, pub T);
 
 impl<T: Real> Task for Atan2<T> {
     type Output = T;

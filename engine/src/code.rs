@@ -197,7 +197,7 @@ extern "sysv64" fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, resul
 
 extern "sysv64" fn atan2<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
     // SAFETY: code passes two arguments and room for one result.
-    unsafe { *results = call::atan2(*arguments, *arguments.add(1)) };
+    unsafe { *results = T::dispatch(call::Atan2(*arguments, *arguments.add(1))) };
 }
 
 extern "sysv64" fn any<T: Real, C: Call<T>>(

@@ -14,7 +14,10 @@ pub struct Power;
 impl<P: Real> Roots<P> for Power {
     #[inline(always)]
     fn root(x: P, [a, b]: [u32; 2]) -> P {
-        x.powf(P::from_f64(1.0 / f64::from(a * b)))
+        match a * b {
+            2 => x.sqrt(),
+            parts => x.powf(P::from_f64(1.0 / f64::from(parts))),
+        }
     }
 }
 

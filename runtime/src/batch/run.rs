@@ -564,7 +564,10 @@ impl<'a, T: Several> Run<'a, T> {
         let finite = error.abs().lt(c(f64::INFINITY));
         let mut accepted = busy.and(finite).and(c(1.0).lt(error).not());
         if adaptive && self.accelerations.controlled() {
-            error = self.with_accelerations(error, accepted);
+            let looks = self.accelerations.looks(accepted);
+            if looks.any() {
+                error = self.with_accelerations(error, looks);
+            }
             accepted = accepted.and(c(1.0).lt(error).not());
         }
         let easy = self.is_easy(adaptive.then_some(error));
@@ -597,14 +600,18 @@ impl<'a, T: Several> Run<'a, T> {
         let one = T::Part::from_f64(1.0);
         let apart = self.step.apart(self.info);
         let of = [self.step.h.part(0), self.level];
-        let mut found = self.accelerations.error::<Power>(&apart, of, T::EPSILON);
+        let mut found = self
+            .accelerations
+            .error::<Power>(&apart, of, T::EPSILON, good);
         let mut rejected = good.and(one.lt(found));
         if rejected.any() {
             let asking = self.accelerations.asks(rejected);
             if asking.any() {
                 let parts = self.apart(Parts);
                 self.accelerations.learn(asking, parts);
-                found = self.accelerations.error::<Power>(&apart, of, T::EPSILON);
+                found = self
+                    .accelerations
+                    .error::<Power>(&apart, of, T::EPSILON, good);
                 rejected = good.and(one.lt(found));
             }
         }
