@@ -628,6 +628,13 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
         }
     }
 
+    /// Not of the two runs whose difference is the estimate: it says what their accelerations are wrong by, and the sharper runs that follow
+    /// where it is too large have them under control.
+    fn controls_accelerations(&self, scenario: usize) -> bool {
+        let (_, turn) = self.which(scenario);
+        turn == Turn::Sharper || !self.job.estimate
+    }
+
     fn outputs(&self) -> &[usize] {
         &self.outputs
     }

@@ -171,6 +171,8 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) allowed: Vec<Allowed<T::Part>>,
     pub(super) controller: Controller<T::Part>,
     pub(super) accelerations: Accelerations<T::Part>,
+    /// The lanes in which accelerations are under control.
+    controlled: u32,
     /// Room for the powers of all effects, twice.
     powers: [Box<[T]>; 2],
     /// What the controller asks for next \[s\].
@@ -338,6 +340,7 @@ impl<'a, T: Several> Run<'a, T> {
                     Pace::Fixed(_) => f64::INFINITY,
                 },
             ),
+            controlled: 0,
             powers: [(); 2].map(|()| zeros(info.powers.len())),
             h: one,
             level: one,
@@ -408,6 +411,8 @@ impl<'a, T: Several> Run<'a, T> {
             lane.patience = Patience::new(self.settings.time_limit, [0.0, self.settings.duration]);
             lane.told = 0.0;
             self.find_stop(i, 0.0);
+            let controls = self.scenarios.controls_accelerations(scenario);
+            self.controlled = self.controlled & !(1 << i) | u32::from(controls) << i;
             let level = self.scenarios.level(scenario);
             self.level = with(self.level, i, level);
             if refused {
@@ -563,8 +568,9 @@ impl<'a, T: Several> Run<'a, T> {
         };
         let finite = error.abs().lt(c(f64::INFINITY));
         let mut accepted = busy.and(finite).and(c(1.0).lt(error).not());
-        if adaptive && self.accelerations.controlled() {
-            let looks = self.accelerations.looks(accepted);
+        if adaptive && self.controlled != 0 && self.accelerations.controlled() {
+            let controlled = T::Mask::of_lanes(self.controlled);
+            let looks = self.accelerations.looks(accepted.and(controlled));
             if looks.any() {
                 error = self.with_accelerations(error, looks);
             }

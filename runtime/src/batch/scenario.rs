@@ -11,6 +11,12 @@ pub trait Scenarios<S> {
     fn parameter(&self, scenario: usize, index: usize) -> S;
     /// The factor of a scenario on the tolerances, or on the length of fixed steps.
     fn level(&self, scenario: usize) -> f64;
+    /// Whether the accelerations of a scenario are under control ([`Tolerances::accelerations`](crate::Tolerances::accelerations)). Without, a run
+    /// takes about a tenth less time where forces are stiff.
+    fn controls_accelerations(&self, scenario: usize) -> bool {
+        let _ = scenario;
+        true
+    }
     /// Which outputs are sampled, by their index in [`Info::outputs`](crate::Info::outputs).
     fn outputs(&self) -> &[usize];
     /// Whether the outputs are requested on both sides of each event, where they may jump, for [`Series::jumps_of`]. This takes two
