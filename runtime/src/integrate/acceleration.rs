@@ -22,6 +22,8 @@
 //! same from what is even in velocities, so |Q_i·w|/(w·S w) is an acceleration that it causes. These are evaluated when a step is to be rejected for
 //! the first, second, fourth, eighth, … time, and not before.
 //!
+//! Where the error allowed is not above [`RESOLVED`] roundings of the coordinates, no promise can be kept, and x is left out.
+//!
 //! **Where it does not help.** If x is due to rounding, or to a force that jumps, shorter steps do not make it smaller. If x is still more than half of
 //! what it was when the step is at most half as long, the step is accepted, and x is left out for [`ASLEEP`] steps.
 
@@ -35,6 +37,9 @@ use core::f64::consts::PI;
 const ASLEEP: f64 = 32.0;
 /// Roundings of a state by which two results must differ, to tell of anything else.
 const ROUNDINGS: f64 = 16.0;
+/// Roundings of coordinates that the allowed error must be above: where fewer of them make as large an acceleration, no promise can be kept, and a
+/// motion that is half controlled would look as if it were right.
+const RESOLVED: f64 = 300.0;
 
 /// η and P(η) of a method; `None` of one that has no two stages at the end of a step, or takes fixed steps only.
 pub(crate) const fn limits(formula: Formula) -> Option<[f64; 2]> {
@@ -180,6 +185,10 @@ impl<P: Number> Accelerations<P> {
         let fourth = c(limit * limit * limit * limit);
         let reach = apart.reach(h, epsilon);
         let rate_squared = R::root(reach, [2, 1]) / (h * h);
+        let rounding = c(RESOLVED * epsilon) * rate_squared * R::root(apart.sums[0][2], [2, 1]);
+        let allowed = c(polynomial * self.share) * level;
+        // before effects are evaluated the largest acceleration may be far too small
+        let unknown = self.next.lt(c(1.5));
         let mut share_squared = c(0.0);
         for (so_far, of_kind) in self.largest.iter().zip(apart.accelerations) {
             let [of_accelerations, of_velocities, here] = of_kind;
@@ -187,11 +196,13 @@ impl<P: Number> Accelerations<P> {
                 + rate_squared * (of_velocities * of_velocities);
             let largest = so_far.max(here);
             let largest = P::select(c(0.0).lt(largest), largest, c(1.0));
-            share_squared = share_squared.max(amplitude_squared / (largest * largest));
+            let of_kind = amplitude_squared / (largest * largest);
+            let resolved = rounding.lt(allowed * largest).or(unknown);
+            share_squared = share_squared.max(P::select(resolved, of_kind, c(0.0)));
         }
         let power = reach / fourth;
         let share = R::root(share_squared, [2, 1]);
-        let x = share * (power * power) / (c(polynomial * self.share) * level);
+        let x = share * (power * power) / allowed;
         self.x = P::select(x.lt(c(f64::INFINITY)), x, c(0.0));
         let awake = c(0.0).lt(self.asleep).not();
         let counts = self.helps(h).and(awake);
