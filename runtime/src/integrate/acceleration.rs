@@ -25,6 +25,8 @@
 //! **Where it does not help.** If x is due to rounding, or to a force that jumps, shorter steps do not make it smaller. If x is still more than half of
 //! what it was when the step is at most half as long, the step is accepted, and x is left out for [`ASLEEP`] steps.
 //!
+//! Where the error allowed is not above [`RESOLVED`] roundings of the coordinates, no promise can be kept, and x is left out.
+//!
 //! **What it costs.** Where x is below [`CALM`], nothing is compared in the next [`PAUSE`] steps.
 
 use super::Formula;
