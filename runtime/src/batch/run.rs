@@ -569,8 +569,7 @@ impl<'a, T: Several> Run<'a, T> {
         let finite = error.abs().lt(c(f64::INFINITY));
         let mut accepted = busy.and(finite).and(c(1.0).lt(error).not());
         if adaptive && self.controlled != 0 && self.accelerations.controlled() {
-            let controlled = T::Mask::of_lanes(self.controlled);
-            let looks = self.accelerations.looks(accepted.and(controlled));
+            let looks = accepted.and(T::Mask::of_lanes(self.controlled));
             if looks.any() {
                 error = self.with_accelerations(error, looks);
             }
@@ -606,18 +605,14 @@ impl<'a, T: Several> Run<'a, T> {
         let one = T::Part::from_f64(1.0);
         let apart = self.step.apart(self.info);
         let of = [self.step.h.part(0), self.level];
-        let mut found = self
-            .accelerations
-            .error::<Power>(&apart, of, T::EPSILON, good);
+        let mut found = self.accelerations.error::<Power>(&apart, of, T::EPSILON);
         let mut rejected = good.and(one.lt(found));
         if rejected.any() {
             let asking = self.accelerations.asks(rejected);
             if asking.any() {
                 let parts = self.apart(Parts);
                 self.accelerations.learn(asking, parts);
-                found = self
-                    .accelerations
-                    .error::<Power>(&apart, of, T::EPSILON, good);
+                found = self.accelerations.error::<Power>(&apart, of, T::EPSILON);
                 rejected = good.and(one.lt(found));
             }
         }

@@ -24,10 +24,7 @@
 //!
 //! **Where it does not help.** If x is due to rounding, or to a force that jumps, shorter steps do not make it smaller. If x is still more than half of
 //! what it was when the step is at most half as long, the step is accepted, and x is left out for [`ASLEEP`] steps.
-//!
 //! Where the error allowed is not above [`RESOLVED`] roundings of the coordinates, no promise can be kept, and x is left out.
-//!
-//! **What it costs.** Where x is below [`CALM`], nothing is compared in the next [`PAUSE`] steps.
 
 use super::Formula;
 use super::control::Roots;
@@ -37,9 +34,6 @@ use core::f64::consts::PI;
 
 /// Steps for which accelerations are left out once a shorter step did not help.
 const ASLEEP: f64 = 32.0;
-/// Where x is below this, the next [`PAUSE`] steps are not looked at.
-const CALM: f64 = 1e-2;
-const PAUSE: f64 = 15.0;
 /// Roundings of a state by which two results must differ, to tell of anything else.
 const ROUNDINGS: f64 = 16.0;
 /// Roundings of coordinates that the allowed error must be above: where fewer of them make as large an acceleration, no promise can be kept, and a
@@ -137,8 +131,6 @@ pub(crate) struct Accelerations<P: Number> {
     before: [P; 2],
     /// Steps for which accelerations are left out.
     asleep: P,
-    /// Steps that are not looked at, because x was small.
-    pause: P,
     /// How often a step was to be rejected for them, and how often it has to be until effects are evaluated again.
     due: P,
     next: P,
@@ -155,7 +147,6 @@ impl<P: Number> Accelerations<P> {
             x: c(0.0),
             before: [c(0.0); 2],
             asleep: c(0.0),
-            pause: c(0.0),
             due: c(0.0),
             next: c(1.0),
         }
@@ -178,66 +169,40 @@ impl<P: Number> Accelerations<P> {
         put(0.0, &mut self.x);
         self.before.iter_mut().for_each(|before| put(0.0, before));
         put(0.0, &mut self.asleep);
-        put(0.0, &mut self.pause);
         put(0.0, &mut self.due);
         put(1.0, &mut self.next);
     }
 
-    /// In which of these lanes, whose steps are good otherwise, results are to be compared. In the others a step passes without a look.
+    /// The error of the accelerations of a step of length `h`, over what is allowed; a good step has at most 1. `level` is what tolerances are
+    /// multiplied by.
     #[inline(always)]
-    pub fn looks(&mut self, good: P::Mask) -> P::Mask {
-        let nought = P::from_f64(0.0);
-        let passes = good.and(nought.lt(self.pause));
-        self.pause = P::select(passes, self.pause - P::from_f64(1.0), self.pause);
-        good.and(passes.not())
-    }
-
-    /// The error of the accelerations of a step of length `h`, over what is allowed, in lanes that [look](Accelerations::looks); a good step has at
-    /// most 1. `level` is what tolerances are multiplied by.
-    #[inline(always)]
-    pub fn error<R: Roots<P>>(
-        &mut self,
-        apart: &Apart<P>,
-        [h, level]: [P; 2],
-        epsilon: f64,
-        looks: P::Mask,
-    ) -> P {
+    pub fn error<R: Roots<P>>(&mut self, apart: &Apart<P>, [h, level]: [P; 2], epsilon: f64) -> P {
         let c = P::from_f64;
         let Some([limit, polynomial]) = self.limits else {
             return c(0.0);
         };
         let fourth = c(limit * limit * limit * limit);
         let reach = apart.reach(h, epsilon);
-        let allowed = c(polynomial * self.share) * level;
-        let power = (reach / fourth) * (reach / fourth);
-        // x² with this λ², of accelerations that are above so large a one that rounding makes
-        let squared = |rate_squared: P, rounding: P| {
-            let mut share_squared = c(0.0);
-            for (so_far, of_kind) in self.largest.iter().zip(apart.accelerations) {
-                let [of_accelerations, of_velocities, here] = of_kind;
-                let amplitude_squared = of_accelerations * of_accelerations
-                    + rate_squared * (of_velocities * of_velocities);
-                let largest = so_far.max(here);
-                let largest = P::select(c(0.0).lt(largest), largest, c(1.0));
-                let of_kind = amplitude_squared / (largest * largest);
-                let resolved = rounding.lt(allowed * largest);
-                share_squared = share_squared.max(P::select(resolved, of_kind, c(0.0)));
-            }
-            share_squared * (power * power) / (allowed * allowed)
-        };
-        // no root is above the mean of the number and 1
-        let most = squared(c(0.5) * (c(1.0) + reach) / (h * h), c(0.0));
-        let calm = most.lt(c(CALM * CALM)).or(looks.not());
-        if calm.all() {
-            self.x = P::select(looks, c(0.0), self.x);
-            return c(0.0);
-        }
         let rate_squared = R::root(reach, [2, 1]) / (h * h);
-        let size = R::root(apart.sums[0][2], [2, 1]);
-        let x_squared = squared(rate_squared, c(RESOLVED * epsilon) * rate_squared * size);
-        let x = R::root(x_squared, [2, 1]);
-        let x = P::select(x.lt(c(f64::INFINITY)).and(calm.not()), x, c(0.0));
-        self.x = P::select(looks, x, self.x);
+        let rounding = c(RESOLVED * epsilon) * rate_squared * R::root(apart.sums[0][2], [2, 1]);
+        let allowed = c(polynomial * self.share) * level;
+        // before effects are evaluated the largest acceleration may be far too small
+        let unknown = self.next.lt(c(1.5));
+        let mut share_squared = c(0.0);
+        for (so_far, of_kind) in self.largest.iter().zip(apart.accelerations) {
+            let [of_accelerations, of_velocities, here] = of_kind;
+            let amplitude_squared = of_accelerations * of_accelerations
+                + rate_squared * (of_velocities * of_velocities);
+            let largest = so_far.max(here);
+            let largest = P::select(c(0.0).lt(largest), largest, c(1.0));
+            let of_kind = amplitude_squared / (largest * largest);
+            let resolved = rounding.lt(allowed * largest).or(unknown);
+            share_squared = share_squared.max(P::select(resolved, of_kind, c(0.0)));
+        }
+        let power = reach / fourth;
+        let share = R::root(share_squared, [2, 1]);
+        let x = share * (power * power) / allowed;
+        self.x = P::select(x.lt(c(f64::INFINITY)), x, c(0.0));
         let awake = c(0.0).lt(self.asleep).not();
         let counts = self.helps(h).and(awake);
         P::select(counts, R::root(self.x, [2, 1]), c(0.0))
@@ -282,8 +247,6 @@ impl<P: Number> Accelerations<P> {
         let less = (self.asleep - c(1.0)).max(c(0.0));
         let asleep = P::select(self.helps(h), less, c(ASLEEP));
         self.asleep = P::select(accepted, asleep, self.asleep);
-        let pause = P::select(self.x.lt(c(CALM)), c(PAUSE), c(0.0));
-        self.pause = P::select(accepted, pause, self.pause);
         let first = rejected.and(c(0.0).lt(self.before[1]).not());
         for (before, now) in self.before.iter_mut().zip([self.x, h]) {
             *before = P::select(first, now, *before);

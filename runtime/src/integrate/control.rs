@@ -200,8 +200,20 @@ pub(crate) struct Basic;
 impl Roots<f64> for Basic {
     #[inline(always)]
     fn root(x: f64, [a, b]: [u32; 2]) -> f64 {
-        root(root(x, a), b)
+        match a * b {
+            2 => square_root(x),
+            _ => root(root(x, a), b),
+        }
     }
+}
+
+/// √x of a number that is not negative.
+#[inline(always)]
+fn square_root(x: f64) -> f64 {
+    #[cfg(feature = "std")]
+    return x.sqrt();
+    #[cfg(not(feature = "std"))]
+    return root(x, 2);
 }
 
 /// The step size controller of a single run or of each lane, with the error of the step before.

@@ -567,8 +567,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 step.estimate(self.spare);
                 let span = step.span();
                 let error = self.allowed.error(span.y, span.end, self.spare)?;
-                let controlled = error <= 1.0 && self.accelerations.controlled();
-                Some(match controlled && self.accelerations.looks(true) {
+                Some(match error <= 1.0 && self.accelerations.controlled() {
                     true => error.max(self.error_of_accelerations(step)),
                     false => error,
                 })
@@ -599,13 +598,13 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
         let of = [span.h, 1.0];
         let epsilon = epsilon_of::<T>();
-        let mut error = self.accelerations.error::<Basic>(&apart, of, epsilon, true);
+        let mut error = self.accelerations.error::<Basic>(&apart, of, epsilon);
         if error > 1.0 && self.accelerations.asks(true) {
             let t = T::from_f64(self.f.time(span.t));
             let [one, other] = &mut self.powers;
             let found = parts(self.model, t, span.y, self.inside, [one, other]);
             self.accelerations.learn(true, found.map(T::to_f64));
-            error = self.accelerations.error::<Basic>(&apart, of, epsilon, true);
+            error = self.accelerations.error::<Basic>(&apart, of, epsilon);
         }
         self.accelerations
             .leave(&apart, span.h, error <= 1.0, error > 1.0);
