@@ -138,11 +138,11 @@ fn the_force_below_a_ball_at_rest_is_its_weight() {
         difference["vanishing"]["speed"]["bound"].as_f64().unwrap() < 1e-6,
         "{difference}"
     );
-    // the default tolerance alone does not keep the promise; the check does
+    // the control of accelerations alone keeps the promise
     let (unchecked, _) = run(here, REST, &["--no-verify"], 0);
     assert!(
-        output(&unchecked, "force").iter().any(wrong),
-        "this test has lost its subject"
+        !output(&unchecked, "force").iter().any(wrong),
+        "{unchecked}"
     );
 }
 
@@ -189,8 +189,8 @@ fn a_motion_that_makes_every_error_large_is_said_to_do_so() {
 fn a_method_of_ones_own_is_checked_and_not_replaced() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // a difference of 5 %: more than the default promise, but nothing was promised
-    let coarse = ["--method", "dopri5", "--tolerance", "1e-7"];
+    // a difference of 0.5 %: more than the default promise, but nothing was promised
+    let coarse = ["--method", "dopri5", "--tolerance", "1e-4"];
     let (checked, _) = run(here, SMALL, &coarse, 0);
     let worst = checked["accuracy"]["verified"]["difference"]["worst"]
         .as_f64()
