@@ -152,9 +152,9 @@ impl<P: Number> Accelerations<P> {
         }
     }
 
-    /// Whether they are controlled at all.
+    /// Whether they are controlled at all: not where they may be wrong by as much as they are.
     pub fn controlled(&self) -> bool {
-        self.limits.is_some() && self.share < f64::INFINITY
+        self.limits.is_some() && self.share < 1.0
     }
 
     /// Runs begin in these lanes.

@@ -25,7 +25,7 @@ pub struct Tolerances {
     pub angular_velocities: f64,
     /// Absolute part of states of force laws, in their own units.
     pub laws: f64,
-    /// Share of the largest acceleration, linear or angular, up to which an oscillation may grow that is too fast for the steps; +∞ for any. Methods
+    /// Share of the largest acceleration, linear or angular, up to which an oscillation may grow that is too fast for the steps; from 1 on they are not controlled. Methods
     /// with two stages at the end of a step control it: all adaptive ones but `rodas5`, which damps such oscillations.
     pub accelerations: f64,
 }
