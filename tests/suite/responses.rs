@@ -226,8 +226,9 @@ fn a_response_that_is_not_accurate_makes_the_run_sharper() {
     let wanted = run(&[&asked[..], &["--accuracy", "0.1%"]].concat());
     assert!(error(&wanted) < 1e-3, "{wanted}");
     // if the user chose a method, the program does not change it, but says so
-    let chosen = ["run", "lifted.yaml", "--no-files", "--tolerance", "1e-4"];
-    let (_, told) = call(at, &[&chosen[..], &asked].concat(), 0);
+    let run = ["run", "lifted.yaml", "--no-files"];
+    let chosen = ["--method", "rk4", "--step", "0.1 ms"];
+    let (_, told) = call(at, &[&run[..], &chosen, &asked].concat(), 0);
     assert!(
         told.contains("responses are not as accurate as 10 %"),
         "{told}"
