@@ -8,6 +8,7 @@
 
 mod breakpoint_indicator;
 mod cubic;
+mod integral;
 mod kink;
 mod lines;
 mod stop;
@@ -19,6 +20,7 @@ pub use cubic::Cubic;
 pub use table::Table;
 
 use crate::real::{Mask, Real};
+use integral::Integrable as _;
 use lines::Lines;
 
 /// The continuation of a curve beyond its first and last point.

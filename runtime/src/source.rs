@@ -12,10 +12,12 @@ macro_rules! files {
 
 files! {
     "apart.rs",
+    "batch/acceleration.rs",
     "batch/bend.rs",
     "batch/control.rs",
     "batch/event.rs",
     "batch/jump.rs",
+    "batch/landing.rs",
     "batch/looked.rs",
     "batch/mod.rs",
     "batch/models.rs",
@@ -35,6 +37,7 @@ files! {
     "curve.rs",
     "curve/breakpoint_indicator.rs",
     "curve/cubic.rs",
+    "curve/integral.rs",
     "curve/kink.rs",
     "curve/lines.rs",
     "curve/stop.rs",

@@ -17,6 +17,8 @@
 //! | `search` | event functions and kinks within the steps of all lanes |
 //! | `event` | their values within steps |
 //! | `sample` | outputs at the times of samples |
+//! | `landing` | the end of accepted steps: events, memory, what the next steps begin with |
+//! | `acceleration` | accelerations in the control of the step |
 //! | `jump` | outputs on both sides of events |
 //! | `bend` | joints that are bent through 180°, ellipsoids that sink through each other |
 //! | `watch` | balances of energy and momentum, and the limit of stability, where steps are fixed |
@@ -26,10 +28,12 @@
 //! | `tolerance` | the error allowed in each entry of a state |
 //! | [`rows`] | rows of a table in, responses out |
 
+mod acceleration;
 mod bend;
 mod control;
 mod event;
 mod jump;
+mod landing;
 mod looked;
 mod models;
 mod onset;

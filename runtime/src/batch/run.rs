@@ -14,20 +14,20 @@
 //! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
 
 use super::bend::Bends;
-use super::control::{ESTIMATE, Power, first_step, norm};
+use super::control::{ESTIMATE, Power, first_step};
 use super::copies;
-use super::event::{Sides, Values, width};
+use super::event::Values;
 use super::jump::Sided;
 use super::models::Models;
 use super::onset::{END, Onsets};
 use super::place::Places;
-use super::reach::{Grid, Reach};
+use super::reach::Grid;
 use super::scenario::{Doubt, Ended, Scenarios, Series, Status};
 use super::settings::{Pace, Settings};
 use super::step::Step;
 use super::tolerance::Allowed;
 use super::watch::Watch;
-use crate::integrate::acceleration::{Accelerations, parts};
+use crate::integrate::acceleration::Accelerations;
 use crate::integrate::control::Controller;
 use crate::model::CurveKind;
 use crate::patience::Patience;
@@ -71,7 +71,7 @@ pub(super) struct Lane<S> {
     pub(super) steps: u32,
     pub(super) rejected: u32,
     pub(super) searches: u32,
-    standing: Standing,
+    pub(super) standing: Standing,
     /// How long it may take, from when its run began.
     patience: Patience,
     /// How long it had taken when that was told last \[s\].
@@ -121,26 +121,6 @@ impl<T: Several> Parameters<T> {
     }
 }
 
-/// How the steps of lanes ended.
-struct Landing<T: Real> {
-    /// Where they were good.
-    accepted: T::Mask,
-    /// Where they went all the way; elsewhere an event ended them.
-    whole: T::Mask,
-    /// Where they arrived at a time that they had to meet.
-    arrived: T::Mask,
-    renewed: Renewed<T>,
-}
-
-/// What renewing memory changed.
-#[derive(Clone, Copy)]
-struct Renewed<T: Real> {
-    /// Where anything.
-    any: T::Mask,
-    /// Where event functions or onsets, too.
-    other: T::Mask,
-}
-
 /// Steps between two questions whether a scenario is given up.
 pub const STEPS_BETWEEN: u64 = 1024;
 
@@ -164,7 +144,7 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) step: Step<T>,
     /// Where the step leads, on the manifold, and what counts of it; and what renewing memory makes of that.
     pub(super) end: Box<[T]>,
-    renewed: Box<[T]>,
+    pub(super) renewed: Box<[T]>,
     /// Room for a state.
     pub(super) state: Box<[T]>,
     /// The error allowed in each entry of a state; nothing where steps are fixed.
@@ -174,7 +154,7 @@ pub(super) struct Run<'a, T: Several> {
     /// The lanes in which accelerations are under control.
     controlled: u32,
     /// Room for the powers of all effects, twice.
-    powers: [Box<[T]>; 2],
+    pub(super) powers: [Box<[T]>; 2],
     /// What the controller asks for next \[s\].
     pub(super) h: T::Part,
     /// What the tolerances are multiplied by.
@@ -258,19 +238,6 @@ impl<T: Several> Section<T> for Start<T::Mask> {
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) {
         run.start(self.0);
-    }
-}
-
-/// The largest accelerations that effects cause by themselves where steps begin.
-struct Parts;
-
-impl<T: Several> Section<T> for Parts {
-    type Output = [T::Part; 2];
-    #[inline(always)]
-    fn run(self, run: &mut Run<'_, T>) -> Self::Output {
-        let Step { t, y, .. } = &run.step;
-        let [one, other] = &mut run.powers;
-        parts(&*run.models.all, *t, y, &mut run.state, [one, other]).map(|found| found.part(0))
     }
 }
 
@@ -363,7 +330,7 @@ impl<'a, T: Several> Run<'a, T> {
 
     /// The lanes that are at work.
     #[inline(always)]
-    fn busy(&self) -> u32 {
+    pub(super) fn busy(&self) -> u32 {
         let busy = |(i, lane): (usize, &Lane<_>)| u32::from(lane.scenario.is_some()) << i;
         self.lanes.iter().enumerate().map(busy).sum()
     }
@@ -465,7 +432,7 @@ impl<'a, T: Several> Run<'a, T> {
 
     /// The derivative where a step begins, in these lanes.
     #[inline(always)]
-    fn rate(&mut self, lanes: T::Mask) {
+    pub(super) fn rate(&mut self, lanes: T::Mask) {
         let Step {
             t, latest, y, k, ..
         } = &mut self.step;
@@ -477,7 +444,7 @@ impl<'a, T: Several> Run<'a, T> {
 
     /// The same of the states where steps begin, but for the arguments of curves.
     #[inline(always)]
-    fn look_at_begin(&mut self) {
+    pub(super) fn look_at_begin(&mut self) {
         let mut arrival = Arrival {
             event_functions: &mut self.event_functions_ahead,
             onsets: &mut self.onsets.values[END],
@@ -491,7 +458,7 @@ impl<'a, T: Several> Run<'a, T> {
 
     /// Evaluates what is wanted of the state in `end`, where steps end at these times, if that matters in any of these lanes.
     #[inline(always)]
-    fn look_at_end(&mut self, lanes: T::Mask, t: T) {
+    pub(super) fn look_at_end(&mut self, lanes: T::Mask, t: T) {
         if !lanes.any() {
             return;
         }
@@ -503,42 +470,6 @@ impl<'a, T: Several> Run<'a, T> {
             account: None,
         };
         self.models.all.arrive(t, &self.end, &mut arrival);
-    }
-
-    /// Renews the memory in these lanes until that changes nothing. What is wanted of the state where steps begin is known before and after.
-    #[inline(always)]
-    fn renew(&mut self, lanes: T::Mask) -> Renewed<T> {
-        let mut renewed = Renewed {
-            any: T::Mask::of_lanes(0),
-            other: T::Mask::of_lanes(0),
-        };
-        if self.info.memory.is_empty() {
-            return renewed;
-        }
-        for round in 0..=self.event_functions.len() {
-            let differs = differ(&self.renewed, &self.step.y).and(lanes);
-            if !differs.any() {
-                break;
-            }
-            if round == 0 {
-                self.after[..self.event_functions.len()]
-                    .copy_from_slice(&self.event_functions_ahead);
-                let [.., end, any, _] = &mut self.onsets.values;
-                any.copy_from_slice(end);
-            }
-            replace(differs, &mut self.step.y, &self.renewed);
-            renewed.any = renewed.any.or(differs);
-            self.look_at_begin();
-        }
-        if renewed.any.any() {
-            let [.., end, any, _] = &self.onsets.values;
-            let event_functions = differ(
-                &self.after[..self.event_functions.len()],
-                &self.event_functions_ahead,
-            );
-            renewed.other = event_functions.or(differ(any, end)).and(renewed.any);
-        }
-        renewed
     }
 
     /// One step in every lane that is at work.
@@ -599,28 +530,6 @@ impl<'a, T: Several> Run<'a, T> {
         [accepted, easy]
     }
 
-    /// The error of the step, in these lanes with that of the accelerations at its end.
-    #[inline(always)]
-    fn with_accelerations(&mut self, error: T::Part, good: T::Mask) -> T::Part {
-        let one = T::Part::from_f64(1.0);
-        let apart = self.step.apart(self.info);
-        let of = [self.step.h.part(0), self.level];
-        let mut found = self.accelerations.error::<Power>(&apart, of, T::EPSILON);
-        let mut rejected = good.and(one.lt(found));
-        if rejected.any() {
-            let asking = self.accelerations.asks(rejected);
-            if asking.any() {
-                let parts = self.apart(Parts);
-                self.accelerations.learn(asking, parts);
-                found = self.accelerations.error::<Power>(&apart, of, T::EPSILON);
-                rejected = good.and(one.lt(found));
-            }
-        }
-        let accepted = good.and(rejected.not());
-        self.accelerations.leave(&apart, of[0], accepted, rejected);
-        T::Part::select(good, error.max(found), error)
-    }
-
     /// In which of these lanes something is hidden in the step, so that it is taken again, and which part of it.
     #[inline(always)]
     fn search(&mut self, accepted: T::Mask, easy: T::Mask) -> (T::Mask, T::Part) {
@@ -634,136 +543,6 @@ impl<'a, T: Several> Run<'a, T> {
         let over = part.lt(c(1.0 - 1e-6));
         let over = (over.and(smallest.lt(part * self.step.h.part(0)))).and(left);
         (hidden.or(over), T::Part::select(over, part, shorter))
-    }
-
-    /// Takes over the ends of accepted steps. A step ends where an event function changes its sign.
-    #[inline(always)]
-    fn land(&mut self, accepted: T::Mask, easy: T::Mask, reach: &Reach<T>) -> Landing<T> {
-        let t = self.step.t;
-        let (Sides { ahead, behind }, whole) = self.place(accepted, easy, reach.reached);
-        let whole = whole.or(self.going_on(whole.not().and(accepted), behind));
-        let reached = T::select(whole, reach.reached, behind * self.step.h + t);
-        self.deliver(accepted, whole, reached);
-        let broken = whole.not().and(accepted);
-        let arrived = accepted.and(whole).and(reach.lands);
-        let jumps = self.notes_jumps && broken.or(arrived).any();
-        if jumps {
-            if broken.any() {
-                self.step.inside(&*self.models.all, ahead, &mut self.state);
-                replace(broken.not(), &mut self.state, &self.end);
-            } else {
-                self.state.copy_from_slice(&self.end);
-            }
-            let short = ahead * self.step.h + t;
-            self.look_ahead(T::select(broken, short, reached.min(self.step.latest)));
-        }
-        if broken.any() {
-            self.step.inside(&*self.models.all, behind, &mut self.state);
-            replace(whole.not(), &mut self.end, &self.state);
-            self.look_at_end(broken, reached);
-        }
-        let part = T::select(whole, T::from_f64(1.0), behind);
-        self.advance_bends(accepted, part);
-        self.advance_watch(accepted, part, reached);
-        exchange(accepted, &mut self.step.y, &mut self.end);
-        self.step.t = T::select(accepted, reached, t);
-        let renewed = self.renew(accepted);
-        self.advance_onsets(accepted);
-        if jumps {
-            self.note_jumps(broken.or(arrived));
-        }
-        Landing {
-            accepted,
-            whole,
-            arrived,
-            renewed,
-        }
-    }
-
-    /// Leaves steps that were accepted: the next begin where these ended.
-    #[inline(always)]
-    fn leave(&mut self, landing: &Landing<T>) {
-        let Landing {
-            accepted,
-            whole,
-            arrived,
-            renewed,
-        } = *landing;
-        self.grid.advance(accepted);
-        for i in each(accepted.lanes()) {
-            self.lanes[i].steps += 1;
-            self.lanes[i].searches = 0;
-            if whole.lanes() >> i & 1 != 0 {
-                self.lanes[i].standing.forget();
-            }
-        }
-        for i in each(arrived.lanes()) {
-            self.arrive(i);
-        }
-        let going = T::Mask::of_lanes(self.busy()).and(accepted);
-        if arrived.any() {
-            self.step.latest = self.latest();
-            self.controller.reset(arrived);
-        }
-        let mut unknown = going;
-        if self.settings.pace.method().ends_with_its_rate() {
-            unknown = arrived.or(renewed.any).or(whole.not()).and(going);
-            let [first, .., last] = &mut self.step.k;
-            exchange(accepted, first, last);
-        }
-        let whole = whole.and(arrived.not()).and(going);
-        let mut goes_on = whole.and(renewed.any.not());
-        let alike = whole.and(renewed.any).and(renewed.other.not());
-        if unknown.any() {
-            self.state.copy_from_slice(&self.step.k[0]);
-            self.rate(unknown);
-            if alike.any() {
-                goes_on = goes_on.or(self.moves_alike().and(alike));
-            }
-        }
-        // where memory stays, they are known
-        let known = going.and(renewed.any.not());
-        let smooth = known.and(whole);
-        let past = T::Part::select(goes_on, self.step.h.part(0), T::Part::from_f64(0.0));
-        self.past = T::Part::select(accepted, past, self.past);
-        replace(going, &mut self.event_functions_past, &self.event_functions);
-        replace(
-            going,
-            &mut self.event_functions,
-            &self.event_functions_ahead,
-        );
-        self.leave_watch(going, known.and(arrived.not()), smooth);
-        self.count_steps(whole.not().and(going));
-    }
-
-    /// Where the motion goes on as it did in the step before, whose derivative at its end is in `state`, although memory was renewed: over such a step,
-    /// the change of the derivative makes no more than the error allowed. So it is of a hysteresis under load, whose memory goes along with the
-    /// state. Never of fixed steps, for which no error is allowed.
-    #[inline(always)]
-    fn moves_alike(&mut self) -> T::Mask {
-        if self.allowed.is_empty() {
-            return T::Mask::of_lanes(0);
-        }
-        for (change, rate) in self.state.iter_mut().zip(&self.step.k[0]) {
-            *change = self.step.h * (*rate - *change);
-        }
-        let size = norm::<T>(&self.allowed, &self.step.y, &self.state);
-        T::Part::from_f64(1.0).lt(size).not()
-    }
-
-    /// Which of these lanes, whose steps are cut to a part, go on all the same, because they stand still.
-    #[inline(always)]
-    fn going_on(&mut self, cut: T::Mask, part: T) -> T::Mask {
-        let mut going_on = 0;
-        for i in each(cut.lanes()).take_while(|i| *i < T::LANES) {
-            let [t, h, part] = [self.step.t, self.step.h, part].map(|x| x.lane(i).to_f64());
-            let finest = T::EPSILON / f64::EPSILON * finest(t);
-            let standing = &mut self.lanes[i].standing;
-            if standing.goes_on([part * h, h], finest, width::<T>()) {
-                going_on |= 1 << i;
-            }
-        }
-        T::Mask::of_lanes(going_on)
     }
 
     /// Gives up runs that take too many steps, or too long.
@@ -842,7 +621,7 @@ impl<'a, T: Several> Run<'a, T> {
 
     /// A lane came to where it had to stop.
     #[inline(always)]
-    fn arrive(&mut self, i: usize) {
+    pub(super) fn arrive(&mut self, i: usize) {
         let duration = self.settings.duration;
         let t = self.lanes[i].stop;
         if t >= duration {
@@ -960,32 +739,11 @@ fn next_kink<S: Real>(info: &Info, model: &dyn Schedule<S>, t: f64, duration: f6
     kink.min(model.kink_after(t)).min(last)
 }
 
-/// The lanes in which any of two lists of numbers differ.
-#[inline(always)]
-fn differ<T: Several>(some: &[T], others: &[T]) -> T::Mask {
-    let mut differ = T::Mask::of_lanes(0);
-    for (a, b) in some.iter().zip(others) {
-        let (a, b) = (a.part(0), b.part(0));
-        differ = differ.or(a.lt(b)).or(b.lt(a));
-    }
-    differ
-}
-
 /// Replaces the entries of a state in the lanes of a mask.
 #[inline(always)]
 pub(super) fn replace<T: Several>(lanes: T::Mask, old: &mut [T], new: &[T]) {
     for (old, new) in old.iter_mut().zip(new) {
         *old = T::select(lanes, *new, *old);
-    }
-}
-
-/// The same, where nobody needs `new` any more.
-#[inline(always)]
-fn exchange<T: Several>(lanes: T::Mask, old: &mut Box<[T]>, new: &mut Box<[T]>) {
-    if lanes.all() {
-        core::mem::swap(old, new);
-    } else {
-        replace(lanes, old, new);
     }
 }
 

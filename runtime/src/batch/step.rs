@@ -9,7 +9,7 @@
 use super::copies;
 use super::settings::Method;
 use super::tolerance::Allowed;
-use crate::integrate::acceleration::{Apart, kind};
+use crate::integrate::acceleration::{EndDifference, kind};
 use crate::integrate::tableau::dormand_prince::Dopri5;
 use crate::integrate::tableau::kutta::{Heun, Merson, Rk4};
 use crate::integrate::tableau::{Tableau, hermite};
@@ -273,7 +273,7 @@ impl<T: Several> Step<T> {
 
     /// How the results of its last two stages differ, both for the time of its end.
     #[inline(always)]
-    pub fn apart(&self, info: &Info) -> Apart<T::Part> {
+    pub fn end_difference(&self, info: &Info) -> EndDifference<T::Part> {
         let coordinates = info.coordinates.len();
         let entries = coordinates + info.velocities.len();
         let (y, end) = (&self.y[..entries], &self.end[..entries]);
@@ -283,7 +283,7 @@ impl<T: Several> Step<T> {
         for (length, weight) in lengths.iter_mut().zip(Dopri5::A[STAGES - 2]) {
             *length = T::from_f64(*weight) * self.h;
         }
-        let mut apart = Apart::new();
+        let mut difference = EndDifference::new();
         for i in 0..entries {
             let mut state = y[i];
             for j in 0..STAGES - 2 {
@@ -292,13 +292,13 @@ impl<T: Several> Step<T> {
             let between = [end[i] - state, last[i] - near[i]].map(|value| value.part(0));
             let y = end[i].part(0);
             if i < coordinates {
-                apart.coordinate(y, between);
+                difference.coordinate(y, between);
             } else {
                 let ends = [first[i], last[i]].map(|value| value.part(0));
-                apart.velocity(kind(info, i), y, between, ends);
+                difference.velocity(kind(info, i), y, between, ends);
             }
         }
-        apart
+        difference
     }
 }
 

@@ -6,9 +6,10 @@
 //! monotone where the points are (Fritsch and Carlson 1980).
 
 use super::breakpoint_indicator::{breakpoint_indicator, rounding};
+use super::integral::Integrable;
 use super::stop::{Searched, stop};
 use super::{Extrapolate, candidates, guard, kink};
-use crate::real::{Real, Task};
+use crate::real::Real;
 
 /// A piecewise cubic function through `N` points, continuous together with its slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -203,20 +204,6 @@ pub(super) const fn fill(
     )
 }
 
-/// [`Cubics::antiderivatives`] as a task.
-struct Antiderivatives<'a, T> {
-    curve: Cubics<'a>,
-    x: T,
-}
-
-impl<T: Real> Task for Antiderivatives<'_, T> {
-    type Output = [T; 2];
-    #[inline(always)]
-    fn run(self) -> [T; 2] {
-        self.curve.antiderivatives(self.x)
-    }
-}
-
 impl Cubics<'_> {
     /// Ordinate: [`Cubic::value`].
     #[inline(always)]
@@ -246,22 +233,6 @@ impl Cubics<'_> {
             let (s, _, [_, c2, c3]) = self.piece(piece, x);
             c::<T>(6.0 * c3).mul_add(s, c(2.0 * c2))
         })
-    }
-
-    /// ∫: [`Cubic::integral`].
-    #[inline(always)]
-    pub fn integral<T: Real>(&self, x: T) -> T {
-        let [from, _] = self.both_integrals(T::from_f64(0.0));
-        let [to, _] = self.both_integrals(x);
-        to - from
-    }
-
-    /// ∬: [`Cubic::double_integral`].
-    #[inline(always)]
-    pub fn double_integral<T: Real>(&self, x: T) -> T {
-        let [slope, from] = self.both_integrals(T::from_f64(0.0));
-        let [_, to] = self.both_integrals(x);
-        to - from - slope * x
     }
 
     /// The inverse: [`Cubic::inverse`].
@@ -323,13 +294,30 @@ impl Cubics<'_> {
         )
     }
 
-    /// [`Cubics::antiderivatives`], compiled once for each scalar.
+    /// Chooses among the results of all pieces the one that holds at `x`.
     #[inline(always)]
-    fn both_integrals<T: Real>(&self, x: T) -> [T; 2] {
-        T::dispatch_apart(Antiderivatives { curve: *self, x })
+    fn choose<T: Real>(&self, x: T, of: impl Fn(usize) -> T) -> T {
+        let (first, last) = candidates(self.points.len(), |k| self.points[k][0], x);
+        let mut y = of(first);
+        for k in first..last {
+            y = T::select(x.lt(c(self.points[k][0])), y, of(k + 1));
+        }
+        guard(self.points, self.extrapolate, x, y)
     }
 
-    /// F with F' = the curve and G with G' = F, both 0 at the first point.
+    /// s = x − x_k, y_k and the coefficients of a piece. Piece 0 lies left of the first point, piece k + 1 right of point k.
+    #[inline(always)]
+    fn piece<T: Real>(&self, piece: usize, x: T) -> (T, f64, [f64; 3]) {
+        let [x_k, y_k] = self.points[piece.saturating_sub(1)];
+        let coefficients = match piece {
+            0 => [self.slope_before, 0.0, 0.0],
+            _ => self.coefficients[piece - 1],
+        };
+        (x - c(x_k), y_k, coefficients)
+    }
+}
+
+impl Integrable for Cubics<'_> {
     #[inline(always)]
     fn antiderivatives<T: Real>(&self, x: T) -> [T; 2] {
         let integrals = |piece: usize| self.integrals[piece.saturating_sub(1)];
@@ -353,28 +341,6 @@ impl Cubics<'_> {
                 .mul_add(s, c(twice))
         });
         [once, twice]
-    }
-
-    /// Chooses among the results of all pieces the one that holds at `x`.
-    #[inline(always)]
-    fn choose<T: Real>(&self, x: T, of: impl Fn(usize) -> T) -> T {
-        let (first, last) = candidates(self.points.len(), |k| self.points[k][0], x);
-        let mut y = of(first);
-        for k in first..last {
-            y = T::select(x.lt(c(self.points[k][0])), y, of(k + 1));
-        }
-        guard(self.points, self.extrapolate, x, y)
-    }
-
-    /// s = x − x_k, y_k and the coefficients of a piece. Piece 0 lies left of the first point, piece k + 1 right of point k.
-    #[inline(always)]
-    fn piece<T: Real>(&self, piece: usize, x: T) -> (T, f64, [f64; 3]) {
-        let [x_k, y_k] = self.points[piece.saturating_sub(1)];
-        let coefficients = match piece {
-            0 => [self.slope_before, 0.0, 0.0],
-            _ => self.coefficients[piece - 1],
-        };
-        (x - c(x_k), y_k, coefficients)
     }
 }
 

@@ -1,9 +1,10 @@
 //! Piecewise linear functions. Curves with a fixed number of points and tables of any length both evaluate these.
 
 use super::breakpoint_indicator::rounding;
+use super::integral::Integrable;
 use super::stop::{Searched, stop};
 use super::{Extrapolate, candidates, guard};
-use crate::real::{Real, Task};
+use crate::real::Real;
 
 /// The parts of a piecewise linear function, wherever they are stored. Each part has one entry for each point.
 #[derive(Clone, Copy)]
@@ -86,20 +87,6 @@ const fn find_kinks(
     found
 }
 
-/// [`Lines::antiderivatives`] as a task.
-struct Antiderivatives<'a, T> {
-    curve: Lines<'a>,
-    x: T,
-}
-
-impl<T: Real> Task for Antiderivatives<'_, T> {
-    type Output = [T; 2];
-    #[inline(always)]
-    fn run(self) -> [T; 2] {
-        self.curve.antiderivatives(self.x)
-    }
-}
-
 impl Lines<'_> {
     /// Ordinate: [`Curve::value`](super::Curve::value).
     #[inline(always)]
@@ -128,22 +115,6 @@ impl Lines<'_> {
         self.guard(x, slope + x.taint())
     }
 
-    /// ∫: [`Curve::integral`](super::Curve::integral).
-    #[inline(always)]
-    pub fn integral<T: Real>(&self, x: T) -> T {
-        let [from, _] = self.both_integrals(T::from_f64(0.0));
-        let [to, _] = self.both_integrals(x);
-        to - from
-    }
-
-    /// ∬: [`Curve::double_integral`](super::Curve::double_integral).
-    #[inline(always)]
-    pub fn double_integral<T: Real>(&self, x: T) -> T {
-        let [slope, from] = self.both_integrals(T::from_f64(0.0));
-        let [_, to] = self.both_integrals(x);
-        to - from - slope * x
-    }
-
     /// The time of rest: [`Curve::stop`](super::Curve::stop).
     #[inline(always)]
     pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
@@ -159,28 +130,6 @@ impl Lines<'_> {
             |x| self.value(x),
             |x| self.integral(x),
         )
-    }
-
-    /// [`Lines::antiderivatives`], compiled once for each scalar.
-    #[inline(always)]
-    fn both_integrals<T: Real>(&self, x: T) -> [T; 2] {
-        T::dispatch_apart(Antiderivatives { curve: *self, x })
-    }
-
-    /// F with F' = the curve and G with G' = F, both 0 at the first point.
-    #[inline(always)]
-    fn antiderivatives<T: Real>(&self, x: T) -> [T; 2] {
-        let (first, last) = self.candidates(x);
-        let mut both = self.piece_antiderivatives(first, x);
-        for k in first..last {
-            let left = x.lt(self.abscissa(k));
-            let next = self.piece_antiderivatives(k + 1, x);
-            both = [
-                T::select(left, both[0], next[0]),
-                T::select(left, both[1], next[1]),
-            ];
-        }
-        [self.guard(x, both[0]), self.guard(x, both[1])]
     }
 
     #[inline(always)]
@@ -275,5 +224,22 @@ impl Lines<'_> {
     #[inline(always)]
     fn guard<T: Real>(&self, x: T, y: T) -> T {
         guard(self.points, self.extrapolate, x, y)
+    }
+}
+
+impl Integrable for Lines<'_> {
+    #[inline(always)]
+    fn antiderivatives<T: Real>(&self, x: T) -> [T; 2] {
+        let (first, last) = self.candidates(x);
+        let mut both = self.piece_antiderivatives(first, x);
+        for k in first..last {
+            let left = x.lt(self.abscissa(k));
+            let next = self.piece_antiderivatives(k + 1, x);
+            both = [
+                T::select(left, both[0], next[0]),
+                T::select(left, both[1], next[1]),
+            ];
+        }
+        [self.guard(x, both[0]), self.guard(x, both[1])]
     }
 }

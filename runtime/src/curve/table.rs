@@ -1,6 +1,7 @@
 //! Curves whose number of points is known only at run time.
 
 use super::cubic::{self, Cubics};
+use super::integral::Integrable as _;
 use super::lines::{self, Lines};
 use super::{Extrapolate, breakpoint_indicator, kink};
 use crate::real::Real;

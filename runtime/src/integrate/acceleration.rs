@@ -59,19 +59,19 @@ pub(crate) fn kind(info: &Info, index: usize) -> usize {
 }
 
 /// How two results of a step differ.
-pub(crate) struct Apart<P> {
+pub(crate) struct EndDifference<P> {
     /// Σ d², Σ D², Σ y², of coordinates and of velocities.
     sums: [[P; 3]; 2],
     /// The largest |D_v|, the largest |d_v|, and the largest acceleration at the ends of the step, for each kind.
     accelerations: [[P; 3]; 2],
 }
 
-impl<P: Number> Apart<P> {
+impl<P: Number> EndDifference<P> {
     /// Without any entry.
     #[inline(always)]
     pub fn new() -> Self {
         let nought = P::from_f64(0.0);
-        Apart {
+        EndDifference {
             sums: [[nought; 3]; 2],
             accelerations: [[nought; 3]; 2],
         }
@@ -176,20 +176,26 @@ impl<P: Number> Accelerations<P> {
     /// The error of the accelerations of a step of length `h`, over what is allowed; a good step has at most 1. `level` is what tolerances are
     /// multiplied by.
     #[inline(always)]
-    pub fn error<R: Roots<P>>(&mut self, apart: &Apart<P>, [h, level]: [P; 2], epsilon: f64) -> P {
+    pub fn error<R: Roots<P>>(
+        &mut self,
+        difference: &EndDifference<P>,
+        [h, level]: [P; 2],
+        epsilon: f64,
+    ) -> P {
         let c = P::from_f64;
         let Some([limit, polynomial]) = self.limits else {
             return c(0.0);
         };
         let fourth = c(limit * limit * limit * limit);
-        let reach = apart.reach(h, epsilon);
+        let reach = difference.reach(h, epsilon);
         let rate_squared = R::root(reach, [2, 1]) / (h * h);
-        let rounding = c(RESOLVED * epsilon) * rate_squared * R::root(apart.sums[0][2], [2, 1]);
+        let rounding =
+            c(RESOLVED * epsilon) * rate_squared * R::root(difference.sums[0][2], [2, 1]);
         let allowed = c(polynomial * self.share) * level;
         // before effects are evaluated the largest acceleration may be far too small
         let unknown = self.next.lt(c(1.5));
         let mut share_squared = c(0.0);
-        for (so_far, of_kind) in self.largest.iter().zip(apart.accelerations) {
+        for (so_far, of_kind) in self.largest.iter().zip(difference.accelerations) {
             let [of_accelerations, of_velocities, here] = of_kind;
             let amplitude_squared = of_accelerations * of_accelerations
                 + rate_squared * (of_velocities * of_velocities);
@@ -228,8 +234,8 @@ impl<P: Number> Accelerations<P> {
 
     /// Takes the largest accelerations that effects cause in these lanes.
     #[inline(always)]
-    pub fn learn(&mut self, lanes: P::Mask, parts: [P; 2]) {
-        for (largest, part) in self.largest.iter_mut().zip(parts) {
+    pub fn learn(&mut self, lanes: P::Mask, found: [P; 2]) {
+        for (largest, part) in self.largest.iter_mut().zip(found) {
             let more = lanes
                 .and(largest.lt(part))
                 .and(part.lt(P::from_f64(f64::INFINITY)));
@@ -239,9 +245,15 @@ impl<P: Number> Accelerations<P> {
 
     /// Leaves a try of a step of length `h`: where it was `accepted`, and where it was `rejected` for x.
     #[inline(always)]
-    pub fn leave(&mut self, apart: &Apart<P>, h: P, accepted: P::Mask, rejected: P::Mask) {
+    pub fn leave(
+        &mut self,
+        difference: &EndDifference<P>,
+        h: P,
+        accepted: P::Mask,
+        rejected: P::Mask,
+    ) {
         let c = P::from_f64;
-        for (largest, [_, _, here]) in self.largest.iter_mut().zip(apart.accelerations) {
+        for (largest, [_, _, here]) in self.largest.iter_mut().zip(difference.accelerations) {
             *largest = P::select(accepted, largest.max(here), *largest);
         }
         let less = (self.asleep - c(1.0)).max(c(0.0));
@@ -257,7 +269,7 @@ impl<P: Number> Accelerations<P> {
 
 /// The largest acceleration that an effect causes by itself at (`t`, `y`), for velocities and angular velocities. `state` is room for a state, and each
 /// of `powers` for the powers of all effects.
-pub(crate) fn parts<T: Real>(
+pub(crate) fn effect_accelerations<T: Real>(
     model: &dyn Dynamics<T>,
     t: T,
     y: &[T],

@@ -28,7 +28,7 @@ use super::standing::Standing;
 use super::watch::Watch;
 use super::{Cause, Observer, Pace, Receiver, Report, Settings};
 use crate::failure::Reason;
-use crate::integrate::acceleration::{Accelerations, Apart, kind, parts};
+use crate::integrate::acceleration::{Accelerations, EndDifference, effect_accelerations, kind};
 use crate::integrate::control::{Allowed, Basic, Controller, Tolerances, first_step};
 use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper, first_non_finite};
@@ -114,7 +114,7 @@ fn finest_of<T: Real>(t: f64) -> f64 {
 }
 
 /// The distance from 1 to the next number of a scalar: of doubles, or of singles.
-fn epsilon_of<T: Real>() -> f64 {
+pub(super) fn epsilon_of<T: Real>() -> f64 {
     match T::from_f64(1.0 + 1e-10).to_f64() == 1.0 {
         true => f64::from(f32::EPSILON),
         false => f64::EPSILON,
@@ -584,30 +584,30 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         let span = step.span();
         let coordinates = self.info.coordinates.len();
         let size = |value: T| value.abs().to_f64();
-        let mut apart = Apart::new();
+        let mut difference = EndDifference::new();
         for i in 0..coordinates + self.info.velocities.len() {
             let between = [span.end[i] - self.inside[i], last[i] - near[i]].map(size);
             let y = size(span.end[i]);
             match i < coordinates {
-                true => apart.coordinate(y, between),
+                true => difference.coordinate(y, between),
                 false => {
                     let ends = [self.rate[i], last[i]].map(size);
-                    apart.velocity(kind(self.info, i), y, between, ends);
+                    difference.velocity(kind(self.info, i), y, between, ends);
                 }
             }
         }
         let of = [span.h, 1.0];
         let epsilon = epsilon_of::<T>();
-        let mut error = self.accelerations.error::<Basic>(&apart, of, epsilon);
+        let mut error = self.accelerations.error::<Basic>(&difference, of, epsilon);
         if error > 1.0 && self.accelerations.asks(true) {
             let t = T::from_f64(self.f.time(span.t));
             let [one, other] = &mut self.powers;
-            let found = parts(self.model, t, span.y, self.inside, [one, other]);
+            let found = effect_accelerations(self.model, t, span.y, self.inside, [one, other]);
             self.accelerations.learn(true, found.map(T::to_f64));
-            error = self.accelerations.error::<Basic>(&apart, of, epsilon);
+            error = self.accelerations.error::<Basic>(&difference, of, epsilon);
         }
         self.accelerations
-            .leave(&apart, span.h, error <= 1.0, error > 1.0);
+            .leave(&difference, span.h, error <= 1.0, error > 1.0);
         error
     }
 

@@ -42,6 +42,7 @@ mod tests;
 
 use super::balance::{NODES, Rule};
 use super::event::inside;
+use super::time_loop::epsilon_of;
 use super::{Balance, Buffer, Diagnostic, Pace, Problem, Settings};
 use crate::failure::Reason;
 use crate::integrate::workspace::Workspace;
@@ -566,8 +567,8 @@ impl<'a, T: Real> Watch<'a, T> {
             if let Some(count) = curve.turning(info.dimension) {
                 let ends = [&self.farthest, &self.arguments].map(|of| entries(of, i, count));
                 suspected |= match curve.kind {
-                    // it may pass its singular position and come back within one step; from far away at both ends only where no error
-                    // decides how long the step is
+                    // A joint may pass its singular position and come back within one step. If it is far from it at both ends, it can do
+                    // so in a fixed step alone: in another the error would be too large.
                     CurveKind::Bearing => {
                         self.fixed.is_some() || ends.iter().any(|end| end[0] < curve.last)
                     }
@@ -628,10 +629,7 @@ impl<'a, T: Real> Watch<'a, T> {
             return;
         };
         let span = step.span();
-        let epsilon = match T::from_f64(1.0 + 1e-10).to_f64() == 1.0 {
-            true => f64::from(f32::EPSILON),
-            false => f64::EPSILON,
-        };
+        let epsilon = epsilon_of::<T>();
         let entry = |i: usize| Entry {
             before: span.y[i].to_f64(),
             end: [y[i], rate[i]].map(T::to_f64),

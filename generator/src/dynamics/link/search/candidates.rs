@@ -41,7 +41,9 @@ impl Search<'_, '_> {
 
     /// Tries origins of a free base: in the joints of the links that it carries, or level with them.
     pub fn bases(&mut self) {
-        let in_space = self.tree.links[0].joint.is_ball();
+        // a system whose elements are all welded down has no links
+        let first = self.tree.links.first();
+        let in_space = first.is_some_and(|link| link.joint.is_ball());
         if !self.tree.free || !in_space || self.aim != Aim::Elimination {
             return;
         }

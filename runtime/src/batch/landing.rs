@@ -1,0 +1,223 @@
+//! The end of steps that were accepted, in all lanes: where events cut them, what their memory becomes, and what the next steps begin with.
+
+use super::control::norm;
+use super::event::{Sides, width};
+use super::reach::Reach;
+use super::run::{Run, each, replace};
+use crate::Real;
+use crate::real::{Mask, Several};
+use crate::simulate::finest;
+
+/// How the steps of lanes ended.
+pub(super) struct Landing<T: Real> {
+    /// Where they were good.
+    accepted: T::Mask,
+    /// Where they went all the way; elsewhere an event ended them.
+    whole: T::Mask,
+    /// Where they arrived at a time that they had to meet.
+    arrived: T::Mask,
+    renewed: Renewed<T>,
+}
+
+/// What renewing memory changed.
+#[derive(Clone, Copy)]
+pub(super) struct Renewed<T: Real> {
+    /// Where anything.
+    any: T::Mask,
+    /// Where event functions or onsets, too.
+    other: T::Mask,
+}
+
+impl<T: Several> Run<'_, T> {
+    /// Renews the memory in these lanes until that changes nothing. What is wanted of the state where steps begin is known before and after.
+    #[inline(always)]
+    pub(super) fn renew(&mut self, lanes: T::Mask) -> Renewed<T> {
+        let mut renewed = Renewed {
+            any: T::Mask::of_lanes(0),
+            other: T::Mask::of_lanes(0),
+        };
+        if self.info.memory.is_empty() {
+            return renewed;
+        }
+        for round in 0..=self.event_functions.len() {
+            let differs = differ(&self.renewed, &self.step.y).and(lanes);
+            if !differs.any() {
+                break;
+            }
+            if round == 0 {
+                self.after[..self.event_functions.len()]
+                    .copy_from_slice(&self.event_functions_ahead);
+                let [.., end, any, _] = &mut self.onsets.values;
+                any.copy_from_slice(end);
+            }
+            replace(differs, &mut self.step.y, &self.renewed);
+            renewed.any = renewed.any.or(differs);
+            self.look_at_begin();
+        }
+        if renewed.any.any() {
+            let [.., end, any, _] = &self.onsets.values;
+            let event_functions = differ(
+                &self.after[..self.event_functions.len()],
+                &self.event_functions_ahead,
+            );
+            renewed.other = event_functions.or(differ(any, end)).and(renewed.any);
+        }
+        renewed
+    }
+
+    /// Takes over the ends of accepted steps. A step ends where an event function changes its sign.
+    #[inline(always)]
+    pub(super) fn land(
+        &mut self,
+        accepted: T::Mask,
+        easy: T::Mask,
+        reach: &Reach<T>,
+    ) -> Landing<T> {
+        let t = self.step.t;
+        let (Sides { ahead, behind }, whole) = self.place(accepted, easy, reach.reached);
+        let whole = whole.or(self.going_on(whole.not().and(accepted), behind));
+        let reached = T::select(whole, reach.reached, behind * self.step.h + t);
+        self.deliver(accepted, whole, reached);
+        let broken = whole.not().and(accepted);
+        let arrived = accepted.and(whole).and(reach.lands);
+        let jumps = self.notes_jumps && broken.or(arrived).any();
+        if jumps {
+            if broken.any() {
+                self.step.inside(&*self.models.all, ahead, &mut self.state);
+                replace(broken.not(), &mut self.state, &self.end);
+            } else {
+                self.state.copy_from_slice(&self.end);
+            }
+            let short = ahead * self.step.h + t;
+            self.look_ahead(T::select(broken, short, reached.min(self.step.latest)));
+        }
+        if broken.any() {
+            self.step.inside(&*self.models.all, behind, &mut self.state);
+            replace(whole.not(), &mut self.end, &self.state);
+            self.look_at_end(broken, reached);
+        }
+        let part = T::select(whole, T::from_f64(1.0), behind);
+        self.advance_bends(accepted, part);
+        self.advance_watch(accepted, part, reached);
+        exchange(accepted, &mut self.step.y, &mut self.end);
+        self.step.t = T::select(accepted, reached, t);
+        let renewed = self.renew(accepted);
+        self.advance_onsets(accepted);
+        if jumps {
+            self.note_jumps(broken.or(arrived));
+        }
+        Landing {
+            accepted,
+            whole,
+            arrived,
+            renewed,
+        }
+    }
+
+    /// Leaves steps that were accepted: the next begin where these ended.
+    #[inline(always)]
+    pub(super) fn leave(&mut self, landing: &Landing<T>) {
+        let Landing {
+            accepted,
+            whole,
+            arrived,
+            renewed,
+        } = *landing;
+        self.grid.advance(accepted);
+        for i in each(accepted.lanes()) {
+            self.lanes[i].steps += 1;
+            self.lanes[i].searches = 0;
+            if whole.lanes() >> i & 1 != 0 {
+                self.lanes[i].standing.forget();
+            }
+        }
+        for i in each(arrived.lanes()) {
+            self.arrive(i);
+        }
+        let going = T::Mask::of_lanes(self.busy()).and(accepted);
+        if arrived.any() {
+            self.step.latest = self.latest();
+            self.controller.reset(arrived);
+        }
+        let mut unknown = going;
+        if self.settings.pace.method().ends_with_its_rate() {
+            unknown = arrived.or(renewed.any).or(whole.not()).and(going);
+            let [first, .., last] = &mut self.step.k;
+            exchange(accepted, first, last);
+        }
+        let whole = whole.and(arrived.not()).and(going);
+        let mut goes_on = whole.and(renewed.any.not());
+        let alike = whole.and(renewed.any).and(renewed.other.not());
+        if unknown.any() {
+            self.state.copy_from_slice(&self.step.k[0]);
+            self.rate(unknown);
+            if alike.any() {
+                goes_on = goes_on.or(self.moves_alike().and(alike));
+            }
+        }
+        // where memory stays, they are known
+        let known = going.and(renewed.any.not());
+        let smooth = known.and(whole);
+        let past = T::Part::select(goes_on, self.step.h.part(0), T::Part::from_f64(0.0));
+        self.past = T::Part::select(accepted, past, self.past);
+        replace(going, &mut self.event_functions_past, &self.event_functions);
+        replace(
+            going,
+            &mut self.event_functions,
+            &self.event_functions_ahead,
+        );
+        self.leave_watch(going, known.and(arrived.not()), smooth);
+        self.count_steps(whole.not().and(going));
+    }
+
+    /// Where the motion goes on as it did in the step before, whose derivative at its end is in `state`, although memory was renewed: over such a step,
+    /// the change of the derivative makes no more than the error allowed. So it is of a hysteresis under load, whose memory goes along with the
+    /// state. Never of fixed steps, for which no error is allowed.
+    #[inline(always)]
+    fn moves_alike(&mut self) -> T::Mask {
+        if self.allowed.is_empty() {
+            return T::Mask::of_lanes(0);
+        }
+        for (change, rate) in self.state.iter_mut().zip(&self.step.k[0]) {
+            *change = self.step.h * (*rate - *change);
+        }
+        let size = norm::<T>(&self.allowed, &self.step.y, &self.state);
+        T::Part::from_f64(1.0).lt(size).not()
+    }
+
+    /// Which of these lanes, whose steps are cut to a part, go on all the same, because they stand still.
+    #[inline(always)]
+    fn going_on(&mut self, cut: T::Mask, part: T) -> T::Mask {
+        let mut going_on = 0;
+        for i in each(cut.lanes()).take_while(|i| *i < T::LANES) {
+            let [t, h, part] = [self.step.t, self.step.h, part].map(|x| x.lane(i).to_f64());
+            let finest = T::EPSILON / f64::EPSILON * finest(t);
+            let standing = &mut self.lanes[i].standing;
+            if standing.goes_on([part * h, h], finest, width::<T>()) {
+                going_on |= 1 << i;
+            }
+        }
+        T::Mask::of_lanes(going_on)
+    }
+}
+
+/// The lanes in which any of two lists of numbers differ.
+#[inline(always)]
+fn differ<T: Several>(some: &[T], others: &[T]) -> T::Mask {
+    let mut differ = T::Mask::of_lanes(0);
+    for (a, b) in some.iter().zip(others) {
+        let (a, b) = (a.part(0), b.part(0));
+        differ = differ.or(a.lt(b)).or(b.lt(a));
+    }
+    differ
+}
+
+/// Replaces the entries of a state in the lanes of a mask, where nobody needs `new` any more.
+#[inline(always)]
+fn exchange<T: Several>(lanes: T::Mask, old: &mut Box<[T]>, new: &mut Box<[T]>) {
+    if lanes.all() {
+        core::mem::swap(old, new);
+    } else {
+        replace(lanes, old, new);
+    }
+}
