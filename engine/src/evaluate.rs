@@ -142,6 +142,7 @@ impl<T: Real> Execute<T> for Evaluator<T> {
 
 /// A function of the runtime or of the user, in the form that code calls.
 #[derive(Debug)]
+#[allow(dead_code, reason = "machine code alone calls it")]
 struct LibraryFunction {
     shared: Arc<Shared>,
     function: Function,

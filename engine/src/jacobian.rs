@@ -24,9 +24,9 @@ pub(crate) trait Jacobian<T>: Debug {
 pub(crate) fn jacobian<T: Real>(shared: &Arc<Shared>) -> Box<dyn Jacobian<T>> {
     let of_doubles: Option<Box<dyn Jacobian<f64>>> = if TypeId::of::<T>() != TypeId::of::<f64>() {
         None
-    } else if Array8::there() && native::target::<Dual<Array8>>().is_some() {
+    } else if Array8::there() && native::there::<Dual<Array8>>() {
         Some(Box::new(Differentiated::<f64, Array8>::new(shared)))
-    } else if Array4::there() && native::target::<Dual<Array4>>().is_some() {
+    } else if Array4::there() && native::there::<Dual<Array4>>() {
         Some(Box::new(Differentiated::<f64, Array4>::new(shared)))
     } else {
         None

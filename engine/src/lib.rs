@@ -24,14 +24,14 @@
 //! | `interpret` | the interpreter, for any scalar |
 //! | `evaluate` | machine code where that is possible, the interpreter elsewhere |
 //! | `jacobian` | derivatives of the rates, several columns at once |
-//! | `native` | machine code for this processor, for scalars that are numbers side by side |
+//! | `native` | machine code for this processor, for scalars that are numbers side by side; `--cfg bryant_interpret` leaves it out |
 //! | `code` | machine code in memory, with calls into it and out of it |
 //! | `call` | the functions that lists call: curves, force laws, functions of the user |
 //! | `user` | functions of the user, which take and return plain numbers |
 //! | `info` | the facts of a model, in the form of the runtime |
 
 mod call;
-#[cfg(all(target_arch = "x86_64", unix))]
+#[cfg(all(target_arch = "x86_64", unix, not(bryant_interpret)))]
 mod code;
 mod evaluate;
 mod execute;
@@ -40,9 +40,12 @@ mod info;
 mod interpret;
 mod jacobian;
 mod model;
-#[cfg_attr(not(all(target_arch = "x86_64", unix)), path = "no_native.rs")]
+#[cfg_attr(
+    not(all(target_arch = "x86_64", unix, not(bryant_interpret))),
+    path = "no_native.rs"
+)]
 mod native;
-#[cfg(all(test, target_arch = "x86_64", unix))]
+#[cfg(all(test, target_arch = "x86_64", unix, not(bryant_interpret)))]
 mod tests;
 mod user;
 

@@ -40,6 +40,11 @@ pub fn target<T: Real>() -> Option<Target> {
     })
 }
 
+/// Whether there is machine code over this scalar.
+pub fn there<T: Real>() -> bool {
+    target::<T>().is_some()
+}
+
 /// The code of a list over a scalar. `None` if there can be none; the list must then be interpreted. `curves` are those of the model. `function`
 /// gives the functions that are called, besides sine, cosine and `atan2`, which are those of the scalar.
 pub fn compile<T: Real, C: Call<T>>(

@@ -1,4 +1,4 @@
-//! Replaces machine code on systems that have none.
+//! Replaces machine code on systems that have none, and where `--cfg bryant_interpret` leaves it out.
 
 use crate::execute::Given;
 use bryant_generator::expression::Function;
@@ -7,6 +7,7 @@ use bryant_runtime::Real;
 use std::marker::PhantomData;
 
 /// A function that a list calls.
+#[allow(dead_code, reason = "machine code alone calls it")]
 pub trait Call<T> {
     /// Writes the results.
     fn call(&self, arguments: &[T], results: &mut [T]);
@@ -26,6 +27,11 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
     pub fn run(&self, _: Given<T>, _: &[T], _: &[T], _: &mut [T]) {
         match self.0 {}
     }
+}
+
+/// No scalar has machine code.
+pub fn there<T: Real>() -> bool {
+    false
 }
 
 /// No code.

@@ -135,12 +135,14 @@ pub trait Singles: Register<One = f32> {
 pub const MOST_LANES: usize = 16;
 
 /// A variable in the frame of a function that lies at the beginning of a cache line.
+#[cfg(target_arch = "x86_64")]
 #[repr(align(64))]
 struct Line(#[expect(dead_code, reason = "its place is what counts")] u8);
 
 /// Aligns the frame of the function that it is inlined into to cache lines. The compiler keeps in the frame what does not fit into
 /// registers, and it decides that too late to align the frame. Without this a wide register crosses a cache line at every store and
 /// load, which takes twice as long.
+#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(crate) fn aligned_frame() {
     let line = Line(0);
