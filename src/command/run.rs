@@ -297,6 +297,9 @@ impl Arguments {
             responses = Responses::of(&self, &found, start.t)?;
             job.start = Some(start);
         }
+        for caution in responses.cautions() {
+            terminal.note(&format!("warning: {caution}"));
+        }
         job.reading = responses.reading.clone();
         let job = job;
         let compiled = match self.engine == RUSTC {
