@@ -1,6 +1,6 @@
 //! Responses that are requested on the command line: numbers that are read off a run.
 //!
-//! `HIC15 of head acceleration`, `3 ms clip of chest acceleration`: WHAT of OUTPUT, as a study heads its columns.
+//! `HIC15 of head accelerometer`, `3 ms clip of chest acceleration`: WHAT of OUTPUT, as a study heads its columns.
 
 use super::Error;
 use super::model_argument::nearest;
