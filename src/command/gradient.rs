@@ -113,6 +113,9 @@ impl Arguments {
             .iter()
             .map(|text| Requested::read("--of", text, &facts, [0.0, duration]))
             .collect::<Result<_, _>>()?;
+        for caution in responses.iter().filter_map(|one| one.caution.as_ref()) {
+            terminal.note(&format!("warning: {caution}"));
+        }
         let varied: Vec<usize> = wrt.iter().map(|(index, _)| *index).collect();
         let job = self.job(&facts, duration, &responses, &point, varied)?;
         let engine = prepare(&found, terminal)?;

@@ -4,7 +4,7 @@ use super::Error;
 use super::outputs::is_standard;
 use super::terminal::Terminal;
 use crate::{files, quantity};
-use bryant_generator::human::{JOINTS, NAMES, Person, Posture, Sex, Size, Written, yaml};
+use bryant_generator::human::{JOINTS, NAMES, Neutral, Person, Posture, Sex, Size, Written, yaml};
 use clap::ValueEnum;
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
@@ -53,6 +53,10 @@ pub struct Arguments {
     #[arg(long = "angle", value_name = "NAME=ANGLE", allow_hyphen_values = true)]
     angles: Vec<String>,
 
+    /// Where the elastic torques of spine and neck are 0: in the posture, or upright whatever the posture
+    #[arg(long, value_enum, default_value_t = NeutralName::Posture)]
+    neutral: NeutralName,
+
     /// Write a model in the plane: x forward, z up
     #[arg(long)]
     planar: bool,
@@ -78,6 +82,14 @@ enum PostureName {
     Standing,
     /// Thighs forward, shanks down
     Seated,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum NeutralName {
+    /// In the posture at the start
+    Posture,
+    /// Upright
+    Upright,
 }
 
 fn length(text: &str) -> Result<f64, quantity::QuantityError> {
@@ -133,6 +145,10 @@ impl Arguments {
             name: &self.name,
             posture,
             planar: self.planar,
+            neutral: match self.neutral {
+                NeutralName::Posture => Neutral::Posture,
+                NeutralName::Upright => Neutral::Upright,
+            },
         };
         let text = yaml(&person, written).map_err(Error::Input)?;
         match &self.output {

@@ -1,6 +1,6 @@
 //! Responses that are requested on the command line: numbers that are read off a run.
 //!
-//! `HIC15 of head acceleration`, `3 ms clip of chest acceleration`: WHAT of OUTPUT, as a study heads its columns.
+//! `HIC15 of head accelerometer`, `3 ms clip of chest acceleration`: WHAT of OUTPUT, as a study heads its columns.
 
 use super::Error;
 use super::model_argument::nearest;
@@ -22,6 +22,8 @@ pub struct Requested {
     pub window: Option<f64>,
     /// The response as a request to the runtime.
     pub asked: Asked,
+    /// A warning about it.
+    pub caution: Option<String>,
 }
 
 /// A run has at most this many samples, as in a study: they are kept until its end.
@@ -108,6 +110,7 @@ impl Requested {
                 channel: response.channel,
                 response: response_of(response.what),
             },
+            caution: None,
         }
     }
 
@@ -170,6 +173,7 @@ impl Requested {
                 channel: channel_of(output, filter.as_deref().or(of.filter.as_deref())),
                 response: response_of(what),
             },
+            caution: what.caution(of),
         })
     }
 }

@@ -200,7 +200,7 @@ pub struct Arguments {
     )]
     corridor: Vec<String>,
 
-    /// Response that is read off the run, as WHAT of OUTPUT: 'HIC15 of head acceleration', '3 ms clip of chest
+    /// Response that is read off the run, as WHAT of OUTPUT: 'HIC15 of head accelerometer', '3 ms clip of chest
     /// acceleration', 'time of peak of belt force', 'value at 80 ms of head excursion'. Some words of an output's name suffice. May be
     /// repeated
     #[arg(
@@ -296,6 +296,9 @@ impl Arguments {
             let start = state_file::read(path, engine.info()).map_err(Error::Input)?;
             responses = Responses::of(&self, &found, start.t)?;
             job.start = Some(start);
+        }
+        for caution in responses.cautions() {
+            terminal.note(&format!("warning: {caution}"));
         }
         job.reading = responses.reading.clone();
         let job = job;

@@ -269,6 +269,7 @@ impl Watched {
                 unit: String::new(),
                 code: None,
                 filter: None,
+                channel: None,
             });
         };
         let first_element = own + 3 * forces.len();

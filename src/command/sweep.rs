@@ -113,6 +113,13 @@ impl Arguments {
         let found = model_of(&file, directory)?;
         let facts = ModelFacts::of(&found.scene);
         let study = file.resolve(&facts, directory).map_err(Error::Model)?;
+        for caution in study
+            .responses
+            .iter()
+            .filter_map(|one| one.caution(&facts.outputs))
+        {
+            terminal.note(&format!("warning: {caution}"));
+        }
         if self.plan {
             return plan(&study, &found, terminal);
         }

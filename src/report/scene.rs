@@ -37,6 +37,7 @@ pub fn with_forces(model: &Model) -> Model {
                     unit: "N".into(),
                     code: None,
                     filter: None,
+                    channel: None,
                 });
             }
         }

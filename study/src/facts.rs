@@ -2,7 +2,10 @@
 
 use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::model::scene::Scene;
-use bryant_generator::model::{Dimension, Quantity};
+use bryant_generator::model::{
+    Body, Dimension, Field, FieldComponent, ForceKind, Model, PointQuantity, Quantity,
+};
+use bryant_runtime::response::STANDARD_GRAVITY;
 use bryant_runtime::response::filter::Standard;
 use serde::{Deserialize, Serialize};
 
@@ -94,6 +97,15 @@ pub struct OutputFact {
     /// For kinematics of a body: whether it is the length of a vector, or one of its components.
     #[serde(default)]
     pub resultant: Option<bool>,
+    /// Whether it has the axes and signs of SAE J211-1 and ISO 6487.
+    #[serde(default)]
+    pub standard: bool,
+    /// What is to be known of the place where it measures.
+    #[serde(default)]
+    pub remark: Option<String>,
+    /// For an acceleration that no instrument reads: why.
+    #[serde(default)]
+    pub unread: Option<String>,
 }
 
 impl CriteriaFact {
@@ -128,6 +140,9 @@ impl ModelFacts {
                 }
                 _ => None,
             },
+            standard: output.channel.is_some(),
+            remark: (output.channel.and_then(|channel| channel.remark)).map(str::to_owned),
+            unread: unread(model, &output.quantity),
         });
         let criteria = scene.criteria.as_ref().map(|criteria| CriteriaFact {
             standard: criteria.standard.clone(),
@@ -176,6 +191,49 @@ impl ModelFacts {
             .enumerate()
             .find(|(_, o)| o.name == name)
     }
+}
+
+/// A field is gravity if it is constant, points down within this slope, and has no more than this many times standard gravity.
+const SLOPE: f64 = 0.6;
+const LARGEST: f64 = 1.1;
+
+/// Why no instrument reads an acceleration: a field other than gravity acts on the element, or the observer moves.
+fn unread(model: &Model, quantity: &Quantity) -> Option<String> {
+    let Quantity::Point {
+        body,
+        what: PointQuantity::Acceleration,
+        relative_to,
+        ..
+    } = quantity
+    else {
+        return None;
+    };
+    if *relative_to != Body::Frame {
+        return Some("it is an `acceleration` relative to another body".to_owned());
+    }
+    let Body::Element(id) = body else { return None };
+    let defaults: Vec<f64> = model.parameters.iter().map(|one| one.default).collect();
+    let field = model.forces.iter().find(|force| match &force.kind {
+        ForceKind::Field(field) => field.on.contains(id) && !is_gravity(field, &defaults),
+        _ => false,
+    })?;
+    Some(format!(
+        "it is an `acceleration`, and the field {} acts there, which no instrument feels",
+        quoted(&field.name)
+    ))
+}
+
+fn is_gravity(field: &Field, defaults: &[f64]) -> bool {
+    let constant = field
+        .acceleration
+        .each_ref()
+        .map(|component| match component {
+            FieldComponent::Constant(number) => number.value(defaults),
+            FieldComponent::Curve(_) => f64::NAN,
+        });
+    let [x, y, z] = constant;
+    let across = x.hypot(y);
+    across.hypot(z) <= LARGEST * STANDARD_GRAVITY && across <= SLOPE * -z
 }
 
 impl ParameterFact {

@@ -1,8 +1,10 @@
 //! Responses: one number for each run, read off the time series of an output. This file has their names and units; the engine computes
 //! them.
 
+use crate::facts::OutputFact;
 use crate::quantity::dimension;
 use bryant_generator::description::unit::Dimension;
+use bryant_generator::diagnostic::quoted;
 use bryant_runtime::response::Channel;
 use bryant_runtime::response::filter::Filter;
 use serde::Serialize;
@@ -28,6 +30,12 @@ pub struct Response {
 }
 
 impl Response {
+    /// The warning about a response of an acceleration that no instrument reads, with a remedy.
+    pub fn caution(&self, outputs: &[OutputFact]) -> Option<String> {
+        let mut of = self.channel.outputs().iter();
+        of.find_map(|index| self.what.caution(outputs.get(*index)?))
+    }
+
     /// The longest time between samples that its filter allows \[s\], if it has a filter.
     pub fn longest_interval(&self) -> Option<f64> {
         self.channel
@@ -130,6 +138,21 @@ impl What {
     /// Whether it needs an acceleration.
     pub fn is_injury_criterion(self) -> bool {
         matches!(self, What::Hic15 | What::Hic36 | What::Olc)
+    }
+
+    /// Whether it judges what an accelerometer reads.
+    fn is_of_instrument(self) -> bool {
+        self.is_injury_criterion()
+            || matches!(self, What::Clip { .. } | What::ContiguousClip { .. })
+    }
+
+    /// The warning about this response of an acceleration that no instrument reads, with a remedy.
+    pub fn caution(self, of: &OutputFact) -> Option<String> {
+        let why = of.unread.as_ref().filter(|_| self.is_of_instrument())?;
+        Some(format!(
+            "{} is no reading of an instrument: {why}\n  help: take `what: accelerometer` for criteria",
+            quoted(&of.name)
+        ))
     }
 
     /// The length of its window \[s\], if it has one.

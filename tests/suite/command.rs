@@ -13,6 +13,7 @@ mod judged;
 mod long;
 mod people;
 mod pictures;
+mod polarity;
 mod reports;
 mod responses;
 mod resting;

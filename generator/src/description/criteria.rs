@@ -56,6 +56,8 @@ places! {
     head_wz,
     /// How far the head comes forward in the seat.
     head_excursion,
+    /// The head whose joint is the upper neck: its shear force, axial force and moment.
+    neck,
     /// Shear force at the upper neck.
     neck_fx,
     /// Axial force at the upper neck, tension positive.

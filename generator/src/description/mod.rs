@@ -64,6 +64,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<system::Riding>(),
         of::<system::Start>(),
         of::<element::Element>(),
+        of::<element::Anatomy>(),
         of::<joint::Freedom>(),
         of::<joint::Follows>(),
     ];

@@ -4,11 +4,11 @@ use super::place::At;
 use super::quantity::Quantity;
 use super::shape::Problems;
 use super::shape::Shape as _;
-use super::short::{Human, HumanAngles, HumanName, HumanPosture, HumanSex};
+use super::short::{Human, HumanAngles, HumanName, HumanNeutral, HumanPosture, HumanSex};
 use super::tree::Kind;
 use super::unit::{Dimension, unit};
 use crate::diagnostic::quoted;
-use crate::human::{Person, Posture, Sex, Size, Written, yaml};
+use crate::human::{Neutral, Person, Posture, Sex, Size, Written, yaml};
 
 /// The text of a person who stands at `at`, with the keys `human` and `system`; what is wrong is reported.
 pub fn text(at: At<'_>, planar: bool, problems: &Problems) -> Option<String> {
@@ -35,6 +35,10 @@ pub fn text(at: At<'_>, planar: bool, problems: &Problems) -> Option<String> {
         name: &name,
         posture,
         planar,
+        neutral: match written.neutral {
+            Some(HumanNeutral::Upright) => Neutral::Upright,
+            Some(HumanNeutral::Posture) | None => Neutral::Posture,
+        },
     };
     match yaml(&person, how) {
         Ok(text) => Some(text),

@@ -59,6 +59,18 @@ record! {
         posture: Option<HumanPosture>,
         /// Other angles than those of the posture.
         angles: Option<HumanAngles>,
+        /// Where the elastic torques of spine and neck are 0.
+        neutral: Option<HumanNeutral>,
+    }
+}
+
+words! {
+    /// Where the elastic torques of spine and neck are 0.
+    HumanNeutral {
+        /// In the posture at the start.
+        Posture = "posture",
+        /// Upright, whatever the posture.
+        Upright = "upright",
     }
 }
 

@@ -1,7 +1,7 @@
 //! Systems as written: trees of elements, their reference joints, where they start.
 
 use super::curve::Function;
-use super::element::Element;
+use super::element::{Anatomy, Element};
 use super::place::At;
 use super::quantity::{OneOrThree, Quantity};
 use super::shape::{Misfit, Named, Problems, Shape, check_record, check_word, record};
@@ -17,6 +17,8 @@ record! {
         reference: Option<Reference>,
         /// Its elements; left out where an included file describes the system.
         elements: Option<Vec<Element>>,
+        /// Which axes of its elements are forward and up, where they are not x and z.
+        anatomy: Option<Anatomy>,
         /// Where it starts.
         start: Option<Start>,
     }

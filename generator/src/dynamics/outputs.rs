@@ -34,7 +34,11 @@ pub fn outputs<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
         .iter()
         .map(|output| {
             scene.graph.section(format!("output {}", output.name));
-            scene.quantity(&output.quantity)
+            let value = scene.quantity(&output.quantity);
+            match output.channel {
+                Some(channel) if channel.reversed => -value,
+                _ => value,
+            }
         })
         .collect()
 }

@@ -23,4 +23,4 @@ pub use body::{Body, Element, Shape, body};
 pub use data::Sex;
 pub use posture::{JOINTS, Posture};
 pub use size::{NAMES, Person, Size};
-pub use text::{Written, yaml};
+pub use text::{Neutral, Written, yaml};

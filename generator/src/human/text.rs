@@ -189,6 +189,18 @@ pub struct Written<'n> {
     pub posture: Posture,
     /// Whether the model is planar: one arm and one leg then stand for both.
     pub planar: bool,
+    /// Where the elastic torques of spine and neck are 0.
+    pub neutral: Neutral,
+}
+
+/// Where the elastic torques of spine and neck are 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Neutral {
+    /// In the posture at the start.
+    #[default]
+    Posture,
+    /// Upright, whatever the posture.
+    Upright,
 }
 
 /// The file of a person: a system with its surfaces and joint forces.
@@ -354,6 +366,12 @@ impl Scene<'_> {
             ", mass: {:.4} kg, cg: {cg}, inertia: {inertia}",
             both * mass
         );
+        if element.name == "head" {
+            text.push_str(match self.dummy {
+                Some(_) => ", neck: lower",
+                None => ", neck: within",
+            });
+        }
         text
     }
 
@@ -365,11 +383,6 @@ impl Scene<'_> {
             false => format!("[0, 0, {height}]"),
         };
         let _ = writeln!(text, "    start:\n      position: {position}");
-        let degrees = |angle: f64| {
-            let text = number(angle.to_degrees(), 3);
-            let text = text.trim_end_matches('0').trim_end_matches('.');
-            format!("{} deg", if text.is_empty() { "0" } else { text })
-        };
         let [trunk, head] = [posture.angle("trunk"), posture.angle("head")];
         let arm = posture.angle("upper_arms");
         let forearm = arm + posture.angle("forearms");
@@ -439,7 +452,16 @@ impl Scene<'_> {
                 (Some(dummy), "head") => (&DUMMY_NECK, dummy.neck / NECK),
                 (Some(_), _) => (of_people, DUMMY_LUMBAR * self.factor),
             };
-            let forward = forward.keys(factor);
+            let neutral = match (self.written.neutral, *joint) {
+                // the parts of the trunk lean alike
+                (Neutral::Posture, "head") => self.written.posture.angle("head"),
+                _ => 0.0,
+            };
+            let neutral = match neutral {
+                0.0 => String::new(),
+                angle => format!("neutral: {}, ", degrees(angle)),
+            };
+            let forward = format!("{neutral}{}", forward.keys(factor));
             let law = match self.written.planar {
                 true => forward,
                 false => format!(
@@ -478,6 +500,16 @@ impl Scene<'_> {
             );
         }
     }
+}
+
+/// An angle in degrees, to three decimals.
+fn degrees(angle: f64) -> String {
+    let text = number(angle.to_degrees(), 3);
+    let text = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
+    };
+    format!("{text} deg")
 }
 
 fn number(x: f64, digits: usize) -> String {

@@ -394,6 +394,18 @@ pub struct Output {
     /// The filter that tables, responses and studies apply: `CFC60`, `CFC180`, `CFC600` or `CFC1000`, of SAE J211-1 with `SAE` in front. The generated code has what
     /// is not filtered.
     pub filter: Option<&'static str>,
+    /// What it is as a channel of a test: of an output with a code that says a direction, or that the criteria name.
+    pub channel: Option<Channel>,
+}
+
+/// An output in the axes and signs of SAE J211-1 and ISO 6487: x forward, y to the right, z down; loads are those of the lower part on the
+/// upper one, of a body that stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Channel {
+    /// Whether it is the opposite of the quantity.
+    pub reversed: bool,
+    /// What is to be known of its place.
+    pub remark: Option<&'static str>,
 }
 
 /// By what a run is judged.
@@ -409,7 +421,7 @@ pub struct Criteria {
     pub places: Vec<(String, String)>,
 }
 
-/// The digest of a model is made of this: a code or a filter that there is not leaves no trace.
+/// The digest of a model is made of this: a code, a filter or a reversal that there is not leaves no trace.
 impl fmt::Debug for Output {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Output {
@@ -418,6 +430,7 @@ impl fmt::Debug for Output {
             unit,
             code,
             filter,
+            channel,
         } = self;
         let mut text = f.debug_struct("Output");
         text.field("name", name)
@@ -428,6 +441,9 @@ impl fmt::Debug for Output {
         }
         if let Some(filter) = filter {
             text.field("filter", filter);
+        }
+        if channel.is_some_and(|channel| channel.reversed) {
+            text.field("reversed", &true);
         }
         text.finish()
     }

@@ -524,6 +524,7 @@ impl Model {
             unit: _,
             code: _,
             filter: _,
+            channel: _,
         } in outputs
         {
             numbers.extend(of_quantity(quantity));

@@ -106,7 +106,7 @@ impl Criteria {
         }
         let mut answers = recording.answers.iter().skip(first);
         let rows = self.judged.iter().map(|one| {
-            let mut detail = one.detail.to_owned();
+            let mut detail = one.detail.clone();
             let value = one
                 .response
                 .as_ref()
@@ -115,7 +115,9 @@ impl Criteria {
                     if let (Combination::Nij(neck), Some([fx, fz, my, ..])) =
                         (response.channel.combination, recording.kept.get(kept..))
                     {
-                        detail = mode([fx, fz, my], &neck, [recording.first_time(), every]);
+                        let mode = mode([fx, fz, my], &neck, [recording.first_time(), every]);
+                        let both = [mode, detail.clone()];
+                        detail = both.join("; ").trim_end_matches("; ").to_owned();
                     }
                     let value = answers.next().map_or(f64::NAN, |answer| answer.value);
                     match value.is_finite() {

@@ -97,6 +97,11 @@ impl Responses {
         })
     }
 
+    /// The warnings about the requested responses.
+    pub fn cautions(&self) -> impl Iterator<Item = &str> {
+        self.asked.iter().filter_map(|one| one.caution.as_deref())
+    }
+
     /// The verdict about the run. The outer value is `None` if no criteria are requested.
     pub fn verdict(&self, recording: &Recording) -> Option<Option<Verdict>> {
         let criteria = self.criteria.as_ref()?;
@@ -204,7 +209,10 @@ impl Requests {
             let (responses, every) = study
                 .responses(facts, end, arguments.sampling)
                 .map_err(Error::Model)?;
-            let responses = responses.iter().map(Requested::of_study);
+            let responses = responses.iter().map(|one| Requested {
+                caution: one.caution(&facts.outputs),
+                ..Requested::of_study(one)
+            });
             requests.responses.extend(responses);
             requests.sampling = Some(every);
             let other = study.duration(facts).filter(|other| *other != end);

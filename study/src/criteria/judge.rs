@@ -1,8 +1,8 @@
 //! The criteria of a model: the outputs that they are read off.
 
 use super::limits::{self, Limits};
-use super::{CRITERIA, Criterion, Missing, PLACES, fits};
-use crate::facts::{CriteriaFact, ModelFacts};
+use super::{CRITERIA, Criterion, Missing, PLACES, Place, fits};
+use crate::facts::{CriteriaFact, ModelFacts, OutputFact};
 use crate::quantity::dimension;
 use crate::response::Response;
 use bryant_runtime::response::Channel;
@@ -17,7 +17,7 @@ pub struct Judged {
     /// How it is read off a run \[SI\], or why it is not.
     pub response: Result<Response, Missing>,
     /// A remark on it.
-    pub detail: &'static str,
+    pub detail: String,
 }
 
 /// The criteria of a model by a regulation: all criteria that the regulation limits, and the criteria at places for which it limits none.
@@ -36,7 +36,7 @@ pub fn judge(facts: &ModelFacts, asked: &CriteriaFact) -> Result<(Limits, Vec<Ju
         );
         let (response, detail) = match formed {
             Ok((response, detail)) => (Ok(response), detail),
-            Err(missing) => (Err(missing), ""),
+            Err(missing) => (Err(missing), String::new()),
         };
         Judged {
             criterion,
@@ -65,7 +65,7 @@ fn response(
     facts: &ModelFacts,
     (limits, standard): (&Limits, Standard),
     found: &[(&'static str, usize)],
-) -> Result<(Response, &'static str), Missing> {
+) -> Result<(Response, String), Missing> {
     let output = |place: &str| found.iter().find(|(name, _)| *name == place);
     let formed = criterion.formed(limits, &|place| output(place).is_some(), facts.planar)?;
     let indices = formed.places.iter().filter_map(|place| output(place));
@@ -89,7 +89,13 @@ fn response(
         what: formed.what,
         unit,
     };
-    Ok((response, formed.detail))
+    let remarks = indices
+        .iter()
+        .map(|index| facts.outputs[*index].remark.as_deref());
+    let mut detail: Vec<&str> = remarks.flatten().chain([formed.detail]).collect();
+    detail.dedup();
+    detail.retain(|text| !text.is_empty());
+    Ok((response, detail.join("; ")))
 }
 
 /// The response of a criterion for a model that names its regulation.
@@ -145,6 +151,27 @@ fn si(shown: &str) -> &str {
     }
 }
 
+/// Refuses an output that would be judged as what it is not: an acceleration that no instrument reads, or a load of the neck in the axes of the model.
+fn is_a_reading(output: &OutputFact, place: &Place) -> Result<(), String> {
+    let name = &output.name;
+    if let Some(why) = &output.unread {
+        return Err(format!(
+            "the output \"{name}\" at the place {} is no reading of an instrument: {why}\n  help: name an output with `what: accelerometer`",
+            place.name
+        ));
+    }
+    let is_signed = place.name.starts_with("neck");
+    match is_signed && !output.standard {
+        true => Err(format!(
+            "the output \"{name}\" at the place {} has the axes of the model, and not those of SAE J211\n  \
+             help: write `criteria: {{ neck: SYSTEM/HEAD }}` in the model, or give the output its `code`, such as 11NECKUP00H3{}A",
+            place.name,
+            &place.code[12..15]
+        )),
+        false => Ok(()),
+    }
+}
+
 /// The outputs at the places of a dummy, by the names of the places: outputs that the user names, else outputs with the channel code of the
 /// place.
 fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str, usize)>, String> {
@@ -185,6 +212,7 @@ fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str
                 facts.outputs[index].name, place.name, place.unit
             ));
         }
+        is_a_reading(&facts.outputs[index], place)?;
         let resultant = facts.outputs[index].resultant;
         let whole = ["head", "chest"].contains(&place.name);
         let part = [

@@ -65,7 +65,9 @@ mod tests {
             .iter()
             .find(|(title, _)| *title == "a set of criteria")
             .unwrap();
-        let keys = keys.iter().map(|key| key.name.replace('_', "-"));
+        // a head is three places of the neck
+        let keys = keys.iter().filter(|key| key.name != "neck");
+        let keys = keys.map(|key| key.name.replace('_', "-"));
         let places = PLACES.iter().map(|place| place.name.to_owned());
         let others = ["standard", "dummy", "filter-standard"].map(str::to_owned);
         assert!(keys.eq(others.into_iter().chain(places)));

@@ -173,6 +173,11 @@ impl Expander<'_> {
                 }
                 image.change("axes", |n| self.axial(n));
                 image.change("inertia", |n| self.tensor(n));
+                if let Some(anatomy) = image.get_mut("anatomy") {
+                    for key in ["forward", "up"] {
+                        anatomy.change(key, |n| self.direction(n));
+                    }
+                }
                 if let Some(joint) = joint {
                     image.set("joint", joint);
                 }
@@ -505,6 +510,17 @@ impl Expander<'_> {
     pub(crate) fn body(&self, path: &Node) -> Node {
         let image = path.text().and_then(|text| self.known.images.get(text));
         image.map_or_else(|| path.clone(), |image| path.with_text(image))
+    }
+
+    /// A direction by the name of an axis: x, -x.
+    fn direction(&self, direction: &Node) -> Node {
+        let text = direction.text().unwrap_or_default();
+        let axis = ["x", "y", "z"][self.words.axis];
+        match text.strip_prefix('-') {
+            Some(rest) if rest == axis => direction.with_text(axis),
+            None if text == axis => direction.with_text(format!("-{axis}")),
+            _ => direction.clone(),
+        }
     }
 
     /// The tensor of inertia \[xx, yy, zz, xy, xz, yz\], whose products with the reversed axis change sign; moments are what they are.

@@ -7,6 +7,7 @@
 //! Each step uses only what the steps before it have resolved, and goes on after a problem, so that all are reported.
 
 pub(crate) mod applied;
+pub(crate) mod channel;
 mod criteria;
 pub(crate) mod curve;
 mod element;
@@ -149,6 +150,8 @@ pub struct Resolver<'a> {
     pub(crate) elements: HashMap<String, ElementId>,
     /// The paths in order.
     pub(crate) paths: Vec<String>,
+    /// What the elements are of a body, where the text says so.
+    pub(crate) parts: HashMap<ElementId, channel::BodyPart>,
     pub(crate) forces: Vec<Force>,
     /// Forces that are left out: kind and name.
     pub(crate) disabled: Vec<(&'static str, String)>,
@@ -177,6 +180,7 @@ impl<'a> Resolver<'a> {
             systems: Vec::new(),
             elements: HashMap::new(),
             paths: Vec::new(),
+            parts: HashMap::new(),
             forces: Vec::new(),
             disabled: Vec::new(),
             off: Vec::new(),
@@ -433,6 +437,11 @@ impl<'a> Resolver<'a> {
     }
 
     /// The path of an element.
+    /// What an element is of a body.
+    pub(crate) fn part(&self, id: ElementId) -> channel::BodyPart {
+        self.parts.get(&id).copied().unwrap_or_default()
+    }
+
     pub(crate) fn path(&self, id: ElementId) -> String {
         let system = &self.systems[id.system];
         format!("{}/{}", system.name, system.elements[id.element].name)

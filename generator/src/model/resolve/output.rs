@@ -1,5 +1,6 @@
 //! Outputs: what of which, and the unit of the column.
 
+use super::channel::{self, Wanted};
 use super::quantity::LENGTH;
 use super::vehicle::vehicle_named;
 use super::{NOWHERE, Resolver};
@@ -107,8 +108,31 @@ pub(super) fn output(
         let filter = written.filter.map(|class| class.said().1);
         check_code(resolver, code, filter, at.key("code"));
     }
-    let quantity = resolver.quantity(written, at, off);
+    let quantity = match &code {
+        Some(_) => resolver.quantity(&channel::with_axes(written), at, off),
+        None => resolver.quantity(written, at, off),
+    };
     let (quantity, unit) = quantity.filter(|_| !off)?;
+    let (quantity, channel) = match code
+        .as_deref()
+        .zip(code.as_deref().and_then(channel::direction))
+    {
+        Some((code, direction)) => {
+            let wanted = Wanted {
+                direction,
+                upper_neck: channel::is_upper_neck(code),
+                says_axes: written.axes.is_some(),
+                by: &format!("the channel code {code}"),
+                at: at.key("code"),
+            };
+            // of a wrong one the rest is looked at, too
+            match channel::channel(resolver, quantity.clone(), wanted) {
+                Some((quantity, channel)) => (quantity, Some(channel)),
+                None => (quantity, None),
+            }
+        }
+        None => (quantity, None),
+    };
     if written.filter.is_some() && quantity.is_resultant() {
         resolver.problems.add(at.key("filter").problem(
             "a resultant is not filtered: sensors measure components, and their filtered values make the resultant",
@@ -121,6 +145,7 @@ pub(super) fn output(
         unit: unit.to_owned(),
         code,
         filter: written.filter.map(|class| class.said().0),
+        channel,
     })
 }
 

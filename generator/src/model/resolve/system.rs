@@ -1,10 +1,12 @@
 //! Systems: their elements, what their reference joints do, where they start.
 
+use super::channel::{Anatomy as BodyAxes, BodyPart};
 use super::element::tree;
 use super::quantity::{ANGLE, LENGTH, RATE, SPEED};
 use super::translation::{Ways, translation};
 use super::vehicle::{ridden_at_start, vehicle_named};
 use super::{NOWHERE, Resolver, name::Style};
+use crate::description::element::Anatomy;
 use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::description::quantity::OneOrThree;
@@ -54,8 +56,38 @@ pub(super) fn systems(resolver: &mut Resolver<'_>, loaded: &Loaded) {
     for entry in &entries {
         let system = system(resolver, entry);
         resolver.enter_system(system);
+        parts(resolver, entry);
     }
     resolver.too_many_elements(last.source.at());
+}
+
+/// Enters which axes of the elements of a system are forward and up, and which heads have the neck in them.
+fn parts(resolver: &mut Resolver<'_>, entry: &Entry<'_>) {
+    let planar = resolver.planar;
+    let read = |resolver: &Resolver<'_>, written: Option<&Anatomy>, at: At<'_>| {
+        let read = BodyAxes::of(written?, planar);
+        if read.is_none() {
+            resolver.problems.add(at.key("anatomy").problem(
+                "forward and up are not at right angles, or not in the plane",
+                "write `anatomy: { forward: x, up: z }` with other axes, such as -x",
+            ));
+        }
+        read
+    };
+    let system = &entry.written.name;
+    let of_all = read(resolver, entry.written.anatomy.as_ref(), entry.at);
+    for (index, element) in entry.written.elements.iter().flatten().enumerate() {
+        let at = entry.at.key("elements").item(index);
+        let own = read(resolver, element.anatomy.as_ref(), at);
+        let part = BodyPart {
+            anatomy: own.or(of_all).unwrap_or_default(),
+            neck: element.neck,
+        };
+        let path = format!("{system}/{}", element.name);
+        if let Some(id) = resolver.elements.get(&path) {
+            resolver.parts.insert(*id, part);
+        }
+    }
 }
 
 /// Adds a system, or what a file says of a system that an included file describes.
