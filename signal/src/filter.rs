@@ -18,10 +18,31 @@ pub fn letter(class: Class) -> char {
 /// The class with which the samples of a channel were filtered, by its channel code of ISO-MME; `None` if the code gives none or is not a
 /// code.
 pub fn class_of_code(code: &str) -> Option<Class> {
+    let last = last_of_code(code)?;
+    // E to H are A to D of the editions of 1987 and 1988
+    let last = match last {
+        'E'..='H' => char::from(last as u8 - b'E' + b'A'),
+        last => last,
+    };
+    Class::ALL.into_iter().find(|class| letter(*class) == last)
+}
+
+/// The filter of a channel that is none of the classes and takes away more than they do, or that is not known well enough to be followed by
+/// another; in words, by the channel code of ISO-MME.
+pub fn narrow_filter(code: &str) -> Option<&'static str> {
+    match last_of_code(code)? {
+        '1' => Some("the filter FIR 100"),
+        'L' => Some("CFC20"),
+        'Q' => Some("a filter below CFC60"),
+        'X' => Some("nothing, for it is no time history"),
+        _ => None,
+    }
+}
+
+/// The last character of a channel code, which is the filter.
+fn last_of_code(code: &str) -> Option<char> {
     let last = code.chars().nth(15).filter(|_| code.len() == 16);
-    Class::ALL
-        .into_iter()
-        .find(|class| Some(letter(*class)) == last)
+    last.map(|last| last.to_ascii_uppercase())
 }
 
 /// A class, written as `CFC180`, `cfc 180` or `180`.

@@ -20,5 +20,5 @@ mod signal;
 pub mod table;
 pub mod unit;
 
-pub use recording::{Channel, ReadError, Recording};
+pub use recording::{Channel, NoChannel, ReadError, Recording};
 pub use signal::Signal;

@@ -9,13 +9,18 @@
 //! | magnitude | 0.2 | where the shifted signals overlap, C is warped in time onto R (dynamic time warping, within 10 %): 1 − E/0.5, E = Σ\|C − R\|/Σ\|R\| |
 //! | slope | 0.2 | there, too, of the slopes, each the mean of nine: 1 − E/2 |
 //!
-//! The phase takes the smallest shift among those that correlate best, a shift to the left before one to the right. If several paths of the
+//! The phase takes the smallest shift among those that correlate best, a shift to the left before one to the right. Periodic signals, ramps
+//! and exponentials correlate equally well at many shifts; correlations count as equal within `ROUNDING`. If several paths of the
 //! warping cost the same, a step along both signals is taken first, then one along the reference alone, then one along the comparison.
 
 use thiserror::Error;
 
 /// Samples per second in ISO 18571.
 pub const RATE: f64 = 1e4;
+
+/// Correlations that differ by less count as equal. The sums of a correlation round by about 1e-16 for each sample, so by 1e-11 for
+/// 10 s; a signal that a file gives with six digits changes a correlation of 1 by about 1e-12.
+const ROUNDING: f64 = 1e-9;
 
 /// The agreement of two signals; each number is from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +49,7 @@ pub enum RatingError {
     /// A sample is missing.
     #[error("a sample is missing")]
     Missing,
-    /// The reference never changes, or is 0.
+    /// The reference never changes, and the comparison differs from it.
     #[error("the reference does not change, so nothing can be rated by it")]
     Constant,
 }
@@ -74,6 +79,15 @@ impl std::fmt::Display for Grade {
 }
 
 impl Rating {
+    /// The rating of a signal beside itself.
+    const SAME: Rating = Rating {
+        corridor: 1.0,
+        phase: 1.0,
+        magnitude: 1.0,
+        slope: 1.0,
+        late: 0,
+    };
+
     /// The weighted mean.
     pub fn overall(&self) -> f64 {
         0.4 * self.corridor + 0.2 * (self.phase + self.magnitude + self.slope)
@@ -93,7 +107,7 @@ impl Rating {
 /// Rates a comparison by a reference, both at 10 kHz over the rated interval.
 ///
 /// # Errors
-/// The signals have different lengths or are too short, a sample is missing, or the reference never changes.
+/// The signals have different lengths or are too short, a sample is missing, or the reference never changes and differs from the comparison.
 pub fn rate(reference: &[f64], comparison: &[f64]) -> Result<Rating, RatingError> {
     let count = reference.len();
     if comparison.len() != count {
@@ -106,7 +120,10 @@ pub fn rate(reference: &[f64], comparison: &[f64]) -> Result<Rating, RatingError
         return Err(RatingError::Missing);
     }
     if reference.iter().all(|x| *x == reference[0]) {
-        return Err(RatingError::Constant);
+        return match reference == comparison {
+            true => Ok(Rating::SAME),
+            false => Err(RatingError::Constant),
+        };
     }
     let late = best_shift(reference, comparison);
     let shift = late.unsigned_abs() as usize;
@@ -147,18 +164,19 @@ fn corridor(reference: &[f64], comparison: &[f64]) -> f64 {
 /// Number of samples by which the comparison is late.
 fn best_shift(reference: &[f64], comparison: &[f64]) -> i64 {
     let count = reference.len();
-    let mut best = (correlation(reference, comparison), 0);
+    // in the order in which a shift is preferred
+    let mut all = vec![(correlation(reference, comparison), 0)];
     for shift in 1..=count / 5 {
         let (short, long) = (count - shift, shift);
         let late = correlation(&reference[..short], &comparison[long..]);
         let early = correlation(&reference[long..], &comparison[..short]);
-        for (value, shift) in [(late, shift as i64), (early, -(shift as i64))] {
-            if value > best.0 {
-                best = (value, shift);
-            }
-        }
+        all.extend([(late, shift as i64), (early, -(shift as i64))]);
     }
-    best.1
+    let best = all
+        .iter()
+        .fold(-1.0, |best: f64, (value, _)| best.max(*value));
+    let first = all.iter().find(|(value, _)| *value >= best - ROUNDING);
+    first.map_or(0, |(_, shift)| *shift)
 }
 
 /// Pearson's coefficient; −1 for a signal that does not change, because it correlates with nothing.
@@ -240,7 +258,7 @@ fn warped_error(reference: &[f64], comparison: &[f64]) -> f64 {
         apart += (comparison[j] - reference[i]).abs();
         size += reference[i].abs();
         if i == 0 && j == 0 {
-            return apart / size;
+            return relative(apart, size);
         }
         let step = steps[i * width + (j + band - i)];
         i -= usize::from(step != Step::Comparison);
@@ -252,7 +270,15 @@ fn warped_error(reference: &[f64], comparison: &[f64]) -> f64 {
 fn slope_error(reference: &[f64], comparison: &[f64]) -> f64 {
     let (r, c) = (smooth(&slopes(reference)), smooth(&slopes(comparison)));
     let apart: f64 = r.iter().zip(&c).map(|(r, c)| (c - r).abs()).sum();
-    apart / r.iter().map(|r| r.abs()).sum::<f64>()
+    relative(apart, r.iter().map(|r| r.abs()).sum())
+}
+
+/// A difference as a share of a size; nothing is no difference from nothing.
+fn relative(apart: f64, size: f64) -> f64 {
+    match apart == 0.0 {
+        true => 0.0,
+        false => apart / size,
+    }
 }
 
 /// Central differences, per sample; one-sided at the ends.
@@ -349,6 +375,87 @@ mod tests {
         assert_eq!((late.late, early.late), (50, -50));
         assert!((late.phase - (1.0 - 50.0 / 200.2)).abs() < 1e-12 && late.phase == early.phase);
         assert_eq!(late.grade(), Grade::Good);
+    }
+
+    /// Deterministic noise from -1 to 1.
+    fn noise(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed;
+        move || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+
+    /// Every signal beside itself rates 1, whatever its shape, size and offset, also where it correlates equally well at other shifts.
+    #[test]
+    fn a_signal_beside_itself_rates_one() {
+        let mut all: Vec<(String, Vec<f64>)> = Vec::new();
+        // up to half the rate of the samples, whole and odd numbers of periods
+        for frequency in [
+            0.3, 1.0, 7.3, 10.0, 50.0, 123.4, 500.0, 1000.0, 2500.0, 3333.3, 4999.0, 5000.0,
+        ] {
+            for phase in [0.0, 0.7] {
+                let of = |t: f64| (2.0 * PI * frequency * t + phase).sin();
+                all.push((format!("sine {frequency} Hz, {phase}"), samples(1001, of)));
+            }
+        }
+        for rate in [-300.0, -20.0, 0.01, 5.0, 200.0] {
+            let of = |t: f64| (rate * t).exp();
+            all.push((format!("exponential {rate}"), samples(1501, of)));
+        }
+        all.push(("ramp".to_owned(), samples(1000, |t| 3.0 - 7.0 * t)));
+        all.push(("velocity of a fall".to_owned(), samples(999, |t| 9.81 * t)));
+        all.push((
+            "height of a fall".to_owned(),
+            samples(999, |t| 2.0 - 4.905 * t * t),
+        ));
+        all.push(("step".to_owned(), samples(800, |t| f64::from(t > 0.04))));
+        all.push((
+            "last sample".to_owned(),
+            samples(800, |t| f64::from(t > 0.07985)),
+        ));
+        for constant in [0.0, -2.5, 1e9] {
+            all.push((format!("constant {constant}"), vec![constant; 500]));
+        }
+        for seed in 0..5 {
+            let mut noise = noise(seed);
+            all.push((
+                format!("noise {seed}"),
+                samples(700, |_| 0.0).iter().map(|_| noise()).collect(),
+            ));
+        }
+        for (name, signal) in &all {
+            for (size, offset) in [
+                (1.0, 0.0),
+                (1e-9, 0.0),
+                (1e12, 0.0),
+                (1.0, 100.0),
+                (1e-3, -1e4),
+            ] {
+                let signal: Vec<f64> = signal.iter().map(|x| size * x + offset).collect();
+                let found = rate(&signal, &signal).unwrap();
+                assert_eq!(
+                    (found.overall(), found.late),
+                    (1.0, 0),
+                    "{name}, {size}, {offset}: {found:?}"
+                );
+            }
+        }
+    }
+
+    /// A table with six digits, scaled: the shift is that of the signals, not that of their rounding.
+    #[test]
+    fn rounding_does_not_shift_a_periodic_signal() {
+        for (frequency, late) in [(50.0, 0), (50.0, 13), (500.0, 3), (500.0, 0)] {
+            let sine = |t: f64| (2.0 * PI * frequency * t).sin();
+            let digits = |x: f64| (x * 1e6).round() / 1e6;
+            let reference = samples(1200, |t| digits(sine(t)));
+            let comparison = samples(1200, |t| digits(1.1 * sine(t - f64::from(late) * 1e-4)));
+            let found = rate(&reference, &comparison).unwrap();
+            assert_eq!(found.late, i64::from(late), "{frequency} Hz");
+        }
     }
 
     #[test]

@@ -13,8 +13,23 @@ pub struct Channel {
     pub title: String,
     /// Its unit as it is written; empty if it is not given.
     pub unit: String,
+    /// What its file says about its data if that casts doubt on them, such as `channel failed`.
+    pub doubt: Option<String>,
     /// Its samples.
     pub signal: Signal,
+}
+
+impl Channel {
+    /// A channel with these samples, without a name.
+    pub fn of(signal: Signal) -> Channel {
+        Channel {
+            name: String::new(),
+            title: String::new(),
+            unit: String::new(),
+            doubt: None,
+            signal,
+        }
+    }
 }
 
 /// Several channels of one test or run.
@@ -58,7 +73,7 @@ impl ReadError {
 }
 
 /// The bytes of a regular file.
-pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadError> {
+fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadError> {
     let failed = |error| ReadError::Io {
         path: path.to_owned(),
         error,
@@ -67,6 +82,15 @@ pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadError> {
         return Err(failed(std::io::Error::other("this is no regular file")));
     }
     std::fs::read(path).map_err(failed)
+}
+
+/// The text of a regular file: UTF-8, or ISO 8859-1 if it is not valid UTF-8.
+pub(crate) fn text_of(path: &Path) -> Result<String, ReadError> {
+    Ok(match String::from_utf8(bytes_of(path)?) {
+        Ok(text) => text,
+        // each byte of ISO 8859-1 is the character with the same number
+        Err(error) => error.into_bytes().into_iter().map(char::from).collect(),
+    })
 }
 
 impl Recording {
@@ -85,8 +109,33 @@ impl Recording {
     }
 
     /// The channel with this name, or else the one with this title.
-    pub fn channel(&self, name: &str) -> Option<&Channel> {
-        let by = |of: fn(&Channel) -> &str| self.channels.iter().find(|one| of(one) == name);
-        by(|one| &one.name).or_else(|| by(|one| &one.title))
+    ///
+    /// # Errors
+    /// There is no such channel, or there are several.
+    pub fn channel(&self, name: &str) -> Result<&Channel, NoChannel> {
+        let by = |of: fn(&Channel) -> &str| {
+            let all = self.channels.iter().filter(|one| of(one) == name);
+            all.collect::<Vec<&Channel>>()
+        };
+        let found = match by(|one| &one.name) {
+            found if found.is_empty() => by(|one| &one.title),
+            found => found,
+        };
+        match found.as_slice() {
+            [] => Err(NoChannel::Unknown),
+            [one] => Ok(one),
+            several => Err(NoChannel::Several(several.len())),
+        }
     }
+}
+
+/// Why a name does not stand for a channel.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum NoChannel {
+    /// No channel has this name.
+    #[error("no channel has this name")]
+    Unknown,
+    /// So many channels have it.
+    #[error("{0} channels have this name")]
+    Several(usize),
 }

@@ -1,89 +1,60 @@
 //! Recordings as CSV: a column of times in seconds, then a column for each channel, with names such as `head acceleration [m/s^2]`.
 
-use crate::recording::bytes_of;
-use crate::{Channel, ReadError, Recording, Signal};
+use crate::recording::text_of;
+use crate::{Channel, ReadError, Recording, Signal, unit};
+use bryant_table::{Fault, Table};
 use std::path::Path;
 
-/// Reads a table. An empty cell is a sample that is missing.
+/// Reads a table: fields between `,`, `;` or tabs, as curves of models have them. An empty cell is a sample that is missing.
 ///
 /// # Errors
-/// The file cannot be read, a cell is not a number, or times are not at equal intervals.
+/// The file cannot be read, a cell is not a number, a line has too many or too few fields, or times are not at equal intervals.
 pub fn read(path: &Path) -> Result<Recording, ReadError> {
-    let bytes = bytes_of(path)?;
-    let mut reader = csv::Reader::from_reader(bytes.as_slice());
-    let broken = |error: &csv::Error| {
-        let line = error.position().map_or(1, csv::Position::line);
-        ReadError::content(path, line, format!("this is no table of CSV: {error}"))
+    let text = text_of(path)?;
+    let wrong = |fault: Fault| {
+        let message = format!("{}\n  help: {}", fault.message, fault.help);
+        ReadError::content(path, fault.line as u64, message)
     };
-    let names: Vec<String> = match reader.headers() {
-        Ok(names) => names.iter().map(str::to_owned).collect(),
-        Err(error) => return Err(broken(&error)),
+    let table = Table::of(&text).map_err(wrong)?;
+    let table = table.ok_or_else(|| ReadError::content(path, 1, "the table is empty"))?;
+    let headings = table.headings(&|text| unit::quantity(text).is_some());
+    let time = headings[0];
+    let scale = match time.unit {
+        Some(unit) => unit::factor(unit, "s"),
+        None => time.name.eq_ignore_ascii_case("time").then_some(1.0),
     };
-    let scale = match names.first().map(|name| name_and_unit(name)) {
-        Some((_, "ms")) => 1e-3,
-        Some((name, unit))
-            if unit == "s" || name.eq_ignore_ascii_case("time") && unit.is_empty() =>
-        {
-            1.0
-        }
-        _ => {
-            return Err(ReadError::content(
-                path,
-                1,
-                "the first column must be the time: `time [s]` or `time [ms]`",
-            ));
-        }
-    };
-    let mut columns = vec![Vec::new(); names.len()];
-    for record in reader.records() {
-        let record = record.map_err(|error| broken(&error))?;
-        let line = record.position().map_or(1, csv::Position::line);
-        for ((column, cell), name) in columns.iter_mut().zip(&record).zip(&names) {
-            let cell = cell.trim();
-            let number = match cell {
-                "" => Ok(f64::NAN),
-                _ => cell.parse::<f64>(),
-            };
-            column.push(number.map_err(|_| {
-                ReadError::content(
-                    path,
-                    line,
-                    format!("`{cell}` in the column `{name}` is no number"),
-                )
-            })?);
+    let scale = scale.ok_or_else(|| {
+        let line = time.field.line as u64;
+        let message = "the first column must be the time, with its unit: `time [s]` or `time [ms]`";
+        ReadError::content(path, line, message)
+    })?;
+    let mut columns = vec![Vec::new(); headings.len()];
+    for row in table.rows(true) {
+        for (column, field) in columns.iter_mut().zip(row.map_err(wrong)?) {
+            column.push(field.number().map_err(wrong)?.unwrap_or(f64::NAN));
         }
     }
     let times: Vec<f64> = columns[0].iter().map(|t| t * scale).collect();
     let mut channels = Vec::new();
-    for (name, column) in names.iter().zip(&columns).skip(1) {
+    for (heading, column) in headings.iter().zip(&columns).skip(1) {
+        // a separator at the end of every line
+        if heading.field.text.is_empty() && column.iter().all(|x| x.is_nan()) {
+            continue;
+        }
         let signal = Signal::of_samples(&times, column).ok_or_else(|| {
             ReadError::content(
                 path,
-                2,
+                time.field.line as u64 + 1,
                 "times must be two or more, at equal intervals: write the run with `--every`, or sample the test evenly",
             )
         })?;
-        let (name, unit) = name_and_unit(name);
         channels.push(Channel {
-            name: name.to_owned(),
-            title: String::new(),
-            unit: unit.to_owned(),
-            signal,
+            name: heading.name.to_owned(),
+            unit: heading.unit.unwrap_or_default().to_owned(),
+            ..Channel::of(signal)
         });
     }
     Ok(Recording { channels })
-}
-
-/// The parts of `head acceleration [m/s^2]`.
-fn name_and_unit(column: &str) -> (&str, &str) {
-    let column = column.trim();
-    let parts = column
-        .strip_suffix(']')
-        .and_then(|rest| rest.rsplit_once('['));
-    match parts {
-        Some((name, unit)) => (name.trim(), unit.trim()),
-        None => (column, ""),
-    }
 }
 
 #[cfg(test)]
@@ -107,6 +78,33 @@ mod tests {
         assert_eq!(read.channels[1].unit, "");
     }
 
+    /// The same numbers with other separators, in other units, and as other programs write the time.
+    #[test]
+    fn separators_and_units_of_headings_are_honoured() {
+        let expected = table("time [s],a [g]\n0.000,1.5\n0.001,-2\n0.002,0\n").unwrap();
+        for text in [
+            "time [ms];a [g]\n0;1.5\n1;-2\n2;0\n",
+            "\u{feff}time [ms]\ta [g]\r\n0\t1.5\r\n1\t-2\r\n2\t0\r\n",
+            "# from a program\nTime,a (g)\n0,1.5\n\n0.001,-2\n0.002,0\n",
+            "t [ms],a/g\n0,1.5\n1,-2\n2,0\n",
+            "Zeit/ms;\"a [g]\";\n0;1.5;\n1;-2;\n2;0;\n",
+        ] {
+            let found = table(text).unwrap();
+            assert_eq!(found.channels.len(), 1, "{text}");
+            let (found, expected) = (&found.channels[0], &expected.channels[0]);
+            assert_eq!(
+                (&found.name, &found.unit),
+                (&expected.name, &expected.unit),
+                "{text}"
+            );
+            assert_eq!(found.signal.values, expected.signal.values, "{text}");
+            assert!(
+                (found.signal.interval / expected.signal.interval - 1.0).abs() < 1e-12,
+                "{text}"
+            );
+        }
+    }
+
     #[test]
     fn what_is_no_table_of_times_is_refused_at_its_line() {
         for (text, told) in [
@@ -114,12 +112,22 @@ mod tests {
                 "force [N],x\n0,1\n",
                 "run.csv:1: the first column must be the time",
             ),
-            (
-                "time [s],x\n0,1\n0.1,a\n",
-                "run.csv:3: `a` in the column `x`",
-            ),
+            ("time [s],x\n0,1\n0.1,a\n", "run.csv:3: \"a\" is no number"),
             ("time [s],x\n0,1\n0.1,1\n0.3,1\n", "equal intervals"),
-            ("time [s],x\n0,1\n0.1\n", "run.csv:3"),
+            ("time [s],x\n0,1\n0.1\n", "run.csv:3: this line has 1 field"),
+            (
+                "time [s],x\n0,1\n0,1,1,5\n",
+                "run.csv:3: this line has 4 fields",
+            ),
+            ("time [s];x\n0,0;1\n0,1;1,5\n", "comma is a decimal mark"),
+            (
+                "time [N],x\n0,1\n1,2\n",
+                "run.csv:1: the first column must be the time",
+            ),
+            (
+                "t,x\n0,1\n1,2\n",
+                "run.csv:1: the first column must be the time",
+            ),
             ("", "run.csv:1"),
         ] {
             let error = table(text).unwrap_err();

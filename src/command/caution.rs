@@ -13,7 +13,27 @@ pub fn cautions(model: &Model) -> Vec<String> {
     let mut all = middle_angles(model);
     all.extend(bushings(model));
     all.extend(singular::cautions(model));
+    all.extend(thinned(model));
     all
+}
+
+/// Says of curves whose files have too many points how far the points that were left out are from the curve.
+pub fn thinned(model: &Model) -> Vec<String> {
+    let each = model.curves.iter().filter_map(|curve| {
+        let thinned = curve.thinned?;
+        let heights = || curve.points.iter().map(|point| point[1]);
+        let range = heights().fold(f64::MIN, f64::max) - heights().fold(f64::MAX, f64::min);
+        Some(format!(
+            "curve \"{}\" has {} points in its file, and {} of them are used: the others differ from it by {:.2e} in SI units at most, \
+             {:.2} % of its range\n  help: filter the measurement and leave points out; each point ends a step",
+            curve.name,
+            thinned.points,
+            curve.points.len(),
+            thinned.error,
+            1e2 * thinned.error / range.max(f64::MIN_POSITIVE)
+        ))
+    });
+    each.collect()
 }
 
 /// Warns of laws about the three relative angles of a ball joint if the middle angle may come near ±90°.

@@ -6,7 +6,7 @@ use super::terminal::Terminal;
 use crate::quantity;
 use bryant_signal::filter::{Class, Standard, class, class_of_code, filtered};
 use bryant_signal::rating::{RATE, Rating, RatingError, rate};
-use bryant_signal::{Channel, Recording, Signal, unit};
+use bryant_signal::{Channel, NoChannel, Recording, Signal, unit};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde_json::json;
 use std::fmt::Write as _;
@@ -102,7 +102,19 @@ impl Arguments {
         let measured = recording(&self.measured)?;
         let pairs = self.pairs(&run, &measured)?;
         let mut rated = Vec::new();
+        let mut failed = Vec::new();
         for (run, measured) in pairs {
+            if let Some(doubt) = [(run, &self.run), (measured, &self.measured)]
+                .into_iter()
+                .find_map(|(channel, path)| doubt(channel, path))
+            {
+                if self.channels.is_empty() {
+                    terminal.note(&format!("\"{}\" is not rated: {doubt}", run.name));
+                    failed.push(doubt);
+                    continue;
+                }
+                terminal.note(&doubt);
+            }
             match self.rated(run, measured)? {
                 Some(one) => rated.push(one),
                 None => terminal.note(&format!(
@@ -110,6 +122,11 @@ impl Arguments {
                     run.name
                 )),
             }
+        }
+        if let (true, Some(doubt)) = (rated.is_empty(), failed.first()) {
+            return Err(Error::Input(format!(
+                "no channel is left to be rated: {doubt}\n  help: name it, --channel RUN=MEASURED, to rate it all the same"
+            )));
         }
         match self.json {
             true => terminal.print_json(&rated.iter().map(json).collect::<Vec<_>>()),
@@ -132,8 +149,17 @@ impl Arguments {
         if !self.channels.is_empty() {
             return named.collect();
         }
-        let both = |ours: &'r Channel| Some((ours, measured.channel(&ours.name)?));
-        let pairs: Vec<_> = run.channels.iter().filter_map(both).collect();
+        let mut pairs = Vec::new();
+        for ours in &run.channels {
+            match measured.channel(&ours.name) {
+                Err(NoChannel::Unknown) => {}
+                found => {
+                    let theirs = found
+                        .map_err(|error| no_channel(error, measured, &self.measured, &ours.name))?;
+                    pairs.push((channel(run, &self.run, &ours.name)?, theirs));
+                }
+            }
+        }
         match pairs.is_empty() {
             true => Err(Error::Input(format!(
                 "{} and {} have no channel of the same name\n  help: say which are the same: --channel '{}={}'",
@@ -232,21 +258,41 @@ pub(super) fn channel<'r>(
     path: &Path,
     name: &str,
 ) -> Result<&'r Channel, Error> {
-    recording.channel(name).ok_or_else(|| {
-        let names: Vec<&str> = recording
-            .channels
-            .iter()
-            .map(|one| one.name.as_str())
-            .collect();
-        let help = match nearest(name, &names) {
-            Some(near) => format!("did you mean \"{near}\"?"),
-            None => format!("it has: {}", names.join(", ")),
-        };
-        Error::Input(format!(
-            "{} has no channel \"{name}\"\n  help: {help}",
+    let found = recording.channel(name);
+    found.map_err(|error| no_channel(error, recording, path, name))
+}
+
+/// The message for a name that stands for no channel of a recording, or for several.
+fn no_channel(error: NoChannel, recording: &Recording, path: &Path, name: &str) -> Error {
+    if let NoChannel::Several(count) = error {
+        return Error::Input(format!(
+            "{} has {count} channels \"{name}\"\n  help: give every channel a name of its own",
             path.display()
-        ))
-    })
+        ));
+    }
+    let names: Vec<&str> = recording
+        .channels
+        .iter()
+        .map(|one| one.name.as_str())
+        .collect();
+    let help = match nearest(name, &names) {
+        Some(near) => format!("did you mean \"{near}\"?"),
+        None => format!("it has: {}", names.join(", ")),
+    };
+    Error::Input(format!(
+        "{} has no channel \"{name}\"\n  help: {help}",
+        path.display()
+    ))
+}
+
+/// What casts doubt on the data of a channel, in a sentence.
+pub(super) fn doubt(channel: &Channel, path: &Path) -> Option<String> {
+    let doubt = channel.doubt.as_ref()?;
+    Some(format!(
+        "the channel {} of {} says of its data: \"{doubt}\"",
+        channel.name,
+        path.display()
+    ))
 }
 
 fn text(rated: &[Rated]) -> String {

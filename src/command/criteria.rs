@@ -14,7 +14,8 @@ use std::path::PathBuf;
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
 RECORDING is a table as `bryant run` writes it (CSV), or a test in ISO-MME: a file TEST.mme with its folder Channel, or the folder that has both. Channels
-with codes of ISO-MME are found by them, others are named: --place 'head=head acceleration'. Places are head, head-x, head-y, head-z, neck-fx, neck-fz,
+with codes of ISO-MME are found by them, others are named: --place 'head=head acceleration'. All channels are of one occupant; if a test has several, --occupant
+chooses. If several sensors fit a place, they are listed, and --place chooses. Places are head, head-x, head-y, head-z, neck-fx, neck-fz,
 neck-my, chest, chest-x, chest-y, chest-z, chest-deflection, femur-left, femur-right, and more (docs/criteria.md). Signs are those of SAE J211-1: tension and flexion of the neck are positive.
 
 Every criterion filters its channels as its standard says, components before their resultant, and needs ten samples for a period of its filter: 10 kHz for
@@ -37,9 +38,13 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", required_unless_present = "list")]
     dummy: Option<String>,
 
-    /// The channel of a place of the dummy; may be repeated
+    /// The channel of a place of the dummy, or a pattern of codes for a part, 'head=??HEADCGRD*'; may be repeated
     #[arg(long, value_name = "PLACE=CHANNEL", value_parser = pair)]
     place: Vec<(String, String)>,
+
+    /// Test object and position of the occupant, the first two characters of the channel codes
+    #[arg(long, value_name = "OCCUPANT", value_parser = occupant)]
+    occupant: Option<String>,
 
     /// Standard whose coefficients the filters have
     #[arg(long, value_name = "NAME", default_value = ISO, value_parser = filter_standard())]
@@ -69,8 +74,14 @@ impl Arguments {
         let limits = limits::find(standard, dummy).map_err(Error::Input)?;
         let recording = recording(path)?;
         let named = places(&self.place);
-        let recorded = Recorded::new(&recording, &named, self.planar, self.filter_standard)
-            .map_err(Error::Input)?;
+        let recorded = Recorded::new(
+            &recording,
+            &named,
+            self.occupant.as_deref(),
+            self.planar,
+            self.filter_standard,
+        )
+        .map_err(Error::Input)?;
         let verdict = verdict(&limits, &recorded);
         usable(&verdict)?;
         if verdict.rows.iter().all(|row| row.value.is_err()) {
@@ -84,6 +95,15 @@ impl Arguments {
             true => terminal.print_json(&verdict.json()),
             false => terminal.print(&verdict.text()),
         }
+    }
+}
+
+/// Test object and position: two characters.
+pub(super) fn occupant(text: &str) -> Result<String, String> {
+    let text = text.trim();
+    match text.len() == 2 && text.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
+        true => Ok(text.to_ascii_uppercase()),
+        false => Err("give two characters, test object and position, as 11".to_owned()),
     }
 }
 
@@ -102,7 +122,13 @@ fn usable(verdict: &Verdict) -> Result<(), Error> {
     });
     match wrong {
         Some((name, why)) => Err(Error::Input(format!(
-            "{name}: {why}\n  help: give a recording that the criterion can be computed from, such as of `bryant run --every '0.1 ms'`"
+            "{name}: {why}{}",
+            match why.contains("--place") {
+                // it says what helps
+                true => "",
+                false =>
+                    "\n  help: give a recording that the criterion can be computed from, such as of `bryant run --every '0.1 ms'`",
+            }
         ))),
         None => Ok(()),
     }
@@ -110,12 +136,16 @@ fn usable(verdict: &Verdict) -> Result<(), Error> {
 
 fn listed(all: &[Limits]) -> String {
     let mut text = String::new();
-    for one in all {
-        let _ = writeln!(text, "{}, {}: {}", one.standard, one.dummy, one.source);
-        for (name, limit) in &one.limits {
+    for limits in all {
+        let _ = writeln!(
+            text,
+            "{}, {}: {}",
+            limits.standard, limits.dummy, limits.source
+        );
+        for (name, limit) in &limits.limits {
             let criterion = Criterion::named(name);
             let (unit, filter) =
-                criterion.map_or(("", String::new()), |one| (one.unit, filter(one)));
+                criterion.map_or(("", String::new()), |one| (one.unit, filter(one, limits)));
             let _ = writeln!(
                 text,
                 "  {name:18} {:>16}  {filter}",

@@ -234,6 +234,10 @@ pub struct Arguments {
     #[arg(long, value_name = "PLACE=OUTPUT", value_parser = pair)]
     place: Vec<(String, String)>,
 
+    /// Test object and position of the occupant whose outputs are judged, the first two characters of their codes
+    #[arg(long, value_name = "OCCUPANT", value_parser = super::criteria::occupant)]
+    occupant: Option<String>,
+
     /// About this many stick figures in the picture, at round times
     #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=100))]
     figures: u16,
@@ -291,6 +295,9 @@ impl Arguments {
         let mut job = self.job(&found.scene)?;
         let files = Files::of(&self, &found)?;
         let mut responses = Responses::of(&self, &found, 0.0)?;
+        for note in super::caution::thinned(&found.model) {
+            terminal.note(&note);
+        }
         let engine = prepare(&found, terminal)?;
         if let Some(path) = &self.start {
             let start = state_file::read(path, engine.info()).map_err(Error::Input)?;

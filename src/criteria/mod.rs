@@ -12,7 +12,7 @@ pub use recording::{Recorded, verdict};
 
 use bryant_runtime::response::channel::{ARM, Neck};
 use bryant_study::criteria::limits::Limits;
-use bryant_study::criteria::{Criterion, Missing};
+use bryant_study::criteria::{Criterion, Missing, choice};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -20,6 +20,10 @@ use std::fmt::Write as _;
 pub struct Verdict {
     /// The limits.
     pub limits: Limits,
+    /// Test object and position of the occupant; `None` if no channel code says it.
+    pub occupant: Option<String>,
+    /// Channels of the occupant whose files cast doubt on them, with the reasons.
+    pub left_out: Vec<String>,
     /// The criteria, in their order.
     pub rows: Vec<Row>,
 }
@@ -34,16 +38,23 @@ pub struct Row {
     pub value: Result<f64, Missing>,
     /// A remark on the value, such as the mode of Nij.
     pub detail: String,
+    /// The channels or outputs that it was read off, by their places.
+    pub channels: Vec<(String, String)>,
 }
 
 impl Verdict {
     /// As a table for people.
     pub fn text(&self) -> String {
         let limits = &self.limits;
-        let mut text = format!(
-            "{}, {} ({})\n\ncriterion              value     limit  unit  verdict         filter\n",
-            limits.standard, limits.dummy, limits.source
-        );
+        let mut text = format!("{}, {} ({})", limits.standard, limits.dummy, limits.source);
+        if let Some(occupant) = &self.occupant {
+            let seat = match choice::seat(occupant) {
+                "" => String::new(),
+                seat => format!(" ({seat})"),
+            };
+            let _ = write!(text, ", occupant {occupant}{seat}");
+        }
+        text.push_str("\n\ncriterion              value     limit  unit  verdict         filter\n");
         let mut missing = Vec::new();
         for row in &self.rows {
             let criterion = row.criterion;
@@ -66,11 +77,12 @@ impl Verdict {
                 criterion.unit,
                 row.limit
                     .map_or(String::new(), |limit| verdict_of(value, limit)),
-                filter(criterion),
+                filter(criterion, limits),
                 row.detail
             );
             let _ = writeln!(text, "{}", line.trim_end());
         }
+        self.name_channels(&mut text);
         if !missing.is_empty() {
             let _ = write!(
                 text,
@@ -79,6 +91,42 @@ impl Verdict {
             );
         }
         text
+    }
+
+    /// Writes which channels were used, and which were not.
+    fn name_channels(&self, text: &mut String) {
+        let judged = self.rows.iter().filter(|row| row.value.is_ok());
+        for (index, row) in judged.enumerate() {
+            let names: Vec<&str> = row.channels.iter().map(|(_, name)| name.as_str()).collect();
+            let begin = if index == 0 { "\nread from\n" } else { "" };
+            let _ = writeln!(
+                text,
+                "{begin}{:18} {}",
+                row.criterion.name,
+                names.join(", ")
+            );
+        }
+        if !self.left_out.is_empty() {
+            let all = self.left_out.join(", ");
+            let _ = write!(text, "\nleft out, because of what their files say: {all}\n");
+        }
+        if let Some((name, code)) = self.other_dummy() {
+            let _ = write!(
+                text,
+                "\nthe code {name} is of another dummy, {code}: the limits are those of {}\n",
+                self.limits.dummy
+            );
+        }
+    }
+
+    /// A channel whose code says another dummy than the limits, and the dummy that it says.
+    fn other_dummy(&self) -> Option<(&str, &str)> {
+        let own = self.limits.code.as_deref()?;
+        let mut all = self.rows.iter().flat_map(|row| &row.channels);
+        all.find_map(|(_, name)| {
+            let says = name.get(10..12).filter(|_| name.len() == 16)?;
+            (says != own && says != "00").then_some((name.as_str(), says))
+        })
     }
 
     /// For programs.
@@ -95,8 +143,9 @@ impl Verdict {
                 "limit": row.limit,
                 "unit": row.criterion.unit,
                 "met": value.zip(row.limit).map(|(value, limit)| *value <= limit),
-                "filter": row.criterion.filter.map(|class| class.to_string()),
+                "filter": row.criterion.class(&self.limits).map(|class| class.to_string()),
                 "detail": row.detail,
+                "channels": row.channels.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
                 "missing": missing,
             })
         });
@@ -104,14 +153,16 @@ impl Verdict {
             "standard": self.limits.standard,
             "dummy": self.limits.dummy,
             "source": self.limits.source,
+            "occupant": self.occupant,
+            "left_out": self.left_out,
             "criteria": criteria.collect::<Vec<_>>(),
         })
     }
 }
 
 /// The filter of a criterion in a table.
-pub fn filter(criterion: &Criterion) -> String {
-    let class = criterion.filter.map(|class| class.to_string());
+pub fn filter(criterion: &Criterion, limits: &Limits) -> String {
+    let class = criterion.class(limits).map(|class| class.to_string());
     class.unwrap_or_else(|| "none".to_owned())
 }
 

@@ -5,16 +5,16 @@ use crate::sweep::response_of;
 use bryant_runtime::response::channel::Combination;
 use bryant_runtime::response::filter::Class;
 use bryant_runtime::response::reduce;
-use bryant_signal::filter::{Standard, class_of_code, filtered};
-use bryant_signal::{Channel, Recording, Signal, unit};
+use bryant_signal::filter::{Standard, class_of_code, filtered, narrow_filter};
+use bryant_signal::{Channel, NoChannel, Recording, Signal, unit};
+use bryant_study::criteria::choice::{self, Asked, Candidate, Choice, Found, choose, is_pattern};
 use bryant_study::criteria::limits::Limits;
-use bryant_study::criteria::{CRITERIA, Criterion, Formed, Missing, PLACES, Place, fits};
+use bryant_study::criteria::{CRITERIA, Criterion, Formed, Missing, PLACES};
 
 /// The places that a recording has channels for.
 pub struct Recorded<'a> {
     recording: &'a Recording,
-    /// Channels that the user named for places.
-    named: Vec<(String, String)>,
+    choice: Choice,
     /// The motion is planar: quantities across the plane are 0.
     planar: bool,
     /// The standard whose coefficients the filters have.
@@ -22,59 +22,121 @@ pub struct Recorded<'a> {
 }
 
 impl<'a> Recorded<'a> {
-    /// The places of a recording: their channels are found by the names that the user gives, else by their codes. `planar` says that
-    /// nothing moves along y.
+    /// The places of a recording: their channels are found by the names that the user gives, else by their codes, all of one `occupant`.
+    /// `planar` says that nothing moves along y.
     ///
     /// # Errors
-    /// There is no such place, or no such channel.
+    /// There is no such place or no such channel, or there are channels of several occupants.
     pub fn new(
         recording: &'a Recording,
         named: &[(String, String)],
+        occupant: Option<&str>,
         planar: bool,
         standard: Standard,
     ) -> Result<Self, String> {
+        let mut asked = Asked {
+            occupant: occupant.map(str::to_owned),
+            how: "--occupant",
+            ..Asked::default()
+        };
         for (place, name) in named {
-            if PLACES.iter().all(|known| known.name != place) {
-                let all: Vec<&str> = PLACES.iter().map(|place| place.name).collect();
-                return Err(format!(
-                    "there is no place \"{place}\"\n  help: one of {}",
-                    all.join(", ")
-                ));
-            }
-            if recording.channel(name).is_none() {
-                let channels = recording.channels.iter();
-                let all: Vec<&str> = channels.map(|one| one.name.as_str()).collect();
-                return Err(format!(
-                    "the recording has no channel \"{name}\"\n  help: it has {}",
-                    all.join(", ")
-                ));
+            choice::known(place, name)?;
+            match recording.channel(name) {
+                Ok(channel) => {
+                    let all = &recording.channels;
+                    let index = all.iter().position(|one| std::ptr::eq(one, channel));
+                    asked
+                        .named
+                        .extend(index.map(|index| (place.clone(), index)));
+                }
+                Err(NoChannel::Unknown) if is_pattern(name) => {
+                    asked.patterns.push((place.clone(), name.clone()));
+                }
+                Err(NoChannel::Unknown) => {
+                    let channels = recording.channels.iter();
+                    let all: Vec<&str> = channels.map(|one| one.name.as_str()).collect();
+                    return Err(format!(
+                        "the recording has no channel \"{name}\"\n  help: it has {}",
+                        all.join(", ")
+                    ));
+                }
+                Err(several) => {
+                    return Err(format!(
+                        "\"{name}\": {several}\n  help: give every channel a name of its own"
+                    ));
+                }
             }
         }
+        let each = recording.channels.iter().map(|channel| Candidate {
+            name: &channel.name,
+            code: &channel.name,
+            doubt: channel.doubt.as_deref(),
+        });
+        let candidates: Vec<Candidate<'_>> = each.collect();
         Ok(Recorded {
             recording,
-            named: named.to_vec(),
+            choice: choose(&candidates, &asked)?,
             planar,
             standard,
         })
     }
 
-    fn channel(&self, place: &Place) -> Option<&'a Channel> {
-        let named = self.named.iter().find(|(known, _)| known == place.name);
-        match named {
-            Some((_, name)) => self.recording.channel(name),
-            None => {
-                let mut channels = self.recording.channels.iter();
-                channels.find(|channel| fits(&channel.name, place.code))
+    /// The channel of a place for a filter: of channels that differ by their filters the one with this filter, else the one with the widest.
+    fn channel(&self, place: &str, class: Option<Class>) -> Result<&'a Channel, Missing> {
+        let channel = |index: &usize| &self.recording.channels[*index];
+        let names = |all: &[usize]| {
+            all.iter()
+                .map(|index| channel(index).name.as_str())
+                .collect()
+        };
+        match self.choice.at(place) {
+            None => Err(Missing::Place(place.to_owned())),
+            Some(Found::Named(index)) => Ok(channel(index)),
+            Some(Found::Coded(all)) => {
+                let width = |index: &&usize| {
+                    let name = &channel(index).name;
+                    match (class_of_code(name), narrow_filter(name)) {
+                        (Some(own), _) if Some(own) == class => f64::INFINITY,
+                        (Some(own), _) => own.frequency(),
+                        (None, Some(_)) => 0.0,
+                        // not filtered, or hardly
+                        (None, None) => f64::MAX,
+                    }
+                };
+                let widest = all.iter().max_by(|a, b| width(a).total_cmp(&width(b)));
+                Ok(channel(widest.unwrap_or(&all[0])))
+            }
+            Some(Found::Doubtful(all)) => {
+                let channel = channel(&all[0]);
+                let doubt = channel.doubt.as_deref().unwrap_or_default();
+                Err(Missing::Unusable(format!(
+                    "channel \"{}\": its file says \"{doubt}\"; a channel that is named by --place {place}=CHANNEL is used all the same",
+                    channel.name
+                )))
+            }
+            Some(Found::Several(all)) => {
+                let names: Vec<&str> = names(all);
+                let begin = names[0].get(2..10).unwrap_or_default();
+                Err(Missing::Unusable(format!(
+                    "{}; choose a sensor, such as --place '{}=??{begin}*', or name a channel for each place",
+                    choice::ambiguous(place, &names),
+                    choice::part(place)
+                )))
             }
         }
     }
 
-    /// The signal of a place \[SI\], filtered if a class is given.
-    fn filtered(&self, place: &str, class: Option<Class>) -> Result<Signal, Missing> {
+    /// The signal of a place \[SI\], filtered as the criterion wants it, its channel, and a remark on it.
+    fn filtered(
+        &self,
+        place: &str,
+        criterion: &Criterion,
+        class: Option<Class>,
+    ) -> Result<(Signal, &'a Channel, String), Missing> {
         let missing = || Missing::Place(place.to_owned());
+        let channel = self.channel(place, class)?;
         let place = PLACES.iter().find(|known| known.name == place);
         let place = place.ok_or_else(missing)?;
-        let channel = self.channel(place).ok_or_else(missing)?;
         let wrong =
             |message: String| Missing::Unusable(format!("channel \"{}\": {message}", channel.name));
         let factor = unit::factor(&channel.unit, place.unit).ok_or_else(|| {
@@ -85,6 +147,10 @@ impl<'a> Recorded<'a> {
         })?;
         let mut signal = channel.signal.clone();
         signal.values.iter_mut().for_each(|value| *value *= factor);
+        let remark = channel.doubt.as_ref();
+        let remark = remark.map_or(String::new(), |doubt| {
+            format!("{}: its file says \"{doubt}\"", channel.name)
+        });
         let Some(class) = class else {
             let missing = signal.values.iter().position(|value| !value.is_finite());
             return match missing {
@@ -92,39 +158,62 @@ impl<'a> Recorded<'a> {
                     "the sample at {} s is missing",
                     signal.time(index)
                 ))),
-                None => Ok(signal),
+                None => Ok((signal, channel, remark)),
             };
         };
-        // frequencies that a filter has removed cannot be restored for a wider filter
-        let before = class_of_code(&channel.name);
-        if let Some(before) = before.filter(|before| before.frequency() < class.frequency()) {
+        if let Some(before) = narrow_filter(&channel.name) {
             return Err(wrong(format!(
                 "it is filtered by {before} already, and {class} is wanted"
             )));
         }
-        if before == Some(class) {
-            return Ok(signal);
+        match class_of_code(&channel.name) {
+            Some(before) if before == class => return Ok((signal, channel, remark)),
+            Some(before) if criterion.allows(before) => {
+                return Ok((signal, channel, format!("filtered by {before} before")));
+            }
+            // frequencies that a filter has removed cannot be restored for a wider filter
+            Some(before) if before.frequency() < class.frequency() => {
+                return Err(wrong(format!(
+                    "it is filtered by {before} already, and {class} is wanted"
+                )));
+            }
+            _ => {}
         }
-        filtered(&signal, class, self.standard).map_err(|error| wrong(error.to_string()))
+        match filtered(&signal, class, self.standard) {
+            Ok(signal) => Ok((signal, channel, remark)),
+            Err(error) => Err(wrong(error.to_string())),
+        }
     }
 
     /// The signals of a criterion, and how they are combined.
     fn formed(&self, criterion: &Criterion, limits: &Limits) -> Result<Formed, Missing> {
-        let has = |place: &str| {
-            let place = PLACES.iter().find(|known| known.name == place);
-            place.is_some_and(|place| self.channel(place).is_some())
-        };
-        criterion.formed(limits, &has, self.planar)
+        criterion.formed(
+            limits,
+            &|place| self.choice.at(place).is_some(),
+            self.planar,
+        )
     }
 
-    /// The value of a criterion \[SI\], with a remark on it.
-    fn value(&self, criterion: &Criterion, limits: &Limits) -> Result<(f64, String), Missing> {
+    /// The value of a criterion \[SI\], with a remark on it; `channels` get the names of the channels by places.
+    fn value(
+        &self,
+        criterion: &Criterion,
+        limits: &Limits,
+        channels: &mut Vec<(String, String)>,
+    ) -> Result<(f64, String), Missing> {
         let formed = self.formed(criterion, limits)?;
-        let signals = formed.places.iter();
-        let signals: Result<Vec<Signal>, Missing> = signals
-            .map(|place| self.filtered(place, criterion.filter))
-            .collect();
-        let signals = together(signals?)?;
+        let mut signals = Vec::new();
+        let mut remarks = vec![formed.detail.to_owned()];
+        for place in &formed.places {
+            let (signal, channel, remark) =
+                self.filtered(place, criterion, criterion.class(limits))?;
+            channels.push((place.clone(), channel.name.clone()));
+            signals.push(signal);
+            if !remarks.contains(&remark) {
+                remarks.push(remark);
+            }
+        }
+        let signals = together(signals)?;
         let (first, every) = (signals[0].first, signals[0].interval);
         let values: Vec<Vec<f64>> = signals.into_iter().map(|signal| signal.values).collect();
         let short = || Missing::Unusable("the recording is too short for it".to_owned());
@@ -135,11 +224,32 @@ impl<'a> Recorded<'a> {
         if !value.is_finite() {
             return Err(short());
         }
-        let detail = match (formed.combination, &values[..]) {
-            (Combination::Nij(neck), [fx, fz, my]) => mode([fx, fz, my], &neck, [first, every]),
-            _ => formed.detail.to_owned(),
-        };
-        Ok((value, detail))
+        if let (Combination::Nij(neck), [fx, fz, my]) = (formed.combination, &values[..]) {
+            remarks.insert(0, mode([fx, fz, my], &neck, [first, every]));
+        }
+        remarks.retain(|remark| !remark.is_empty());
+        Ok((value, remarks.join("; ")))
+    }
+
+    /// Whether a criterion would have to choose from several sensors.
+    fn is_ambiguous(&self, criterion: &Criterion, limits: &Limits) -> bool {
+        let places = self
+            .formed(criterion, limits)
+            .map_or(vec![], |formed| formed.places);
+        let several = |place: &String| matches!(self.choice.at(place), Some(Found::Several(_)));
+        places.iter().any(several)
+    }
+
+    /// The channels of the occupant that are left out, with the reasons.
+    fn left_out(&self) -> Vec<String> {
+        let occupant = self.choice.occupant.as_deref().unwrap_or_default();
+        let all = self.recording.channels.iter();
+        let own = all.filter(|channel| channel.name.starts_with(occupant));
+        let each = own.filter_map(|channel| {
+            let doubt = channel.doubt.as_ref()?;
+            Some(format!("{} (\"{doubt}\")", channel.name))
+        });
+        each.collect()
     }
 }
 
@@ -156,10 +266,12 @@ pub fn verdict(limits: &Limits, recorded: &Recorded<'_>) -> Verdict {
     let shown = CRITERIA.iter().filter(|one| {
         let places = places(one);
         let apart = !places.is_empty() && places.iter().all(|place| !limited.contains(place));
-        limit(one).is_some() || apart
+        // one that the regulation does not limit is shown only where it is clear of which sensor
+        limit(one).is_some() || apart && !recorded.is_ambiguous(one, limits)
     });
     let rows = shown.map(|criterion| {
-        let value = recorded.value(criterion, limits);
+        let mut channels = Vec::new();
+        let value = recorded.value(criterion, limits, &mut channels);
         let (value, detail) = match value {
             Ok((value, detail)) => (Ok(value / criterion.scale), detail),
             Err(missing) => (Err(missing), String::new()),
@@ -169,11 +281,20 @@ pub fn verdict(limits: &Limits, recorded: &Recorded<'_>) -> Verdict {
             limit: limit(criterion),
             value,
             detail,
+            channels,
         }
     });
+    let rows: Vec<Row> = rows.collect();
+    let used = |name: &String| {
+        let mut all = rows.iter().flat_map(|row| &row.channels);
+        all.any(|(_, channel)| name.starts_with(channel.as_str()))
+    };
+    let left_out = recorded.left_out().into_iter().filter(|one| !used(one));
     Verdict {
-        rows: rows.collect(),
+        left_out: left_out.collect(),
+        occupant: recorded.choice.occupant.clone(),
         limits: limits.clone(),
+        rows,
     }
 }
 

@@ -43,6 +43,9 @@ pub struct CriteriaFact {
     /// Whether filters follow SAE J211-1 instead of ISO 6487.
     #[serde(default)]
     pub sae: bool,
+    /// Test object and position of the occupant, where the codes of several are there.
+    #[serde(default)]
+    pub occupant: Option<String>,
     /// Places of the dummy with the outputs at them.
     pub places: Vec<(String, String)>,
 }
@@ -148,6 +151,7 @@ impl ModelFacts {
             standard: criteria.standard.clone(),
             dummy: criteria.dummy.clone(),
             sae: criteria.sae,
+            occupant: criteria.occupant.clone(),
             places: criteria.places.clone(),
         });
         ModelFacts {

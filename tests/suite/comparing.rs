@@ -3,6 +3,7 @@
 use super::called::call;
 use super::{PENDULUM, directory};
 use serde_json::Value;
+use std::f64::consts::PI;
 use std::fs;
 
 /// The pendulum with channel codes, sampled at 10 kHz.
@@ -133,6 +134,56 @@ fn another_pendulum_agrees_less() {
     call(path, &[&arguments[..], &["--filter", "CFC60"]].concat(), 0);
 }
 
+/// A signal beside itself rates 1, also if it is periodic, whatever separates the columns of the two tables.
+#[test]
+fn a_file_agrees_with_itself() {
+    let directory = directory();
+    let path = directory.path();
+    let write = |name: &str, separator: &str| {
+        let mut text = [
+            "time [s]",
+            "sine [N]",
+            "ramp [N]",
+            "decay [N]",
+            "fall [m/s]",
+            "rest [N]",
+        ]
+        .join(separator);
+        for i in 0..1000 {
+            let t = 1e-4 * f64::from(i);
+            let values = [
+                t,
+                (2.0 * PI * 500.0 * t).sin(),
+                7.0 - 3.0 * t,
+                (-20.0 * t).exp(),
+                9.81 * t,
+                4.0,
+            ];
+            text.push_str(&format!(
+                "\n{}",
+                values.map(|x| format!("{x:.7}")).join(separator)
+            ));
+        }
+        fs::write(path.join(name), text).unwrap();
+    };
+    write("comma.csv", ",");
+    write("semicolon.csv", ";");
+    write("tab.csv", "\t");
+    for other in ["comma.csv", "semicolon.csv", "tab.csv"] {
+        let rated = call(path, &["compare", "comma.csv", other, "--json"], 0).0;
+        let rated: Value = serde_json::from_str(&rated).unwrap();
+        let rated = rated.as_array().unwrap();
+        assert_eq!(rated.len(), 5, "{rated:?}");
+        for one in rated {
+            assert_eq!(
+                (&one["rating"], &one["late"]),
+                (&1.0.into(), &0.0.into()),
+                "{one}"
+            );
+        }
+    }
+}
+
 #[test]
 fn what_cannot_be_compared_is_refused_with_the_remedy() {
     let directory = directory();
@@ -151,6 +202,11 @@ fn what_cannot_be_compared_is_refused_with_the_remedy() {
     table("coarse.csv", "rad", 1e-3, 50);
     table("newton.csv", "N", 1e-4, 500);
     write("foreign.csv", "time [s],x [N]\n0,1\n0.1,2\n");
+    write(
+        "twice.csv",
+        "time [s],swing [rad],swing [deg]\n0,1,2\n0.1,2,3\n",
+    );
+    write("german.csv", "time [s];swing [rad]\n0,0;1,5\n0,1;2\n");
     for (arguments, told) in [
         (
             &["fine.csv", "coarse.csv"][..],
@@ -167,6 +223,12 @@ fn what_cannot_be_compared_is_refused_with_the_remedy() {
         (
             &["fine.csv", "fine.csv", "--channel", "swing=swimg"],
             "did you mean \"swing\"?",
+        ),
+        (&["fine.csv", "twice.csv"], "has 2 channels \"swing\""),
+        (&["twice.csv", "fine.csv"], "has 2 channels \"swing\""),
+        (
+            &["fine.csv", "german.csv"],
+            "german.csv:2: \"0,0\" is no number\n  help: its comma is a decimal mark",
         ),
         (
             &["fine.csv", "fine.csv", "--to", "1 s"],

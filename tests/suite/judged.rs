@@ -204,6 +204,267 @@ fn a_criterion_is_refused_where_it_would_be_wrong() {
     );
 }
 
+/// A test in ISO-MME: channels by code, unit, status and values at 10 kHz.
+fn test_of(path: &Path, channels: &[(&str, &str, &str, &dyn Fn(f64) -> f64)]) {
+    let inner = path.join("test/Channel");
+    fs::remove_dir_all(path.join("test")).ok();
+    fs::create_dir_all(&inner).unwrap();
+    fs::write(
+        path.join("test/t1.mme"),
+        "Data format edition number  :1.6\n",
+    )
+    .unwrap();
+    for (index, (code, unit, status, of)) in channels.iter().enumerate() {
+        let mut text = format!(
+            "Channel code                :{code}\nUnit                        :{unit}\nReference channel           :implicit\n\
+             Data status                 :{status}\nSampling interval           :0.0001\nTime of first sample        :0\n"
+        );
+        for i in 0..=1000 {
+            text.push_str(&format!("{}\n", of(f64::from(i) * 1e-4)));
+        }
+        fs::write(inner.join(format!("t1.{:03}", index + 1)), text).unwrap();
+    }
+}
+
+const BY_208: [&str; 6] = [
+    "criteria",
+    "test",
+    "--standard",
+    "FMVSS 208",
+    "--dummy",
+    "Hybrid III 50M",
+];
+
+/// HIC of a half-sine of 20 ms: 0.41464564954151 A^2.5 T \[A in g\]. Filters of CFC1000 change it by less than 0.1 %.
+fn hic(size: f64) -> f64 {
+    0.41464564954151 * size.powf(2.5) * 0.02
+}
+
+/// The driver has no y channel, the passenger has all three; none is mixed with the other.
+#[test]
+fn a_verdict_is_of_one_occupant() {
+    let directory = directory();
+    let path = directory.path();
+    let (large, small) = (half_sine(60.0, 0.02), half_sine(30.0, 0.02));
+    test_of(
+        path,
+        &[
+            ("11HEADCG00H3ACXP", "g", "ok", &large),
+            ("11HEADCG00H3ACZP", "g", "ok", &large),
+            ("13HEADCG00H3ACXP", "g", "ok", &small),
+            ("13HEADCG00H3ACYP", "g", "NOVALUE", &large),
+            ("13HEADCG00H3ACZP", "g", "", &small),
+        ],
+    );
+    let (_, error) = call(path, &BY_208, 2);
+    assert!(
+        error.contains("11 (front left")
+            && error.contains("13 (front right")
+            && error.contains("--occupant"),
+        "{error}"
+    );
+    let of = |more: &[&str]| -> Value {
+        let all = [&BY_208[..], &["--json"], more].concat();
+        serde_json::from_str(&call(path, &all, 0).0).unwrap()
+    };
+    let passenger = of(&["--occupant", "13"]);
+    // √(30² + 60² + 30²) = 73.485
+    let expected = hic(5400f64.sqrt());
+    assert!(
+        (value(&passenger, "HIC15") / expected - 1.0).abs() < 1e-3,
+        "{passenger}"
+    );
+    assert_eq!(passenger["occupant"], "13");
+    let head = passenger["criteria"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|one| one["criterion"] == "HIC15")
+        .unwrap();
+    assert_eq!(head["channels"]["head-y"], "13HEADCG00H3ACYP");
+    let text = call(path, &[&BY_208[..], &["--occupant", "13"]].concat(), 0).0;
+    assert!(
+        text.contains("occupant 13 (front right)")
+            && text.contains("13HEADCG00H3ACXP, 13HEADCG00H3ACYP"),
+        "{text}"
+    );
+    let (_, error) = call(path, &[&BY_208[..], &["--occupant", "11"]].concat(), 2);
+    assert!(error.contains("no channel that a criterion"), "{error}");
+    let driver = of(&["--occupant", "11", "--planar"]);
+    assert!(
+        (value(&driver, "HIC15") / hic(7200f64.sqrt()) - 1.0).abs() < 1e-3,
+        "{driver}"
+    );
+    let mixed = [
+        "--place",
+        "head-x=11HEADCG00H3ACXP",
+        "--place",
+        "head-y=13HEADCG00H3ACYP",
+    ];
+    let (_, error) = call(path, &[&BY_208[..], &mixed].concat(), 2);
+    assert!(error.contains("belongs to occupant 13"), "{error}");
+}
+
+/// Several sensors, filters and spellings: one is judged only if it is clear which.
+#[test]
+fn a_sensor_is_not_chosen_by_chance() {
+    let directory = directory();
+    let path = directory.path();
+    let of = |more: &[&str]| -> Value {
+        let all = [&BY_208[..], &["--json"], more].concat();
+        serde_json::from_str(&call(path, &all, 0).0).unwrap()
+    };
+    let (least, most) = (half_sine(-20.0, 0.06), half_sine(-64.0, 0.06));
+    test_of(
+        path,
+        &[
+            ("11CHSTLEUP00DSXC", "mm", "ok", &least),
+            ("11CHSTRIUP00DSXC", "mm", "ok", &least),
+            ("11CHSTLELO00DSXC", "mm", "ok", &least),
+            ("11CHSTRILO00DSXC", "mm", "ok", &most),
+        ],
+    );
+    let (_, error) = call(path, &BY_208, 2);
+    assert!(
+        error.contains("several channels could be chest-deflection")
+            && error.contains("11CHSTRILO00DSXC")
+            && error.contains("--place"),
+        "{error}"
+    );
+    let found = of(&["--place", "chest-deflection=11CHSTRILO00DSXC"]);
+    assert!(
+        (value(&found, "chest deflection") - 64.0).abs() < 0.05,
+        "{found}"
+    );
+    let row = found["criteria"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|one| one["criterion"] == "chest deflection")
+        .unwrap();
+    assert_eq!(
+        (&row["filter"], &row["met"]),
+        (&"CFC600".into(), &false.into())
+    );
+    assert!(
+        row["detail"]
+            .as_str()
+            .unwrap()
+            .contains("filtered by CFC180 before"),
+        "{row}"
+    );
+
+    // the head by its other spelling, a redundant sensor, and a 3 ms value that is no time history
+    let (head, other) = (half_sine(60.0, 0.02), half_sine(20.0, 0.02));
+    let nothing = |_: f64| 0.0;
+    test_of(
+        path,
+        &[
+            ("11CHST003CH3ACRX", "g", "ok", &head),
+            ("11HEADCGRDH3ACXA", "g", "ok", &other),
+            ("11HEADCGRDH3ACYA", "g", "ok", &nothing),
+            ("11HEADCGRDH3ACZA", "g", "ok", &nothing),
+            ("11HEAD0000H3ACXC", "g", "ok", &other),
+            ("11HEAD0000H3ACXA", "g", "ok", &head),
+            ("11HEAD0000H3ACYP", "g", "ok", &nothing),
+            ("11HEAD0000H3ACZ0", "g", "ok", &nothing),
+        ],
+    );
+    let (_, error) = call(path, &BY_208, 2);
+    assert!(
+        error.contains("11HEADCGRDH3ACXA") && error.contains("11HEAD0000H3ACXA"),
+        "{error}"
+    );
+    for (pattern, size, channel) in [
+        ("??HEAD00*", 60.0, "11HEAD0000H3ACXA"),
+        ("??HEADCGRD*", 20.0, "11HEADCGRDH3ACXA"),
+    ] {
+        let found = of(&["--place", &format!("head={pattern}")]);
+        assert!(
+            (value(&found, "HIC15") / hic(size) - 1.0).abs() < 1e-3,
+            "{found}"
+        );
+        let row = &found["criteria"][0];
+        assert_eq!(row["channels"]["head-x"], channel, "{row}");
+        let chest = found["criteria"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|one| one["criterion"] == "chest 3 ms")
+            .unwrap();
+        assert_eq!(chest["missing"], "chest");
+    }
+}
+
+/// What its file says of a channel is heard by every command.
+#[test]
+fn a_channel_that_failed_is_not_used() {
+    let directory = directory();
+    let path = directory.path();
+    let (head, nothing) = (half_sine(60.0, 0.02), |_: f64| 0.0);
+    let test = |status: &str| {
+        test_of(
+            path,
+            &[
+                ("11HEADCG00H3ACXP", "g", status, &head),
+                ("11HEADCG00H3ACYP", "g", "ok", &nothing),
+                ("11HEADCG00H3ACZP", "g", "ok", &nothing),
+                // computed of the channel that failed
+                ("11HEADCG00H3ACRA", "g", "ok", &head),
+            ],
+        );
+    };
+    test("ok");
+    call(path, &BY_208, 0);
+    for status in [
+        "channel failed",
+        "no data",
+        "Meaningless Data",
+        "questionable data",
+    ] {
+        test(status);
+        let (_, error) = call(path, &BY_208, 2);
+        assert!(
+            error.contains("11HEADCG00H3ACXP") && error.contains(status),
+            "{error}"
+        );
+    }
+    let named = [&BY_208[..], &["--place", "head-x=11HEADCG00H3ACXP"]].concat();
+    let (text, _) = call(path, &named, 0);
+    assert!(
+        text.contains("its file says \"questionable data\""),
+        "{text}"
+    );
+    let (rated, told) = call(path, &["compare", "test", "test"], 0);
+    assert!(
+        told.contains("11HEADCG00H3ACXP")
+            && told.contains("questionable data")
+            && !rated.contains("ACXP"),
+        "{rated} {told}"
+    );
+    test_of(path, &[("11HEADCG00H3ACXP", "g", "no data", &head)]);
+    let (_, error) = call(path, &["compare", "test", "test"], 2);
+    assert!(
+        error.contains("no channel is left") && error.contains("no data"),
+        "{error}"
+    );
+    let (rated, told) = call(
+        path,
+        &[
+            "compare",
+            "test",
+            "test",
+            "--channel",
+            "11HEADCG00H3ACXP=11HEADCG00H3ACXP",
+        ],
+        0,
+    );
+    assert!(
+        rated.contains("ACXP") && told.contains("no data"),
+        "{rated} {told}"
+    );
+}
+
 /// A run is judged by its own samples, and with the same names as its recording.
 #[test]
 fn a_run_is_judged_as_its_recording_is() {
@@ -648,6 +909,142 @@ fn criteria_that_a_model_cannot_have_are_refused() {
     );
 }
 
+/// The velocity after 20 ms of a free body under a pulse: 10 g at its middle, so ∫ = 10 g 10 ms, whatever separators and units its file has.
+#[test]
+fn curves_have_the_units_of_their_headings() {
+    let directory = directory();
+    let path = directory.path();
+    let model = |curve: &str| {
+        format!(
+            "model: p\ndimension: 2\ncurves:\n  pulse: {curve}\nsystems:\n  - name: man\n    elements:\n      - {{ name: torso, mass: 30, cg: [0, 0.2], inertia: 1.1 }}\n\
+             forces:\n  - {{ field: sled, acceleration: [pulse, 0] }}\noutputs:\n  - {{ name: vx, of: man/torso, at: cg, what: velocity, component: x }}\nrun: {{ duration: 20 ms, every: 10 ms }}\n"
+        )
+    };
+    let run = |curve: &str, table: &str| -> f64 {
+        fs::write(path.join("p.yaml"), model(curve)).unwrap();
+        fs::write(path.join("pulse.csv"), table).unwrap();
+        let rows = call(path, &["run", "p.yaml", "--no-files", "--csv", "-"], 0).0;
+        rows.lines()
+            .last()
+            .unwrap()
+            .split(',')
+            .nth(1)
+            .unwrap()
+            .parse()
+            .unwrap()
+    };
+    let refused = |curve: &str, table: &str| {
+        fs::write(path.join("p.yaml"), model(curve)).unwrap();
+        fs::write(path.join("pulse.csv"), table).unwrap();
+        call(path, &["run", "p.yaml", "--no-files"], 2).1
+    };
+    let expected = 10.0 * G * 0.01;
+    for (curve, table) in [
+        (
+            "{ file: pulse.csv }",
+            "time [ms],ax [g]\n0,0\n10,10\n20,0\n",
+        ),
+        (
+            "{ file: pulse.csv }",
+            "time [s];ax [m/s^2]\n0;0\n0.01;98.0665\n0.02;0\n",
+        ),
+        (
+            "{ file: pulse.csv }",
+            "\u{feff}time (ms)\tax/g\r\n0\t0\r\n10\t10\r\n20\t0\r\n",
+        ),
+        (
+            "{ file: pulse.csv, columns: [time, ax] }",
+            "ay [g],time [ms],ax [g]\n5,0,0\n5,10,10\n5,20,0\n",
+        ),
+        (
+            "{ file: pulse.csv, unit: [ms, gn] }",
+            "time [ms],ax [g]\n0,0\n10,10\n20,0\n",
+        ),
+        (
+            "{ file: pulse.csv, unit: [ms, gn] }",
+            "time,ax [g]\n0,0\n10,10\n20,0\n",
+        ),
+        ("{ file: pulse.csv, unit: [ms, gn] }", "0,0\n10,10\n20,0\n"),
+    ] {
+        let found = run(curve, table);
+        assert!(
+            (found / expected - 1.0).abs() < 1e-6,
+            "{curve} {table}: {found}"
+        );
+    }
+    for (curve, table, told) in [
+        (
+            "{ file: pulse.csv, unit: [ms, m/s^2] }",
+            "time,ax\n0,0,0,0\n10,0,100,5\n20,0,0,0\n",
+            "pulse.csv:2",
+        ),
+        (
+            "{ file: pulse.csv, unit: [ms, m/s^2] }",
+            "0,0,0,0\n10,0,100,5\n20,0,0,0\n",
+            "decimal marks",
+        ),
+        (
+            "{ file: pulse.csv, unit: [ms, m/s^2] }",
+            "time;ax\n0,0;0\n10,0;100,5\n20,0;0\n",
+            "decimal mark",
+        ),
+        (
+            "{ file: pulse.csv, unit: [ms, m/s^2] }",
+            "time [s],ax [g]\n0,0\n10,10\n20,0\n",
+            "not the one under `unit`",
+        ),
+        (
+            "{ file: pulse.csv }",
+            "time [furlong],ax [g]\n0,0\n10,10\n20,0\n",
+            "is no unit",
+        ),
+        (
+            "{ file: pulse.csv }",
+            "time [ms],ax [N]\n0,0\n10,10\n20,0\n",
+            "acceleration",
+        ),
+        (
+            "{ file: pulse.csv, columns: [time, ax] }",
+            "time [ms],ax [g],ax [m/s^2]\n0,0,0\n10,10,98\n20,0,0\n",
+            "2 columns",
+        ),
+    ] {
+        let error = refused(curve, table);
+        assert!(error.contains(told), "{table}: {error}");
+    }
+    // 1.2 s at 10 kHz: A sin(π t/1.2 s) with vibrations that the sum over whole periods does not keep; points that are left out are said
+    let many: String = (0..=12_000)
+        .map(|i| {
+            let t = f64::from(i) * 1e-4;
+            format!(
+                "{t},{}\n",
+                200.0 * (PI * t / 0.02).sin().powi(2) + (2.0 * PI * 3e3 * t).sin()
+            )
+        })
+        .collect();
+    let pulse = format!("time [s],ax [m/s^2]\n{many}");
+    let found = run("{ file: pulse.csv }", &pulse);
+    // ∫ 200 sin² over one period of 20 ms is 2; 60 periods of the vibration add nothing. The points of the vibration are 3.3 in a period,
+    // and lines between the points that stay are off by the error that is said
+    let (_, told) = call(path, &["run", "p.yaml", "--no-files"], 0);
+    assert!(told.contains("has 12001 points in its file"), "{told}");
+    let said: f64 = told
+        .split("differ from it by ")
+        .nth(1)
+        .unwrap()
+        .split(' ')
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!(
+        said > 0.0 && said < 2.0 && (found - 2.0).abs() < said * 0.02,
+        "{found} {said}"
+    );
+    let (_, told) = call(path, &["check", "p.yaml"], 0);
+    assert!(told.contains("has 12001 points in its file"), "{told}");
+}
+
 /// A curve from a channel equals the one from the same numbers in a text file, whatever the unit of the channel and its spelling.
 #[test]
 fn pulses_come_from_channels_of_tests() {
@@ -726,6 +1123,20 @@ fn pulses_come_from_channels_of_tests() {
     channel("N", &values);
     let (_, error) = call(path, &["check", "sled.yaml"], 2);
     assert!(error.contains("acceleration"), "{error}");
+    channel("m/s^2", &values);
+    let file = path.join("tests/Channel/T1.001");
+    let bytes = fs::read(&file).unwrap();
+    fs::write(
+        &file,
+        [
+            &b"Data status                 :channel failed\r\n"[..],
+            &bytes,
+        ]
+        .concat(),
+    )
+    .unwrap();
+    let (_, error) = call(path, &["check", "sled.yaml"], 2);
+    assert!(error.contains("channel failed"), "{error}");
     channel("m/s^2", &[0.0, f64::NAN]);
     let (_, error) = call(path, &["check", "sled.yaml"], 2);
     assert!(error.contains("`NaN`, and no number"), "{error}");

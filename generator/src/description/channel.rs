@@ -66,22 +66,31 @@ pub fn number<'t>(list: &'t str, code: &str) -> Result<u32, Vec<&'t str>> {
     Err(codes)
 }
 
-/// A unit of a channel as the model's language spells it; `None` where the channel has none.
-fn unit(said: &str) -> Option<&str> {
-    Some(match said {
-        "" | "NOVALUE" => return None,
-        // as tests spell it: of accelerations, not the gram
+/// A unit as the model's language spells it, where tests and tables spell it otherwise.
+pub fn spelled(said: &str) -> &str {
+    match said {
+        // of accelerations, not the gram
         "g" => "gn",
         "m/(s*s)" | "m/s2" | "m/s²" => "m/s^2",
-        "rad/(s*s)" => "rad/s^2",
+        "rad/(s*s)" | "rad/s2" | "rad/s²" => "rad/s^2",
         "Nm" => "N*m",
         "kNm" => "kN*m",
         "°" => "deg",
         "°/s" => "deg/s",
+        "µs" => "us",
         "-" => "1",
         unit => unit,
-    })
+    }
 }
+
+/// What `Data status` says of data that can be used.
+const SOUND: [&str; 5] = [
+    "ok",
+    "good",
+    "valid",
+    "scaling factor applied",
+    "linearised data",
+];
 
 /// A channel as a table of two columns, time \[s\] and value, with the unit of the value as the model's language spells it.
 ///
@@ -113,6 +122,15 @@ pub fn table(text: &str, code: &str) -> Result<(String, String), (String, &'stat
             "give a channel whose samples are at equal intervals, or the points as a text file",
         ));
     }
+    if let Some(status) = lines.value("Data status").filter(|said| {
+        let sound = SOUND.iter().any(|sound| sound.eq_ignore_ascii_case(said));
+        !sound && !matches!(*said, "" | "NOVALUE")
+    }) {
+        return Err((
+            format!("the file of the channel {code} says of its data: `{status}`"),
+            "give a channel that is sound; if you know that it is, write `Data status :ok` into its file",
+        ));
+    }
     let (first, interval) = (
         number("Time of first sample")?,
         number("Sampling interval")?,
@@ -136,12 +154,15 @@ pub fn table(text: &str, code: &str) -> Result<(String, String), (String, &'stat
             "look whether the file is whole",
         ));
     }
-    let unit = unit(lines.value("Unit").unwrap_or_default()).ok_or_else(|| {
-        (
-            format!("the channel {code} has no unit"),
-            "write its unit into the file: `Unit :m/s^2`",
-        )
-    })?;
+    let unit = match lines.value("Unit").unwrap_or_default() {
+        "" | "NOVALUE" => {
+            return Err((
+                format!("the channel {code} has no unit"),
+                "write its unit into the file: `Unit :m/s^2`",
+            ));
+        }
+        unit => spelled(unit),
+    };
     let mut rows = String::new();
     for (index, (line, value)) in lines.data.iter().enumerate() {
         if !value.parse::<f64>().is_ok_and(f64::is_finite) {
@@ -188,9 +209,27 @@ mod tests {
             ),
             (":m/(s*s)", ":NOVALUE", "no unit"),
             (":10SLED000000ACX0", ":10SLED000000ACY0", "says that it is"),
+            (
+                "Unit ",
+                "Data status                 :Channel failed\r\nUnit ",
+                "`Channel failed`",
+            ),
+            (
+                "Unit ",
+                "Data status                 :questionable data\r\nUnit ",
+                "`questionable data`",
+            ),
         ] {
             let (message, _) = table(&CHANNEL.replace(from, to), "10SLED000000ACX0").unwrap_err();
             assert!(message.contains(told), "{told}: {message}");
+        }
+    }
+
+    #[test]
+    fn sound_data_are_used() {
+        for status in ["ok", "OK", "NOVALUE", "", "Scaling factor applied"] {
+            let text = CHANNEL.replace("Unit ", &format!("Data status :{status}\r\nUnit "));
+            assert!(table(&text, "10SLED000000ACX0").is_ok(), "{status}");
         }
     }
 

@@ -24,6 +24,8 @@ macro_rules! places {
                 dummy: String,
                 /// Whose coefficients the filters have.
                 filter_standard: Option<FilterStandard>,
+                /// Test object and position of the occupant, the first two characters of the codes of its outputs.
+                occupant: Option<String>,
                 $( $(#[$meta])* $place: Option<String>, )*
             }
         }

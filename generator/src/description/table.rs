@@ -1,7 +1,13 @@
-//! Columns of numbers in text files (CSV): fields between `,`, `;` or tabs, comments from `#`, a line of headings or none.
+//! Columns of numbers in text files (CSV) and channels, as the points of curves: [`bryant_table`] says how they are read.
 
-use super::tree::{MAX_BYTES, MAX_POINTS};
+use super::channel::spelled;
+use super::tree::MAX_BYTES;
+use super::unit::unit;
 use crate::diagnostic::{Diagnostic, quoted, suggestion};
+use bryant_table::{Fault as InTable, Field, Heading};
+
+/// So many lines of numbers are read; of more than a curve may have, some are left out later.
+const MOST_ROWS: usize = 1_000_000;
 
 /// A file of numbers as read.
 #[derive(Debug)]
@@ -19,7 +25,7 @@ pub struct Table {
 pub enum Column {
     /// By its number, from 1.
     Number(usize),
-    /// By its heading.
+    /// By its heading, with or without its unit.
     Name(String),
 }
 
@@ -28,9 +34,19 @@ pub enum Column {
 pub struct Row {
     /// As written, units not applied.
     pub values: [f64; 2],
-    /// Line and, of both numbers, column and length \[characters\], from 1.
-    line: usize,
-    spans: [(usize, usize); 2],
+    /// Line, column and length \[characters\] of both numbers, from 1.
+    places: [(usize, usize, usize); 2],
+}
+
+/// Two columns.
+#[derive(Debug)]
+pub struct Columns {
+    /// The lines with numbers, two or more.
+    pub rows: Vec<Row>,
+    /// The units in their headings, as the model's language spells them.
+    pub units: [Option<String>; 2],
+    /// Places of the headings: line, column, length.
+    headings: [(usize, usize, usize); 2],
 }
 
 /// Why there are no numbers.
@@ -40,16 +56,6 @@ pub enum Fault {
     Column(usize, String, String),
     /// Something in the file.
     InFile(Box<Diagnostic>),
-}
-
-/// A field of a line.
-struct Field<'a> {
-    /// Without quotation marks and blanks around it.
-    text: &'a str,
-    /// From 1.
-    column: usize,
-    /// \[characters\]
-    length: usize,
 }
 
 impl Table {
@@ -72,62 +78,63 @@ impl Table {
         })
     }
 
-    /// Two columns of it.
+    /// Two columns of it; the first two if nothing is said.
     ///
     /// # Errors
     /// The first fault found.
-    pub fn columns(&self, wanted: &[Column; 2]) -> Result<Vec<Row>, Fault> {
-        let mut lines = self
-            .text
-            .lines()
-            .enumerate()
-            .map(|(index, line)| (index + 1, line))
-            .filter(|(_, line)| {
-                let line = line.trim_start();
-                !line.is_empty() && !line.starts_with('#')
-            })
-            .peekable();
-        let Some(&(first, heading)) = lines.peek() else {
-            return Err(Fault::InFile(Box::new(Diagnostic::of_file(
+    pub fn columns(&self, said: Option<&[Column; 2]>) -> Result<Columns, Fault> {
+        let in_file = |fault: InTable| self.in_file(fault);
+        let table = bryant_table::Table::of(&self.text).map_err(in_file)?;
+        let table = table.ok_or_else(|| {
+            Fault::InFile(Box::new(Diagnostic::of_file(
                 &self.name,
                 "the file has no numbers",
                 "write a line `abscissa, ordinate` for each point",
-            ))));
-        };
-        let delimiter = delimiter(heading);
-        let fields = split(heading, delimiter);
-        let chosen = self.chosen(wanted, &fields)?;
-        let is_number = |&index: &usize| {
-            fields
-                .get(index)
-                .is_some_and(|field| field.text.parse::<f64>().is_ok())
-        };
+            )))
+        })?;
+        let headings = table.headings(&|text| is_unit(spelled(text)));
+        let first_two = [Column::Number(1), Column::Number(2)];
+        let wanted = said.unwrap_or(&first_two);
+        let chosen = self.chosen(wanted, &headings)?;
         let named = wanted.iter().any(|c| matches!(c, Column::Name(_)));
-        if named || !chosen.iter().all(is_number) {
-            lines.next();
+        let headed = named || table.is_headed(chosen[0]);
+        if !headed && said.is_none() && headings.len() > 2 {
+            return Err(in_file(headings[2].field.fault(
+                format!("there are {} columns without headings, and two are needed", headings.len()),
+                "say which: `columns: [1, 2]`; if commas are decimal marks here, write decimals behind a point",
+            )));
         }
         let mut rows = Vec::new();
-        for (line, text) in lines {
-            if rows.len() == MAX_POINTS {
-                return Err(self.fault(
-                    (line, 1, 1),
-                    format!("the curve has more than {MAX_POINTS} points"),
+        for fields in table.rows(headed) {
+            if rows.len() == MOST_ROWS {
+                return Err(in_file(headings[0].field.fault(
+                    format!("the file has more than {MOST_ROWS} lines of numbers"),
                     "leave points out; a motion does not need more",
-                ));
+                )));
             }
-            rows.push(self.row(line, &split(text, delimiter), chosen, delimiter)?);
+            rows.push(self.row(&fields.map_err(in_file)?, chosen)?);
         }
+        let first = headings[0].field;
         if rows.len() < 2 {
-            return Err(self.fault(
-                (first, 1, heading.chars().count()),
-                match rows.len() {
-                    0 => "below the headings there are no numbers".to_owned(),
-                    _ => "a curve has at least two points, but the file has one".to_owned(),
-                },
-                "write a line `abscissa, ordinate` for each point",
-            ));
+            let message = match rows.len() {
+                0 => "below the headings there are no numbers",
+                _ => "a curve has at least two points, but the file has one",
+            };
+            let help = "write a line `abscissa, ordinate` for each point";
+            return Err(in_file(first.fault(message, help)));
         }
-        Ok(rows)
+        let of = |index: usize| headings[chosen[index]];
+        let unit = |index: usize| {
+            of(index)
+                .unit
+                .filter(|_| headed)
+                .map(|unit| spelled(unit).to_owned())
+        };
+        Ok(Columns {
+            rows,
+            units: [unit(0), unit(1)],
+            headings: [place(&of(0).field), place(&of(1).field)],
+        })
     }
 
     /// A problem with one of the numbers of a row.
@@ -138,177 +145,148 @@ impl Table {
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> Diagnostic {
-        let (column, length) = row.spans[which];
+        Diagnostic::at(&self.name, &self.text, row.places[which], message, help)
+    }
+
+    /// A problem with the heading of one of two columns.
+    pub fn heading_problem(
+        &self,
+        columns: &Columns,
+        which: usize,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Diagnostic {
         Diagnostic::at(
             &self.name,
             &self.text,
-            (row.line, column, length),
+            columns.headings[which],
             message,
             help,
         )
     }
 
-    fn fault(
-        &self,
-        place: (usize, usize, usize),
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) -> Fault {
-        let problem = Diagnostic::at(&self.name, &self.text, place, message, help);
+    fn in_file(&self, fault: InTable) -> Fault {
+        let place = (fault.line, fault.column, fault.length);
+        let problem = Diagnostic::at(&self.name, &self.text, place, fault.message, fault.help);
         Fault::InFile(Box::new(problem))
     }
 
     /// Indices of the columns wanted.
-    fn chosen(&self, wanted: &[Column; 2], headings: &[Field<'_>]) -> Result<[usize; 2], Fault> {
+    fn chosen(&self, wanted: &[Column; 2], headings: &[Heading<'_>]) -> Result<[usize; 2], Fault> {
         let mut chosen = [0; 2];
         for (which, column) in wanted.iter().enumerate() {
+            let wrong = |message: String, help: String| Err(Fault::Column(which, message, help));
             chosen[which] = match column {
                 Column::Number(number) if (1..=headings.len()).contains(number) => number - 1,
                 Column::Number(number) => {
-                    return Err(Fault::Column(
-                        which,
+                    return wrong(
                         format!(
                             "{} has no column {number}: its first line has {}",
                             quoted(&self.name),
                             headings.len()
                         ),
                         "columns count from 1; they are separated by `,`, `;` or tabs".to_owned(),
-                    ));
+                    );
                 }
                 Column::Name(name) => {
-                    let mut found = headings.iter().enumerate();
-                    let found = found.find(|(_, field)| field.text == name.trim());
-                    let Some((index, _)) = found else {
-                        let names: Vec<&str> = headings.iter().map(|f| f.text).collect();
-                        let list: Vec<String> = names.iter().map(|n| quoted(n)).collect();
-                        return Err(Fault::Column(
-                            which,
-                            format!("{} has no column {}", quoted(&self.name), quoted(name)),
-                            suggestion(
-                                name,
-                                names.iter().copied(),
-                                &format!("its first line has {}", list.join(", ")),
-                            ),
-                        ));
-                    };
-                    index
+                    let all = headings.iter().enumerate();
+                    let called = all.filter(|(_, heading)| heading.is_called(name));
+                    let called: Vec<usize> = called.map(|(index, _)| index).collect();
+                    match called.as_slice() {
+                        [one] => *one,
+                        [] => {
+                            let names: Vec<&str> = headings.iter().map(|h| h.field.text).collect();
+                            let list: Vec<String> = names.iter().map(|n| quoted(n)).collect();
+                            return wrong(
+                                format!("{} has no column {}", quoted(&self.name), quoted(name)),
+                                suggestion(
+                                    name,
+                                    names.iter().copied(),
+                                    &format!("its first line has {}", list.join(", ")),
+                                ),
+                            );
+                        }
+                        several => {
+                            return wrong(
+                                format!(
+                                    "{} has {} columns {}",
+                                    quoted(&self.name),
+                                    several.len(),
+                                    quoted(name)
+                                ),
+                                "give each a heading of its own, or say the number of the column"
+                                    .to_owned(),
+                            );
+                        }
+                    }
                 }
             };
         }
         Ok(chosen)
     }
 
-    fn row(
-        &self,
-        line: usize,
-        fields: &[Field<'_>],
-        chosen: [usize; 2],
-        delimiter: char,
-    ) -> Result<Row, Fault> {
-        let mut row = Row {
-            values: [0.0; 2],
-            line,
-            spans: [(1, 1); 2],
-        };
-        for (which, &index) in chosen.iter().enumerate() {
-            let Some(field) = fields.get(index) else {
-                return Err(self.fault(
-                    (line, 1, 1),
-                    format!(
-                        "this line has {} columns, but column {} is needed",
-                        fields.len(),
-                        index + 1
-                    ),
-                    "complete the line, or put `#` before it",
-                ));
+    fn row(&self, fields: &[Field<'_>], chosen: [usize; 2]) -> Result<Row, Fault> {
+        let fields = chosen.map(|index| fields[index]);
+        let mut values = [0.0; 2];
+        for (value, field) in values.iter_mut().zip(&fields) {
+            let number = field.number().map_err(|fault| self.in_file(fault))?;
+            let wrong = |message: String| {
+                let help = "write a number without unit; lines that are no data begin with `#`";
+                self.in_file(field.fault(message, help))
             };
-            let place = (line, field.column, field.length.max(1));
-            let value = field.text.parse::<f64>().ok().filter(|v| v.is_finite());
-            let Some(value) = value else {
-                let comma = delimiter != ',' && field.text.contains(',');
-                return Err(self.fault(
-                    place,
-                    match field.text {
-                        "" => "here a number is missing".to_owned(),
-                        text => format!("{} is no number", quoted(text)),
-                    },
-                    if comma {
-                        "write decimals behind a point"
-                    } else {
-                        "write a number without unit; lines that are no data begin with `#`"
-                    },
-                ));
+            *value = match number {
+                Some(number) if number.is_finite() => number,
+                Some(_) => return Err(wrong(format!("{} is no number", quoted(field.text)))),
+                None => return Err(wrong("here a number is missing".to_owned())),
             };
-            row.values[which] = value;
-            row.spans[which] = (field.column, field.length.max(1));
         }
-        Ok(row)
+        Ok(Row {
+            values,
+            places: [place(&fields[0]), place(&fields[1])],
+        })
     }
 }
 
-/// What separates the fields of a line: the first of tab, `;`, `,` that is in it.
-fn delimiter(line: &str) -> char {
-    ['\t', ';']
-        .into_iter()
-        .find(|c| line.contains(*c))
-        .unwrap_or(',')
+/// Whether a text is a product of units, such as `N*m/rad` or `m/(s*s)`.
+pub fn is_unit(text: &str) -> bool {
+    let parts = text.split(['*', '/', '(', ')']).map(str::trim);
+    let mut parts = parts.filter(|part| !part.is_empty()).peekable();
+    let is_known =
+        |part: &str| part == "1" || unit(part.split('^').next().unwrap_or(part)).is_some();
+    parts.peek().is_some() && parts.all(is_known)
 }
 
-/// The fields of a line; a delimiter between quotation marks separates nothing.
-fn split(line: &str, delimiter: char) -> Vec<Field<'_>> {
-    let mut fields = Vec::new();
-    let (mut begin, mut column, mut quoted) = (0, 1, false);
-    let mut first = 1;
-    let ends = line.char_indices().map(Some).chain([None]);
-    for end in ends {
-        let at = match end {
-            Some((_, '"')) => {
-                quoted = !quoted;
-                column += 1;
-                continue;
-            }
-            Some((at, c)) if c == delimiter && !quoted => at,
-            Some(_) => {
-                column += 1;
-                continue;
-            }
-            None => line.len(),
-        };
-        let whole = &line[begin..at];
-        let blanks = whole.chars().take_while(|c| c.is_whitespace()).count();
-        let text = whole.trim();
-        fields.push(Field {
-            text: text.trim_matches('"').trim(),
-            column: first + blanks.min(whole.chars().count().saturating_sub(1)),
-            length: text.chars().count(),
-        });
-        column += 1;
-        first = column;
-        begin = at + delimiter.len_utf8();
-    }
-    fields
+/// Line, column and length.
+fn place(field: &Field<'_>) -> (usize, usize, usize) {
+    (field.line, field.column, field.length.max(1))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn numbers(text: &str, wanted: [Column; 2]) -> Result<Vec<[f64; 2]>, String> {
-        match Table::new("t.csv", text).unwrap().columns(&wanted) {
-            Ok(rows) => Ok(rows.iter().map(|r| r.values).collect()),
+    fn columns(text: &str, wanted: Option<[Column; 2]>) -> Result<Columns, String> {
+        match Table::new("t.csv", text).unwrap().columns(wanted.as_ref()) {
+            Ok(columns) => Ok(columns),
             Err(Fault::Column(which, message, help)) => Err(format!("{which}: {message} ({help})")),
             Err(Fault::InFile(problem)) => Err(problem.line()),
         }
     }
 
-    const FIRST: [Column; 2] = [Column::Number(1), Column::Number(2)];
+    fn numbers(text: &str, wanted: Option<[Column; 2]>) -> Result<Vec<[f64; 2]>, String> {
+        columns(text, wanted).map(|found| found.rows.iter().map(|r| r.values).collect())
+    }
 
-    fn named(x: &str, y: &str) -> [Column; 2] {
-        [Column::Name(x.into()), Column::Name(y.into())]
+    fn named(x: &str, y: &str) -> Option<[Column; 2]> {
+        Some([Column::Name(x.into()), Column::Name(y.into())])
+    }
+
+    fn numbered(x: usize, y: usize) -> Option<[Column; 2]> {
+        Some([Column::Number(x), Column::Number(y)])
     }
 
     #[test]
-    fn all_delimiters_headings_and_comments() {
+    fn columns_are_found_by_number_and_by_heading() {
         let rows = Ok(vec![[0.0, 1.5], [2e-3, -4.0]]);
         for text in [
             "0,1.5\n2e-3,-4\n",
@@ -316,34 +294,60 @@ mod tests {
             "# made by hand\ntime;ax\n\n0;1.5\n # in between\n0.002;-4",
             "\"time\"\t\"a, x\"\n0\t1.5\n.002\t-4.0\n",
         ] {
-            assert_eq!(numbers(text, FIRST), rows, "{text:?}");
+            assert_eq!(numbers(text, None), rows, "{text:?}");
         }
         let text = "\"t [ms]\",\"a, y\",ax\n0,9,1.5\n2e-3,9,-4\n";
         assert_eq!(numbers(text, named("t [ms]", "ax")), rows);
+        assert_eq!(numbers(text, named("t", "ax")), rows);
         assert_eq!(
             numbers(text, named("ax", "a, y")),
             Ok(vec![[1.5, 9.0], [-4.0, 9.0]])
         );
         assert_eq!(
-            numbers("1,2,3\n4,5,6", [Column::Number(3), Column::Number(1)]),
+            numbers("1,2,3\n4,5,6", numbered(3, 1)),
             Ok(vec![[3.0, 1.0], [6.0, 4.0]])
         );
     }
 
     #[test]
+    fn headings_have_units_in_the_words_of_the_model() {
+        for (text, units) in [
+            ("time [ms],ax [g]\n0,1\n1,2\n", [Some("ms"), Some("gn")]),
+            (
+                "time (ms);ax/(m/s2)\n0;1\n1;2\n",
+                [Some("ms"), Some("m/s^2")],
+            ),
+            ("time,force [kN]\n0,1\n1,2\n", [None, Some("kN")]),
+            ("time,force (left)\n0,1\n1,2\n", [None, None]),
+            ("0,1\n1,2\n", [None, None]),
+        ] {
+            let found = columns(text, None).unwrap().units;
+            assert_eq!(found.each_ref().map(Option::as_deref), units, "{text}");
+        }
+    }
+
+    #[test]
     fn faults_are_placed() {
-        let of = |text: &str| numbers(text, FIRST).unwrap_err();
+        let of = |text: &str| numbers(text, None).unwrap_err();
         assert_eq!(
             of("t,a\n0,1\n1,  x2\n"),
             "t.csv:3:5: \"x2\" is no number (help: write a number without unit; lines that are no data begin with `#`)"
         );
         assert!(
             of("t;a\n0;1,5\n1;2\n")
-                .starts_with("t.csv:2:3: \"1,5\" is no number (help: write decimals")
+                .contains("t.csv:2:3: \"1,5\" is no number (help: its comma is a decimal mark")
         );
-        assert!(of("0,1\n1\n").starts_with("t.csv:2:1: this line has 1 columns"));
+        assert!(of("0,1\n1\n").starts_with("t.csv:2:1: this line has 1 field"));
+        assert!(
+            of("time,ax\n0,0,0,0\n10,0,100,5\n").starts_with("t.csv:2:1: this line has 4 fields")
+        );
+        assert!(
+            of("0,0,0,0\n10,0,100,5\n")
+                .starts_with("t.csv:1:5: there are 4 columns without headings")
+        );
         assert!(of("0,1\n1,\n").starts_with("t.csv:2:3: here a number is missing"));
         assert!(of("0,1\n1,inf\n").starts_with("t.csv:2:3: \"inf\" is no number"));
+        assert!(of("0,x\n1,2\n").starts_with("t.csv:1:3: \"x\" is no number"));
         assert!(of("t,a\n").contains("below the headings there are no numbers"));
         assert!(of("t,a\n0,1\n").contains("at least two points"));
         assert!(of("# nothing\n").contains("no numbers"));
@@ -353,15 +357,17 @@ mod tests {
             wrong,
             "1: \"t.csv\" has no column \"az\" (did you mean \"ax\"?)"
         );
-    }
-
-    #[test]
-    fn too_many_points_are_refused() {
-        let text: String = (0..=MAX_POINTS).map(|k| format!("{k},0\n")).collect();
-        let problem = numbers(&text, FIRST).unwrap_err();
-        assert!(
-            problem.starts_with("t.csv:10001:1: the curve has more than"),
-            "{problem}"
-        );
+        for equal in [
+            "time,ax,ax\n0,1,2\n1,2,3\n",
+            "time,ax [g],ax [m/s^2]\n0,1,2\n1,2,3\n",
+        ] {
+            let wrong = numbers(equal, named("time", "ax")).unwrap_err();
+            assert!(
+                wrong.starts_with("1: \"t.csv\" has 2 columns \"ax\""),
+                "{wrong}"
+            );
+            // where neither is named they may be equal
+            assert!(numbers(equal, None).is_ok());
+        }
     }
 }

@@ -371,6 +371,7 @@ mod tests {
             interpolate: Interpolate::Linear,
             extrapolate,
             told: true,
+            thinned: None,
         }
     }
 
@@ -436,6 +437,7 @@ mod tests {
             interpolate: Interpolate::Cubic,
             extrapolate,
             told: true,
+            thinned: None,
         }
     }
 

@@ -16,6 +16,7 @@ pub(crate) mod resolve;
 pub mod rule;
 pub mod scene;
 mod switch;
+mod thin;
 pub(crate) mod unloading;
 
 use std::fmt;
@@ -98,7 +99,7 @@ pub struct Parameter {
 }
 
 /// A function through points (SI).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Curve {
     /// Name in the YAML, or one made of the force it was written in ("belt chest force").
     pub name: String,
@@ -110,6 +111,38 @@ pub struct Curve {
     pub extrapolate: Extrapolate,
     /// Whether the description says so: a run in which a curve is left that was merely not told otherwise deserves a doubt.
     pub told: bool,
+    /// What was left out of its file; `None` if nothing was.
+    pub thinned: Option<Thinned>,
+}
+
+/// The digest of a model is made of this: points that were left out leave no trace.
+impl fmt::Debug for Curve {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Curve {
+            name,
+            points,
+            interpolate,
+            extrapolate,
+            told,
+            thinned: _,
+        } = self;
+        f.debug_struct("Curve")
+            .field("name", name)
+            .field("points", points)
+            .field("interpolate", interpolate)
+            .field("extrapolate", extrapolate)
+            .field("told", told)
+            .finish()
+    }
+}
+
+/// Points that a curve does not have, because its file has too many.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thinned {
+    /// Number of points in the file.
+    pub points: usize,
+    /// Largest distance of the points that were left out from the curve, in the SI unit of its ordinate.
+    pub error: f64,
 }
 
 /// Value of a curve between its points.
@@ -417,6 +450,8 @@ pub struct Criteria {
     pub dummy: String,
     /// Whether filters are those of SAE J211-1, and not of ISO 6487.
     pub sae: bool,
+    /// Test object and position of the occupant, the first two characters of the codes of its outputs; `None` if there is one only.
+    pub occupant: Option<String>,
     /// The places of the dummy that are known, such as `neck-fx`, each with the name of the output that is there.
     pub places: Vec<(String, String)>,
 }

@@ -340,6 +340,7 @@ impl Fresh<'_> {
                 interpolate: Interpolate::Linear,
                 extrapolate: Extrapolate::Linear,
                 told: true,
+                thinned: None,
             });
             self.curves.len() - 1
         });

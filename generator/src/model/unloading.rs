@@ -30,6 +30,7 @@ pub fn nothing() -> Curve {
         interpolate: Interpolate::Linear,
         extrapolate: Extrapolate::Hold,
         told: true,
+        thinned: None,
     }
 }
 
@@ -225,6 +226,7 @@ mod tests {
             interpolate: Interpolate::Linear,
             extrapolate,
             told: true,
+            thinned: None,
         }
     }
 

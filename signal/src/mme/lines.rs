@@ -1,7 +1,7 @@
 //! The lines of a file of ISO-MME.
 
 use crate::ReadError;
-use crate::recording::bytes_of;
+use crate::recording::text_of;
 use std::path::Path;
 
 /// The text for an unknown value.
@@ -20,11 +20,7 @@ pub struct Lines {
 impl Lines {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Lines, ReadError> {
-        let text = match String::from_utf8(bytes_of(path)?) {
-            Ok(text) => text,
-            // each byte of ISO 8859-1 is the character with the same number
-            Err(error) => error.into_bytes().into_iter().map(char::from).collect(),
-        };
+        let text = text_of(path)?;
         let mut lines = Lines {
             pairs: Vec::new(),
             data: Vec::new(),

@@ -1,8 +1,18 @@
 //! Reads ISO-MME.
 
 use super::lines::{Lines, NOVALUE};
-use crate::{Channel, ReadError, Recording, Signal};
+use crate::{Channel, ReadError, Recording, Signal, unit};
 use std::path::{Path, PathBuf};
+
+/// What the key `Data status` says of data that can be used. The standard has `channel failed`, `no data`, `meaningless data` and
+/// `questionable data` for others.
+const SOUND: [&str; 5] = [
+    "ok",
+    "good",
+    "valid",
+    "scaling factor applied",
+    "linearised data",
+];
 
 /// Reads a test by its file `TEST.mme`, or by a folder with one such file.
 ///
@@ -178,7 +188,7 @@ impl Written {
                         "its times are those of the channel `{name}`, which does not exist"
                     ))
                 })?;
-                let signal = Signal::of_samples(&times.values, &self.values);
+                let signal = Signal::of_samples(&times.times()?, &self.values);
                 signal.ok_or_else(|| {
                     self.wrong(
                         "its times are not as many as its samples, or not at equal intervals",
@@ -197,8 +207,31 @@ impl Written {
             name,
             title: title.unwrap_or_default().to_owned(),
             unit: self.lines.value("Unit").unwrap_or_default().to_owned(),
+            doubt: self.doubt(),
             signal,
         })
+    }
+
+    /// The samples as times in seconds.
+    fn times(&self) -> Result<Vec<f64>, ReadError> {
+        let code = self.code();
+        if let Some(doubt) = self.doubt() {
+            return Err(self.wrong(format!("the times of {code} cannot be used: {doubt}")));
+        }
+        let said = self.lines.value("Unit").unwrap_or("s");
+        let factor = unit::factor(said, "s").ok_or_else(|| {
+            self.wrong(format!(
+                "the unit of the times of {code} is `{said}`, which is no unit of time"
+            ))
+        })?;
+        Ok(self.values.iter().map(|time| time * factor).collect())
+    }
+
+    /// What the file says about its data if that casts doubt on them.
+    fn doubt(&self) -> Option<String> {
+        let status = self.lines.value("Data status")?;
+        let sound = SOUND.iter().any(|sound| sound.eq_ignore_ascii_case(status));
+        (!sound).then(|| status.to_owned())
     }
 
     fn evenly(&self) -> Result<Signal, ReadError> {

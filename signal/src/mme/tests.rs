@@ -10,11 +10,11 @@ fn channel(name: &str, title: &str, values: Vec<f64>) -> Channel {
         name: name.to_owned(),
         title: title.to_owned(),
         unit: "m/s^2".to_owned(),
-        signal: Signal {
+        ..Channel::of(Signal {
             first: -0.1,
             interval: 1e-4,
             values,
-        },
+        })
     }
 }
 
@@ -67,7 +67,7 @@ fn what_is_written_is_read_back_bit_for_bit() {
             ("10X002000000AC00", "belt force"),
         ];
         assert!(named.eq(expected.map(|(name, title)| (name.to_owned(), title.to_owned()))));
-        assert!(found.channel("belt force").is_some());
+        assert!(found.channel("belt force").is_ok());
     }
     // a shorter recording of the same name leaves no channel of the longer one
     let shorter = Recording {
@@ -121,6 +121,68 @@ fn files_of_a_laboratory_are_read() {
         (1.5, -0.2)
     );
     assert!(force.signal.values[1].is_nan());
+}
+
+/// The same times in other units, and a unit that is none of time.
+#[test]
+fn times_of_a_channel_have_its_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    laboratory(folder.path());
+    let file = folder.path().join("CHANNEL/T1.001");
+    let text = fs::read_to_string(&file).unwrap();
+    let expected = read(folder.path()).unwrap();
+    let milliseconds = text
+        .replace("Unit :s", "Unit :ms")
+        .replace("-0.1", "-100")
+        .replace("-0.05", "-50");
+    let unsaid = text.replace("Unit :s", "Unit :NOVALUE");
+    for text in [milliseconds, unsaid] {
+        fs::write(&file, text).unwrap();
+        let found = read(folder.path()).unwrap();
+        let [found, expected] = [&found, &expected].map(|one| &one.channels[0].signal);
+        assert!(
+            (found.first - expected.first).abs() < 1e-15 && (found.interval - 0.05).abs() < 1e-15
+        );
+    }
+    fs::write(&file, text.replace("Unit :s", "Unit :N")).unwrap();
+    let error = read(folder.path()).unwrap_err().to_string();
+    assert!(
+        error.contains("T1.001") && error.contains("no unit of time"),
+        "{error}"
+    );
+    fs::write(
+        &file,
+        text.replace("Unit :s", "Data status :No Data\r\nUnit :s"),
+    )
+    .unwrap();
+    let error = read(folder.path()).unwrap_err().to_string();
+    assert!(error.contains("No Data"), "{error}");
+}
+
+#[test]
+fn a_channel_says_that_it_failed() {
+    for (status, doubt) in [
+        ("ok", None),
+        ("OK", None),
+        ("NOVALUE", None),
+        ("", None),
+        ("Scaling factor applied", None),
+        ("Channel failed", Some("Channel failed")),
+        ("questionable data", Some("questionable data")),
+        ("no data", Some("no data")),
+        ("meaningless data", Some("meaningless data")),
+        ("system failed", Some("system failed")),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        laboratory(folder.path());
+        let text = format!(
+            "Channel code :11HEAD0000H3ACXA\nData status :{status}\nSampling interval :1e-4\n1\n2\n"
+        );
+        fs::write(folder.path().join("CHANNEL/T1.003"), text).unwrap();
+        let found = read(folder.path()).unwrap();
+        let found = found.channel("11HEAD0000H3ACXA").unwrap();
+        assert_eq!(found.doubt.as_deref(), doubt, "{status}");
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The additions of a report to a run: curves of a test, and a second run with other parameters.
 
 use super::super::Error;
-use super::super::compare::{channel, recording};
+use super::super::compare::{channel, doubt, recording};
 use super::super::error_report::ErrorReport;
 use super::super::model_argument::Found;
 use super::super::terminal::Terminal;
@@ -15,7 +15,7 @@ use crate::simulation::{self, Recording};
 use crate::table::Table;
 use bryant_generator::model::Model;
 use bryant_runtime::program::Job;
-use bryant_signal::{Channel, unit};
+use bryant_signal::{Channel, NoChannel, unit};
 use serde_json::{Value, json};
 
 /// A curve shows at most this many samples; of more samples, every second one and so on is shown.
@@ -45,9 +45,12 @@ pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<V
     if pairs.is_empty() {
         for (index, output) in model.outputs.iter().enumerate() {
             let code = output.code.as_deref();
-            let found = code.and_then(|code| recording.channel(code));
-            let found = found.or_else(|| recording.channel(&output.name));
-            pairs.extend(found.map(|found| (index, found)));
+            for name in code.into_iter().chain([output.name.as_str()]) {
+                if recording.channel(name) != Err(NoChannel::Unknown) {
+                    pairs.push((index, channel(&recording, path, name)?));
+                    break;
+                }
+            }
         }
     }
     if pairs.is_empty() {
@@ -60,6 +63,11 @@ pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<V
     }
     let curves = pairs.into_iter().map(|(index, channel)| {
         let output = &model.outputs[index];
+        if let Some(doubt) = doubt(channel, path) {
+            return Err(Error::Input(format!(
+                "{doubt}\n  help: name channels that are sound, --channel 'OUTPUT=CHANNEL'"
+            )));
+        }
         let Some(factor) = unit::factor(&channel.unit, &output.unit) else {
             return Err(Error::Input(format!(
                 "the channel \"{}\" of {} is in `{}`, and the output \"{}\" in `{}`\n  help: take channels of one quantity, with units that are known",

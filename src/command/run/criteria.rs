@@ -32,16 +32,19 @@ impl Criteria {
                     Some(of) => of == Standard::SaeJ211,
                     None => own.as_ref().is_some_and(|own| own.sae),
                 };
+                let occupant = own.as_ref().and_then(|own| own.occupant.clone());
                 let own = own.iter().flat_map(|own| own.places.iter().cloned());
                 let others = own.filter(|(place, _)| named.iter().all(|(name, _)| name != place));
                 CriteriaFact {
                     standard: standard.clone(),
                     dummy: dummy.clone(),
                     sae,
+                    occupant: arguments.occupant.clone().or(occupant),
                     places: others.chain(named.iter().cloned()).collect(),
                 }
             }
             (None, Some(own)) if named.is_empty() => CriteriaFact {
+                occupant: arguments.occupant.clone().or(own.occupant.clone()),
                 sae: arguments
                     .filter_standard
                     .map_or(own.sae, |of| of == Standard::SaeJ211),
@@ -130,9 +133,13 @@ impl Criteria {
                 limit: one.limit,
                 value,
                 detail,
+                channels: one.channels.clone(),
             }
         });
         Some(Verdict {
+            // the codes are beside the outputs
+            occupant: None,
+            left_out: Vec::new(),
             rows: rows.collect(),
             limits: self.limits.clone(),
         })

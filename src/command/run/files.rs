@@ -271,7 +271,7 @@ fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<Path
             name: name.clone(),
             title: title.to_owned(),
             unit: output.unit.clone(),
-            signal,
+            ..Channel::of(signal)
         });
     }
     if channels.len() > mme::MOST_CHANNELS {

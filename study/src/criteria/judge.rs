@@ -1,7 +1,8 @@
 //! The criteria of a model: the outputs that they are read off.
 
+use super::choice::{Asked, Candidate, Found, ambiguous, choose, is_pattern, known};
 use super::limits::{self, Limits};
-use super::{CRITERIA, Criterion, Missing, PLACES, Place, fits};
+use super::{CRITERIA, Criterion, Missing, PLACES, Place};
 use crate::facts::{CriteriaFact, ModelFacts, OutputFact};
 use crate::quantity::dimension;
 use crate::response::Response;
@@ -18,6 +19,8 @@ pub struct Judged {
     pub response: Result<Response, Missing>,
     /// A remark on it.
     pub detail: String,
+    /// The outputs that it is read off, with their codes, by their places.
+    pub channels: Vec<(String, String)>,
 }
 
 /// The criteria of a model by a regulation: all criteria that the regulation limits, and the criteria at places for which it limits none.
@@ -38,11 +41,16 @@ pub fn judge(facts: &ModelFacts, asked: &CriteriaFact) -> Result<(Limits, Vec<Ju
             Ok((response, detail)) => (Ok(response), detail),
             Err(missing) => (Err(missing), String::new()),
         };
+        let channels = match &response {
+            Ok(response) => channels(facts, response, &found),
+            Err(_) => Vec::new(),
+        };
         Judged {
             criterion,
             limit: limits.limits.get(criterion.name).copied(),
             response,
             detail,
+            channels,
         }
     };
     let mut all: Vec<Judged> = CRITERIA.iter().map(one).collect();
@@ -57,6 +65,25 @@ pub fn judge(facts: &ModelFacts, asked: &CriteriaFact) -> Result<(Limits, Vec<Ju
         one.limit.is_some() || one.response.is_ok() && !of_others
     });
     Ok((limits, all))
+}
+
+/// The outputs of a response with their codes, by their places.
+fn channels(
+    facts: &ModelFacts,
+    response: &Response,
+    found: &[(&'static str, usize)],
+) -> Vec<(String, String)> {
+    let outputs = response.channel.outputs().iter();
+    let each = outputs.filter_map(|output| {
+        let (place, _) = found.iter().find(|(_, index)| index == output)?;
+        let fact = &facts.outputs[*output];
+        let name = match &fact.code {
+            Some(code) => format!("{} ({code})", fact.name),
+            None => fact.name.clone(),
+        };
+        Some(((*place).to_owned(), name))
+    });
+    each.collect()
 }
 
 /// How a criterion is read off a run, with a remark on it; `found` are the outputs at the available places.
@@ -75,7 +102,9 @@ fn response(
         .map(|index| facts.outputs[*index].name.as_str());
     let of = names.collect::<Vec<_>>().join(", ");
     // independent of the filter that the column of an output has
-    let filter = criterion.filter.map(|class| Filter { class, standard });
+    let filter = criterion
+        .class(limits)
+        .map(|class| Filter { class, standard });
     let channel = Channel::of(&indices, filter, formed.combination);
     let channel = channel.ok_or_else(|| Missing::Unusable("it has too few places".to_owned()))?;
     let unit = match formed.combination.keeps_unit() {
@@ -175,36 +204,27 @@ fn is_a_reading(output: &OutputFact, place: &Place) -> Result<(), String> {
 /// The outputs at the places of a dummy, by the names of the places: outputs that the user names, else outputs with the channel code of the
 /// place.
 fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str, usize)>, String> {
-    for (name, _) in &asked.places {
-        if PLACES.iter().all(|place| place.name != name) {
-            let all: Vec<&str> = PLACES.iter().map(|place| place.name).collect();
-            return Err(format!(
-                "there is no place \"{name}\"\n  help: one of {}",
-                all.join(", ")
-            ));
-        }
+    for (name, output) in &asked.places {
+        known(name, output)?;
     }
+    let choice = choice(facts, asked)?;
     let mut found = Vec::new();
     for place in &PLACES {
-        let named = asked.places.iter().find(|(name, _)| name == place.name);
-        let index = match named {
-            Some((_, output)) => match facts.output(output) {
-                Some((index, _)) => Some(index),
-                None => {
-                    let all: Vec<&str> = facts.outputs.iter().map(|o| o.name.as_str()).collect();
-                    return Err(format!(
-                        "there is no output \"{output}\" for the place {}\n  help: there are: {}",
-                        place.name,
-                        all.join(", ")
-                    ));
-                }
-            },
-            None => facts.outputs.iter().position(|output| {
-                let code = output.code.as_deref();
-                code.is_some_and(|code| fits(code, place.code))
-            }),
+        let index = match choice.iter().find(|(name, _)| *name == place.name) {
+            Some((_, Found::Named(index))) => *index,
+            // outputs that differ by their filters in a file are the same in a run
+            Some((_, Found::Coded(all) | Found::Doubtful(all))) => all[0],
+            Some((_, Found::Several(all))) => {
+                let names = all.iter().map(|index| facts.outputs[*index].name.as_str());
+                return Err(format!(
+                    "{}\n  help: name one, `{}: OUTPUT` under `criteria` or --place {}=OUTPUT",
+                    ambiguous(place.name, &names.collect::<Vec<_>>()),
+                    place.name.replace('-', "_"),
+                    place.name
+                ));
+            }
+            None => continue,
         };
-        let Some(index) = index else { continue };
         let unit = &facts.outputs[index].unit;
         if dimension(unit) != dimension(place.unit) {
             return Err(format!(
@@ -238,4 +258,33 @@ fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str
         found.push((place.name, index));
     }
     Ok(found)
+}
+
+/// What is at each place.
+fn choice(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str, Found)>, String> {
+    let mut said = Asked {
+        occupant: asked.occupant.clone(),
+        how: "`occupant` under `criteria`, or --occupant",
+        ..Asked::default()
+    };
+    for (place, output) in &asked.places {
+        match facts.output(output) {
+            Some((index, _)) => said.named.push((place.clone(), index)),
+            None if is_pattern(output) => said.patterns.push((place.clone(), output.clone())),
+            None => {
+                let all: Vec<&str> = facts.outputs.iter().map(|o| o.name.as_str()).collect();
+                return Err(format!(
+                    "there is no output \"{output}\" for the place {place}\n  help: there are: {}",
+                    all.join(", ")
+                ));
+            }
+        }
+    }
+    let each = facts.outputs.iter().map(|output| Candidate {
+        name: &output.name,
+        code: output.code.as_deref().unwrap_or_default(),
+        doubt: None,
+    });
+    let candidates: Vec<Candidate<'_>> = each.collect();
+    choose(&candidates, &said).map(|choice| choice.found)
 }

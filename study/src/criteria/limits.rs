@@ -14,6 +14,11 @@ pub struct Limits {
     pub dummy: String,
     /// The source of the numbers.
     pub source: String,
+    /// The dummy in channel codes, characters 11 and 12; `None` if that is not known.
+    pub code: Option<String>,
+    /// Filter classes by criterion where they differ from those of SAE J211-1.
+    #[serde(default)]
+    pub filters: BTreeMap<String, u16>,
     /// Limits by criterion, in the unit in which the criterion is shown.
     pub limits: BTreeMap<String, f64>,
     /// Critical values of the neck; `None` if there is no such criterion.
@@ -99,6 +104,12 @@ mod tests {
             for (name, limit) in &limits.limits {
                 assert!(CRITERIA.iter().any(|one| one.name == name), "{name}");
                 assert!(*limit > 0.0, "{name}");
+            }
+            for (name, class) in &limits.filters {
+                let criterion = CRITERIA.iter().find(|one| one.name == name).unwrap();
+                let found = criterion.class(limits).unwrap();
+                assert_eq!(found.number(), *class, "{name}");
+                assert!(limits.limits.contains_key(name), "{name}");
             }
             // criteria that need additional values have them
             assert_eq!(limits.limits.contains_key("Nij"), limits.nij.is_some());

@@ -4,10 +4,12 @@
 //! |---|---|
 //! | `limits` | limits by regulation and dummy, `limits.json` |
 //! | `places` | the places where a dummy measures, and their channel codes |
+//! | `choice` | which channels or outputs are at these places: of one occupant, none that failed, none by chance |
 //! | `judge` | the criteria of a model |
 //!
 //! The filter is applied to what a sensor measures, before a resultant is formed.
 
+pub mod choice;
 mod judge;
 pub mod limits;
 mod places;
@@ -29,8 +31,8 @@ pub struct Criterion {
     pub unit: &'static str,
     /// SI value of that unit.
     pub scale: f64,
-    /// The filter of its signals, if they are filtered.
-    pub filter: Option<Class>,
+    /// The filter of its signals by SAE J211-1, if they are filtered; [`Criterion::class`] is that of a regulation.
+    filter: Option<Class>,
     measure: Measure,
 }
 
@@ -105,7 +107,7 @@ pub const CRITERIA: [Criterion; 18] = {
         criterion("neck shear", NEWTON, CFC1000, SHEAR),
         criterion("neck extension", ("N*m", 1.0), CFC600, NeckExtension),
         criterion("chest 3 ms", G, CFC180, Resultant("chest", CLIP)),
-        criterion("chest deflection", MM, CFC180, DEFLECTION),
+        criterion("chest deflection", MM, CFC600, DEFLECTION),
         criterion("VC", ("m/s", 1.0), CFC180, Viscous),
         criterion("femur left", NEWTON, CFC600, LEFT),
         criterion("femur right", NEWTON, CFC600, RIGHT),
@@ -143,6 +145,23 @@ impl Criterion {
         CRITERIA
             .iter()
             .find(|one| one.name.eq_ignore_ascii_case(name.trim()))
+    }
+
+    /// The filter of its signals in a regulation; `None` if they are not filtered.
+    pub fn class(&self, limits: &Limits) -> Option<Class> {
+        let own = limits.filters.get(self.name);
+        let own = own.and_then(|number| {
+            Class::ALL
+                .into_iter()
+                .find(|class| class.number() == *number)
+        });
+        own.or(self.filter)
+    }
+
+    /// Whether a signal that was filtered by this class before can be judged, although the class of the criterion is a wider one: tables of
+    /// SAE J211-1 and ISO 6487 differ for deflections of the chest, and tests have them by either class.
+    pub fn allows(&self, before: Class) -> bool {
+        self.name == "chest deflection" && before == Class::Cfc180
     }
 
     /// The signals of the criterion. `has` says which places are available; nothing moves along y if the motion is `planar`.

@@ -1,10 +1,10 @@
 //! The places where a dummy measures.
 
-/// A place: its name, the channel code of ISO-MME that belongs to it, with `?` for any character, and its SI unit.
+/// A place: its name, the channel codes of ISO-MME that belong to it, with `?` for any character and `|` between two, and its SI unit.
 pub struct Place {
     /// The name after `--place`; under `criteria` in a model it has `_` in place of `-`.
     pub name: &'static str,
-    /// Channel code.
+    /// Channel codes.
     pub code: &'static str,
     /// SI unit.
     pub unit: &'static str,
@@ -16,13 +16,13 @@ const fn place(name: &'static str, code: &'static str, unit: &'static str) -> Pl
 
 /// All places, in the order of the keys of `criteria` in a model.
 pub const PLACES: [Place; 25] = [
-    place("head", "??HEADCG????ACR?", "m/s^2"),
-    place("head-x", "??HEADCG????ACX?", "m/s^2"),
-    place("head-y", "??HEADCG????ACY?", "m/s^2"),
-    place("head-z", "??HEADCG????ACZ?", "m/s^2"),
-    place("head-wx", "??HEADCG????AVX?", "rad/s"),
-    place("head-wy", "??HEADCG????AVY?", "rad/s"),
-    place("head-wz", "??HEADCG????AVZ?", "rad/s"),
+    place("head", "??HEADCG????ACR?|??HEAD00????ACR?", "m/s^2"),
+    place("head-x", "??HEADCG????ACX?|??HEAD00????ACX?", "m/s^2"),
+    place("head-y", "??HEADCG????ACY?|??HEAD00????ACY?", "m/s^2"),
+    place("head-z", "??HEADCG????ACZ?|??HEAD00????ACZ?", "m/s^2"),
+    place("head-wx", "??HEADCG????AVX?|??HEAD00????AVX?", "rad/s"),
+    place("head-wy", "??HEADCG????AVY?|??HEAD00????AVY?", "rad/s"),
+    place("head-wz", "??HEADCG????AVZ?|??HEAD00????AVZ?", "rad/s"),
     // there is no single code for excursions
     place("head-excursion", "", "m"),
     place("neck-fx", "??NECKUP????FOX?", "N"),
@@ -45,10 +45,33 @@ pub const PLACES: [Place; 25] = [
     place("pulse", "", "m/s^2"),
 ];
 
-/// Whether a channel code matches a pattern with wild cards.
+/// Fine locations (characters 7 to 10 of a code) that say where a sensor is. Others, such as `3C` of a 3 ms value or `AV` of an average, say
+/// how a number was computed [ISO/TS 13499 RED B 1.6.2, as in the program pyisomme].
+const LOCATIONS: [&str; 28] = [
+    "00", "CG", "CX", "CY", "CZ", "UP", "LO", "LE", "RI", "MI", "FR", "RE", "IN", "OU", "TP", "BO",
+    "LU", "LL", "RU", "RL", "RD", "L1", "L2", "M1", "R1", "U1", "RW", "HS",
+];
+
+/// Whether a channel code is that of a time history that matches a pattern with wild cards, or one of several with `|` between them.
 pub fn fits(code: &str, pattern: &str) -> bool {
-    let pairs = || code.chars().zip(pattern.chars());
-    !code.is_empty() && code.len() == pattern.len() && pairs().all(|(a, b)| b == '?' || a == b)
+    let code = code.to_ascii_uppercase();
+    let matches = |pattern: &str| {
+        let pairs = || code.chars().zip(pattern.chars());
+        code.len() == pattern.len() && pairs().all(|(a, b)| b == '?' || a == b)
+    };
+    !code.is_empty() && pattern.split('|').any(matches) && is_time_history(&code)
+}
+
+/// Whether a code in capital letters is that of a sensor's signal, and not of a number that was computed of it.
+fn is_time_history(code: &str) -> bool {
+    let is_location = |at: std::ops::Range<usize>| {
+        code.get(at).is_some_and(|two| {
+            LOCATIONS.contains(&two) || two.bytes().all(|byte| byte.is_ascii_digit())
+        })
+    };
+    // X is the filter of a constant, 2 and 3 are those of Nij and of the combined thoracic index
+    let is_signal = !code.ends_with(['X', '2', '3']);
+    is_location(6..8) && is_location(8..10) && is_signal
 }
 
 #[cfg(test)]
@@ -69,7 +92,7 @@ mod tests {
         let keys = keys.iter().filter(|key| key.name != "neck");
         let keys = keys.map(|key| key.name.replace('_', "-"));
         let places = PLACES.iter().map(|place| place.name.to_owned());
-        let others = ["standard", "dummy", "filter-standard"].map(str::to_owned);
+        let others = ["standard", "dummy", "filter-standard", "occupant"].map(str::to_owned);
         assert!(keys.eq(others.into_iter().chain(places)));
         assert!(ModelFacts::default().criteria.is_none());
     }
@@ -79,5 +102,42 @@ mod tests {
         assert!(fits("11HEADCG00H3ACXA", PLACES[1].code));
         assert!(!fits("11HEADCG00H3ACXA", PLACES[2].code));
         assert!(!fits("", ""));
+    }
+
+    /// Spellings in use, and codes of the same quantity that are no time history of a sensor there.
+    #[test]
+    fn codes_are_those_of_sensors() {
+        let of = |place: &str| PLACES.iter().find(|one| one.name == place).unwrap().code;
+        for (place, code) in [
+            ("head-x", "11HEAD0000H3ACXA"),
+            ("head-x", "11HEADCGRDH3ACXP"),
+            ("head-x", "13headcg00hfacx0"),
+            ("head", "11HEAD0000H3ACRA"),
+            ("head-wy", "11HEAD0000THAVYD"),
+            ("chest-x", "11CHSTUP00H3ACXC"),
+            ("chest-deflection", "11CHST0003H3DSXC"),
+            ("chest-deflection", "11CHSTLEUPTHDSXC"),
+            ("tibia-left-my", "11TIBILEUPH3MOYB"),
+        ] {
+            assert!(fits(code, of(place)), "{place} {code}");
+        }
+        for (place, code) in [
+            // 3 ms values, a sum, an average, a constant
+            ("chest", "11CHST003CH3ACRX"),
+            ("chest", "11CHST003CH3ACRC"),
+            ("head", "11HEAD003SH3ACRA"),
+            ("head", "11HEADCG3CH3ACR0"),
+            ("femur-left", "11FEMRLESUH3FOZB"),
+            ("chest-deflection", "11CHSTAV00THDSXC"),
+            ("chest-deflection", "11CHST0000H3DSXX"),
+            // elsewhere in the head, another quantity, signs that differ from those of SAE J211
+            ("head-x", "11HEADFR00H3ACXA"),
+            ("head-x", "11HEADTP00H3ACXA"),
+            ("head-x", "11HEAD0000H3AVXA"),
+            ("neck-fz", "11NECKUP00H3FO3A"),
+            ("neck-fz", "11NECKLO00H3FOZA"),
+        ] {
+            assert!(!fits(code, of(place)), "{place} {code}");
+        }
     }
 }

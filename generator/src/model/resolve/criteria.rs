@@ -43,6 +43,7 @@ pub(super) fn criteria(
         standard: written.standard.trim().to_owned(),
         dummy: written.dummy.trim().to_owned(),
         sae: written.filter_standard == Some(FilterStandard::SaeJ211),
+        occupant: written.occupant.as_ref().map(|said| said.trim().to_owned()),
         places,
     })
 }

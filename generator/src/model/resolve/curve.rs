@@ -10,7 +10,8 @@ use crate::description::curve::{
 use crate::description::load::{beside, channel_key};
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
-use crate::description::table::{Column, Fault, Row, Table};
+use crate::description::table::{Column, Columns, Fault, Table, is_unit};
+use crate::description::tree::MAX_POINTS;
 use crate::description::unit::{Dimension, unit};
 use crate::diagnostic::{Diagnostic, quoted, suggestion};
 use crate::model::{Curve, Extrapolate, FieldComponent, Interpolate, Number, ScaledCurve};
@@ -85,12 +86,14 @@ impl Resolver<'_> {
             Some(WrittenInterpolate::Cubic) => Interpolate::Cubic,
             Some(WrittenInterpolate::Linear) | None => Interpolate::Linear,
         };
+        let told = written.extrapolate.is_some();
         let curve = Curve {
             name,
             points,
             interpolate,
             extrapolate,
-            told: written.extrapolate.is_some(),
+            told,
+            thinned: None,
         };
         if self.problems.count() == before && !curve.is_finite() {
             self.problems.add(at.problem(
@@ -104,7 +107,10 @@ impl Resolver<'_> {
                 "look for wrong exponents and units; the numbers of a curve, in SI, are nearer to 1",
             ));
         }
-        (self.problems.count() == before).then_some(Measured { curve, measures })
+        (self.problems.count() == before).then(|| Measured {
+            curve: curve.with_at_most(MAX_POINTS),
+            measures,
+        })
     }
 
     /// The channel of a test that a curve has its points of; `None` within where it has none, and without where that is wrong.
@@ -158,11 +164,11 @@ impl Resolver<'_> {
             (None, Some(file)) => {
                 let table = self.tables.get(&beside(&at.source.name, file));
                 // a file that could not be read is reported where it was
-                return self.points_of_table(written, table?, at, factors);
+                return self.points_of_table(written, table?, at, (measures, factors));
             }
             (None, None) if written.mme.is_some() => {
                 let table = self.channel_of(written, at)??;
-                return self.points_of_table(written, table, at, factors);
+                return self.points_of_table(written, table, at, (measures, factors));
             }
             (None, None) => {
                 self.problems.add(at.problem(
@@ -254,17 +260,17 @@ impl Resolver<'_> {
         Some(points)
     }
 
-    /// The points in a file, or of a channel.
+    /// The points in a file, or of a channel. Units in headings become factors and `measures`; those under `unit` may not contradict them.
     fn points_of_table(
         &self,
         written: &Written,
         table: &Table,
         at: At<'_>,
-        factors: [f64; 2],
+        (measures, mut factors): (&mut [Measure; 2], [f64; 2]),
     ) -> Option<Vec<[f64; 2]>> {
         let wanted = self.wanted_columns(written.columns.as_deref(), at.key("columns"))?;
-        let rows: Vec<Row> = match table.columns(&wanted) {
-            Ok(rows) => rows,
+        let columns = match table.columns(wanted.as_ref()) {
+            Ok(columns) => columns,
             Err(Fault::InFile(problem)) => {
                 self.problems.add(*problem);
                 return None;
@@ -278,6 +284,16 @@ impl Resolver<'_> {
                 return None;
             }
         };
+        for axis in 0..2 {
+            let said = written
+                .unit
+                .is_some()
+                .then_some((factors[axis], measures[axis]));
+            if let Some(found) = self.unit_of_heading(table, &columns, axis, said, at)? {
+                (factors[axis], measures[axis]) = found;
+            }
+        }
+        let rows = &columns.rows;
         let points: Vec<[f64; 2]> = rows
             .iter()
             .map(|row| [row.values[0] * factors[0], row.values[1] * factors[1]])
@@ -289,9 +305,58 @@ impl Resolver<'_> {
         Some(points)
     }
 
-    fn wanted_columns(&self, columns: Option<&[Quantity]>, at: At<'_>) -> Option<[Column; 2]> {
+    /// The unit in the heading of a column; `None` within if there is none. `said` is what `unit` says beside it.
+    fn unit_of_heading(
+        &self,
+        table: &Table,
+        columns: &Columns,
+        axis: usize,
+        said: Option<(f64, Measure)>,
+        at: At<'_>,
+    ) -> Option<Option<(f64, Measure)>> {
+        let Some(text) = &columns.units[axis] else {
+            return Some(None);
+        };
+        if !is_unit(text) {
+            self.problems.add(table.heading_problem(
+                columns,
+                axis,
+                format!("{} in this heading is no unit", quoted(text)),
+                "write the unit between the brackets, such as `time [ms]`, or other brackets",
+            ));
+            return None;
+        }
+        let found = self.curve_number(&Quantity::Text(text.clone()), at.key("file"))?;
+        let differs = |(factor, measure): (f64, Measure)| {
+            let known = |measure| match measure {
+                Measure::Known(dimension) => dimension,
+                Measure::Bare | Measure::Unknown => Dimension::ONE,
+            };
+            factor != found.0 || known(measure) != known(found.1)
+        };
+        if said.is_some_and(differs) {
+            self.problems.add(table.heading_problem(
+                columns,
+                axis,
+                format!(
+                    "the unit of this heading, {}, is not the one under `unit`",
+                    quoted(text)
+                ),
+                "remove `unit`, or correct one of the two",
+            ));
+            return None;
+        }
+        Some(Some(found))
+    }
+
+    /// The columns that are asked for; `None` within if none are.
+    fn wanted_columns(
+        &self,
+        columns: Option<&[Quantity]>,
+        at: At<'_>,
+    ) -> Option<Option<[Column; 2]>> {
         let Some(columns) = columns else {
-            return Some([Column::Number(1), Column::Number(2)]);
+            return Some(None);
         };
         let [x, y] = columns else {
             self.problems.add(at.problem(
@@ -317,7 +382,7 @@ impl Resolver<'_> {
             }
         };
         let (x, y) = (column(x, 0), column(y, 1));
-        Some([x?, y?])
+        Some(Some([x?, y?]))
     }
 
     /// Reports abscissae that do not increase, and what is too steep. Given how an abscissa is shown, and how a problem with
@@ -521,6 +586,7 @@ impl Resolver<'_> {
                 interpolate: Interpolate::Linear,
                 extrapolate,
                 told: true,
+                thinned: None,
             },
             measures: [Measure::Bare; 2],
         }));

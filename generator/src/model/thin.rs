@@ -1,0 +1,132 @@
+//! Curves of measurements with more points than a model may have: those are left out that a straight line between the others nearly hits.
+
+use super::{Curve, Thinned};
+
+impl Curve {
+    /// The curve with at most this many of its points, and what that changes. The points that stay are chosen for the smallest error that
+    /// is found for straight lines between them; a cubic has its own error, which is the one that is kept.
+    pub fn with_at_most(self, most: usize) -> Curve {
+        if self.points.len() <= most.max(2) {
+            return self;
+        }
+        let heights = self.points.iter().map(|point| point[1]);
+        let highest = heights.clone().fold(f64::NEG_INFINITY, f64::max);
+        let lowest = heights.fold(f64::INFINITY, f64::min);
+        // so many halvings reach the rounding of a number
+        let (mut too_small, mut enough) = (0.0, (highest - lowest).max(f64::MIN_POSITIVE));
+        for _ in 0..60 {
+            let middle = 0.5 * (too_small + enough);
+            match kept(&self.points, middle).len() <= most {
+                true => enough = middle,
+                false => too_small = middle,
+            }
+        }
+        let all = self.points;
+        let mut curve = Curve {
+            points: kept(&all, enough),
+            ..self
+        };
+        let apart = all.iter().map(|[x, y]| (curve.value(*x) - y).abs());
+        curve.thinned = Some(Thinned {
+            points: all.len(),
+            error: apart.fold(0.0, f64::max),
+        });
+        curve
+    }
+}
+
+/// The points that stay so that each of the others is within `tolerance` of the line between the ones that stay beside it. From a point
+/// that stays, the slopes that pass all later points within the tolerance form an interval; the next one that stays is the last before a
+/// point whose own slope is outside.
+fn kept(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
+    let mut kept = vec![points[0]];
+    let mut slopes = [f64::NEG_INFINITY, f64::INFINITY];
+    for pair in points.windows(2) {
+        let [before, here] = [pair[0], pair[1]];
+        let slope = |from: [f64; 2], to: f64| (to - from[1]) / (here[0] - from[0]);
+        let mut from = kept[kept.len() - 1];
+        let own = slope(from, here[1]);
+        if own < slopes[0] || own > slopes[1] {
+            kept.push(before);
+            from = before;
+            slopes = [f64::NEG_INFINITY, f64::INFINITY];
+        }
+        slopes[0] = slopes[0].max(slope(from, here[1] - tolerance));
+        slopes[1] = slopes[1].min(slope(from, here[1] + tolerance));
+    }
+    kept.push(points[points.len() - 1]);
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Curve, Extrapolate, Interpolate};
+
+    fn curve(count: u32, interpolate: Interpolate, of: impl Fn(f64) -> f64) -> Curve {
+        let x = |i: u32| 1e-4 * f64::from(i) - 0.01;
+        Curve {
+            name: "pulse".to_owned(),
+            points: (0..count).map(|i| [x(i), of(x(i))]).collect(),
+            interpolate,
+            extrapolate: Extrapolate::Hold,
+            told: false,
+            thinned: None,
+        }
+    }
+
+    /// The stated error is the largest distance of a point that was left out, and it is small where the curve is smooth.
+    #[test]
+    fn a_curve_of_many_points_is_thinned_with_its_error() {
+        for interpolate in [Interpolate::Linear, Interpolate::Cubic] {
+            let all = curve(12_001, interpolate, |t| {
+                300.0 * (30.0 * t).sin() + (3e3 * t).cos()
+            });
+            let thin = all.clone().with_at_most(10_000);
+            let thinned = thin.thinned.unwrap();
+            assert!(
+                thin.points.len() <= 10_000 && thin.points.len() > 5_000,
+                "{}",
+                thin.points.len()
+            );
+            assert_eq!(thinned.points, 12_001);
+            let off = |point: &[f64; 2]| (thin.value(point[0]) - point[1]).abs();
+            let largest = all.points.iter().map(off).fold(0.0, f64::max);
+            assert_eq!(thinned.error, largest);
+            // a piece of two intervals of 0.1 ms misses its middle by h² |y''|/2, |y''| ≤ 300 30² + 3e3² = 9.27e6: 0.046
+            assert!(thinned.error < 0.05, "{}", thinned.error);
+            let ends = |curve: &Curve| [curve.points[0], curve.points[curve.points.len() - 1]];
+            assert_eq!(ends(&thin), ends(&all));
+        }
+    }
+
+    /// Lines need their corners only, a step keeps both of its sides, and noise keeps its peaks within the error.
+    #[test]
+    fn corners_and_peaks_stay() {
+        let roof = curve(20_001, Interpolate::Linear, |t| 1.0 - (t - 0.99).abs());
+        let thin = roof.clone().with_at_most(10_000);
+        assert!(thin.thinned.unwrap().error < 1e-14, "{:?}", thin.thinned);
+        assert!((thin.value(0.99) - 1.0).abs() < 1e-14);
+        let step =
+            curve(20_001, Interpolate::Linear, |t| f64::from(t > 0.5) * 40.0).with_at_most(10_000);
+        assert_eq!(step.thinned.unwrap().error, 0.0);
+        let mut state = 1u64;
+        let noise: Vec<f64> = (0..15_000)
+            .map(|_| {
+                state = state
+                    .wrapping_mul(6364136223846793005)
+                    .wrapping_add(1442695040888963407);
+                (state >> 11) as f64 / (1u64 << 53) as f64
+            })
+            .collect();
+        let mut all = curve(15_000, Interpolate::Linear, |_| 0.0);
+        all.points
+            .iter_mut()
+            .zip(&noise)
+            .for_each(|(point, noise)| point[1] = *noise);
+        let thin = all.clone().with_at_most(10_000);
+        let error = thin.thinned.unwrap().error;
+        assert!(thin.points.len() <= 10_000 && error < 0.5, "{error}");
+        let few = curve(10_000, Interpolate::Linear, |t| t);
+        assert_eq!(few.clone().with_at_most(10_000), few);
+    }
+}

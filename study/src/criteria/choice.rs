@@ -1,0 +1,484 @@
+//! Which channels of a test, or outputs of a model, are at the places of a dummy.
+//!
+//! All of them belong to one occupant: test object and position, the first two characters of a channel code. All of one part of the dummy
+//! are of one sensor: characters 3 to 12. Several that fit are not chosen from but reported, and a channel whose file casts doubt on its
+//! data fills a place only if the user names it.
+
+use super::{PLACES, Place, fits};
+use std::collections::BTreeMap;
+
+/// A channel or an output.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its channel code; "" if it has none.
+    pub code: &'a str,
+    /// What casts doubt on its data.
+    pub doubt: Option<&'a str>,
+}
+
+/// What the user says.
+#[derive(Clone, Debug, Default)]
+pub struct Asked {
+    /// The candidates that the user names for places.
+    pub named: Vec<(String, usize)>,
+    /// Patterns of codes, with `?` for any character and `*` for any at the end, for places or parts such as `head`.
+    pub patterns: Vec<(String, String)>,
+    /// Test object and position.
+    pub occupant: Option<String>,
+    /// How the user says this, for messages: `--occupant`.
+    pub how: &'static str,
+}
+
+/// What is at a place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// The candidate that the user names.
+    Named(usize),
+    /// One sensor: its candidates, which differ by their filters alone.
+    Coded(Vec<usize>),
+    /// There are only candidates whose files cast doubt on them.
+    Doubtful(Vec<usize>),
+    /// Several sensors fit.
+    Several(Vec<usize>),
+}
+
+/// What is at the places of a dummy.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Choice {
+    /// Test object and position; `None` if no code says it.
+    pub occupant: Option<String>,
+    /// The places at which something is.
+    pub found: Vec<(&'static str, Found)>,
+}
+
+impl Choice {
+    /// What is at a place.
+    pub fn at(&self, place: &str) -> Option<&Found> {
+        let found = self.found.iter().find(|(name, _)| *name == place);
+        found.map(|(_, found)| found)
+    }
+}
+
+/// Whether a name is a pattern of codes.
+pub fn is_pattern(name: &str) -> bool {
+    name.contains(['?', '*'])
+}
+
+/// Says that several candidates fit a place.
+pub fn ambiguous(place: &str, names: &[&str]) -> String {
+    format!("several channels could be {place}: {}", names.join(", "))
+}
+
+/// The seat of an occupant in words; "" if the position says none [ISO/TS 13499 RED B 1.6.2, as in the program pyisomme].
+pub fn seat(occupant: &str) -> &'static str {
+    match occupant.chars().nth(1) {
+        Some('1') => "front left",
+        Some('2') => "front middle",
+        Some('3') => "front right",
+        Some('4') => "second row left",
+        Some('5') => "second row middle",
+        Some('6') => "second row right",
+        Some('7') => "third row left",
+        Some('8') => "third row middle",
+        Some('9') => "third row right",
+        _ => "",
+    }
+}
+
+/// Chooses what is at each place.
+///
+/// # Errors
+/// Several occupants have channels, an occupant has none, or a pattern fits nothing.
+pub fn choose(candidates: &[Candidate<'_>], asked: &Asked) -> Result<Choice, String> {
+    let mut at = fitting(candidates, asked)?;
+    let named = |place: &str| asked.named.iter().find(|(name, _)| name == place);
+    let occupant = occupant(candidates, asked, &at)?;
+    if let Some(occupant) = &occupant {
+        at.iter_mut().for_each(|(_, all)| {
+            all.retain(|index| occupant_of(candidates[*index].code) == *occupant)
+        });
+    }
+    let mut found = Vec::new();
+    for (place, coded) in &at {
+        if let Some((_, index)) = named(place.name) {
+            found.push((place.name, Found::Named(*index)));
+            continue;
+        }
+        let is_sound = |index: &&usize| candidates[**index].doubt.is_none();
+        let sound: Vec<usize> = coded.iter().filter(is_sound).copied().collect();
+        let part = part(place.name);
+        // a resultant beside its components is not used
+        let others = at.iter().filter(|(other, _)| {
+            self::part(other.name) == part && (place.name == part || other.name != part)
+        });
+        let mut of_part: Vec<usize> = others.flat_map(|(_, all)| all).copied().collect();
+        of_part.retain(|index| candidates[*index].doubt.is_none());
+        let several = sensors(candidates, &of_part) > 1 || has_twins(candidates, &sound);
+        match (sound.is_empty(), coded.is_empty()) {
+            (true, true) => {}
+            (true, false) => found.push((place.name, Found::Doubtful(coded.clone()))),
+            (false, _) if several => found.push((place.name, Found::Several(of_part))),
+            (false, _) => found.push((place.name, Found::Coded(sound))),
+        }
+    }
+    Ok(Choice { occupant, found })
+}
+
+/// The candidates that fit each place by their codes and the user's patterns. If the user names a resultant, its components are not looked
+/// for.
+fn fitting(
+    candidates: &[Candidate<'_>],
+    asked: &Asked,
+) -> Result<Vec<(&'static Place, Vec<usize>)>, String> {
+    let named = |place: &str| asked.named.iter().any(|(name, _)| name == place);
+    let mut used = vec![false; asked.patterns.len()];
+    let mut at = Vec::new();
+    for place in &PLACES {
+        let part = part(place.name);
+        let replaced = part != place.name && named(part) && !named(place.name);
+        let all = candidates.iter().enumerate();
+        let all = all.filter(|(_, one)| !replaced && fits(one.code, place.code));
+        let mut all: Vec<usize> = all.map(|(index, _)| index).collect();
+        for ((of, pattern), used) in asked.patterns.iter().zip(&mut used) {
+            if of == place.name || of == part {
+                all.retain(|index| matches(candidates[*index].code, pattern));
+                *used |= !all.is_empty();
+            }
+        }
+        at.push((place, all));
+    }
+    let unused = asked.patterns.iter().zip(used).find(|(_, used)| !used);
+    match unused {
+        Some(((place, pattern), _)) => Err(format!(
+            "no channel of the place {place} has a code as \"{pattern}\"\n  help: a code has 16 characters, `?` stands for one, `*` for all that follow"
+        )),
+        None => Ok(at),
+    }
+}
+
+/// The occupant: the one that the user says, that of the named channels, or the only one.
+fn occupant(
+    candidates: &[Candidate<'_>],
+    asked: &Asked,
+    at: &[(&'static Place, Vec<usize>)],
+) -> Result<Option<String>, String> {
+    let of = |index: &usize| occupant_of(candidates[*index].code);
+    let mut there: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    for (place, all) in at {
+        for index in all {
+            let places = there.entry(of(index)).or_default();
+            if !places.contains(&place.name) {
+                places.push(place.name);
+            }
+        }
+    }
+    let mut named: Vec<(String, &str)> = Vec::new();
+    for (_, index) in &asked.named {
+        let occupant = of(index);
+        if !occupant.is_empty() {
+            named.push((occupant, candidates[*index].name));
+        }
+    }
+    let list = || {
+        let each = there.iter().map(|(occupant, places)| match seat(occupant) {
+            "" => format!("{occupant} ({})", places.join(", ")),
+            seat => format!("{occupant} ({seat}: {})", places.join(", ")),
+        });
+        each.collect::<Vec<_>>().join("; ")
+    };
+    let said = asked
+        .occupant
+        .as_ref()
+        .map(|said| said.to_ascii_uppercase());
+    let wanted = said
+        .clone()
+        .or_else(|| named.first().map(|(occupant, _)| occupant.clone()));
+    if let Some(wanted) = wanted {
+        if let Some((other, name)) = named.iter().find(|(other, _)| *other != wanted) {
+            return Err(format!(
+                "\"{name}\" belongs to occupant {other}, and other channels of this verdict to {wanted}\n  help: name channels of one occupant"
+            ));
+        }
+        let is_there = there.contains_key(&wanted) || !named.is_empty();
+        return match (is_there, said.is_some()) {
+            (false, true) => Err(format!(
+                "there is no channel of occupant {wanted}\n  help: there are those of {}",
+                match there.is_empty() {
+                    true => "none: no code says an occupant".to_owned(),
+                    false => list(),
+                }
+            )),
+            _ => Ok(Some(wanted)),
+        };
+    }
+    match there.len() {
+        0 => Ok(None),
+        1 => Ok(there.into_keys().next()),
+        _ => Err(format!(
+            "there are channels of several occupants: {}\n  help: choose one by test object and position, the first two characters of the codes: {} {}",
+            list(),
+            asked.how,
+            there.keys().next().map_or("", String::as_str)
+        )),
+    }
+}
+
+/// Test object and position of a code; "" of what is no code.
+fn occupant_of(code: &str) -> String {
+    let two = code.get(..2).filter(|_| code.len() == 16);
+    two.unwrap_or_default().to_ascii_uppercase()
+}
+
+/// Whether this is a place, or a part if `of` is a pattern of codes.
+///
+/// # Errors
+/// There is no such place.
+pub fn known(place: &str, of: &str) -> Result<(), String> {
+    let fits = |one: &Place| one.name == place || is_pattern(of) && part(one.name) == place;
+    match PLACES.iter().any(fits) {
+        true => Ok(()),
+        false => {
+            let all: Vec<&str> = PLACES.iter().map(|place| place.name).collect();
+            Err(format!(
+                "there is no place \"{place}\"\n  help: one of {}",
+                all.join(", ")
+            ))
+        }
+    }
+}
+
+/// The part of the dummy whose channels belong together: that of `head-x` is `head`.
+pub fn part(place: &str) -> &str {
+    match place {
+        "head-excursion" | "chest-deflection" | "femur-left" | "femur-right" => place,
+        _ if place.starts_with("head-w") => "head-w",
+        _ => match place.rsplit_once('-') {
+            Some((part, _)) => part,
+            None => place,
+        },
+    }
+}
+
+/// Number of different sensors.
+fn sensors(candidates: &[Candidate<'_>], all: &[usize]) -> usize {
+    let sensor = |index: &usize| {
+        candidates[*index]
+            .code
+            .get(..12)
+            .map(str::to_ascii_uppercase)
+    };
+    let mut sensors: Vec<Option<String>> = all.iter().map(sensor).collect();
+    sensors.sort();
+    sensors.dedup();
+    sensors.len()
+}
+
+/// Whether two have the same code.
+fn has_twins(candidates: &[Candidate<'_>], all: &[usize]) -> bool {
+    let code = |index: &usize| candidates[*index].code;
+    let twin = |(i, index)| {
+        all[..i]
+            .iter()
+            .any(|other| code(other).eq_ignore_ascii_case(code(index)))
+    };
+    all.iter().enumerate().any(twin)
+}
+
+/// Whether a code matches a pattern.
+fn matches(code: &str, pattern: &str) -> bool {
+    let (code, pattern) = (
+        code.to_ascii_uppercase(),
+        pattern.trim().to_ascii_uppercase(),
+    );
+    let (begin, is_long_enough) = match pattern.split_once('*') {
+        Some((begin, _)) => (begin, code.len() >= begin.len()),
+        None => (pattern.as_str(), code.len() == pattern.len()),
+    };
+    is_long_enough
+        && code
+            .chars()
+            .zip(begin.chars())
+            .all(|(a, b)| b == '?' || a == b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Asked, Candidate, Choice, Found, choose};
+
+    /// Candidates with these codes; `!` before a code: its channel failed.
+    fn chosen(codes: &[&str], asked: Asked) -> Result<Choice, String> {
+        let each = codes.iter().map(|code| Candidate {
+            name: code.trim_start_matches('!'),
+            code: code.trim_start_matches('!'),
+            doubt: code.starts_with('!').then_some("channel failed"),
+        });
+        choose(&each.collect::<Vec<_>>(), &asked)
+    }
+
+    fn patterns(all: &[(&str, &str)]) -> Asked {
+        Asked {
+            patterns: all
+                .iter()
+                .map(|(a, b)| ((*a).to_owned(), (*b).to_owned()))
+                .collect(),
+            ..Asked::default()
+        }
+    }
+
+    fn occupant(occupant: &str) -> Asked {
+        Asked {
+            occupant: Some(occupant.to_owned()),
+            ..Asked::default()
+        }
+    }
+
+    const TWO: [&str; 5] = [
+        "11HEADCG00H3ACXP",
+        "11HEADCG00H3ACZP",
+        "13HEADCG00HFACXP",
+        "13HEADCG00HFACYP",
+        "13HEADCG00HFACZP",
+    ];
+
+    #[test]
+    fn all_channels_are_of_one_occupant() {
+        let error = chosen(&TWO, Asked::default()).unwrap_err();
+        for told in [
+            "11 (front left: head-x, head-z)",
+            "13 (front right: head-x, head-y, head-z)",
+            " 11",
+        ] {
+            assert!(error.contains(told), "{error}");
+        }
+        let driver = chosen(&TWO, occupant("11")).unwrap();
+        assert_eq!(driver.at("head-x"), Some(&Found::Coded(vec![0])));
+        assert_eq!(driver.at("head-y"), None);
+        let passenger = chosen(&TWO, occupant("13")).unwrap();
+        assert_eq!(passenger.found.len(), 3);
+        assert_eq!(passenger.at("head-y"), Some(&Found::Coded(vec![3])));
+        assert!(
+            chosen(&TWO, occupant("14"))
+                .unwrap_err()
+                .contains("no channel of occupant 14")
+        );
+        // a named channel says the occupant, and two may not contradict each other
+        let named = |all: &[(&str, usize)]| Asked {
+            named: all
+                .iter()
+                .map(|(place, index)| ((*place).to_owned(), *index))
+                .collect(),
+            ..Asked::default()
+        };
+        let of_named = chosen(&TWO, named(&[("head-x", 2)])).unwrap();
+        assert_eq!(of_named.at("head-z"), Some(&Found::Coded(vec![4])));
+        assert!(
+            chosen(&TWO, named(&[("head-x", 0), ("head-y", 3)]))
+                .unwrap_err()
+                .contains("name channels of one occupant")
+        );
+        let contradicted = Asked {
+            occupant: Some("11".to_owned()),
+            ..named(&[("head-y", 3)])
+        };
+        assert!(chosen(&TWO, contradicted).is_err());
+    }
+
+    #[test]
+    fn several_sensors_are_not_chosen_from() {
+        for (codes, place, pattern, index) in [
+            (
+                &["11CHSTLEUP00DSXC", "11CHSTRIUP00DSXC", "11CHSTRILO00DSXC"][..],
+                "chest-deflection",
+                "??CHSTRILO*",
+                2,
+            ),
+            (
+                &["11CHSTUP00H3ACXC", "11CHSTLO00H3ACXC"],
+                "chest-x",
+                "??CHSTLO00H3ACX?",
+                1,
+            ),
+            (
+                &["11HEADCG00H3ACXA", "11HEADCGRDH3ACXA"],
+                "head-x",
+                "??HEADCG00*",
+                0,
+            ),
+            (
+                &["11HEADCG00H3ACXA", "11HEAD0000H3ACXA"],
+                "head-x",
+                "??HEAD00*",
+                1,
+            ),
+            // the components of one resultant
+            (
+                &["11HEADCG00H3ACXA", "11HEADCGRDH3ACYA", "11HEADCG00H3ACYA"],
+                "head-y",
+                "??HEADCG00*",
+                2,
+            ),
+            (
+                &["11NECKUP00H3FOXA", "11NECKUPRDH3FOZA", "11NECKUP00H3FOZA"],
+                "neck-fz",
+                "??NECKUP00*",
+                2,
+            ),
+            (
+                &["11TIBILEUPH3MOXB", "11TIBILELOH3MOXB"],
+                "tibia-left-mx",
+                "??TIBILELO*",
+                1,
+            ),
+        ] {
+            let all = chosen(codes, Asked::default()).unwrap();
+            assert!(
+                matches!(all.at(place), Some(Found::Several(_))),
+                "{codes:?} {all:?}"
+            );
+            let part = super::part(place);
+            for of in [place, part] {
+                let one = chosen(codes, patterns(&[(part, pattern), (of, pattern)])).unwrap();
+                assert_eq!(one.at(place), Some(&Found::Coded(vec![index])), "{codes:?}");
+            }
+        }
+        // the same code twice
+        let twice = chosen(&["11FEMRLE00H3FOZB", "11FEMRLE00H3FOZB"], Asked::default()).unwrap();
+        assert!(matches!(twice.at("femur-left"), Some(Found::Several(_))));
+        // filters do not make another sensor
+        let filters = chosen(
+            &["11NECKUP00H3FOZB", "11NECKUP00H3FOZA", "11NECKUP00H3MOYB"],
+            Asked::default(),
+        )
+        .unwrap();
+        assert_eq!(filters.at("neck-fz"), Some(&Found::Coded(vec![0, 1])));
+        let error = chosen(&TWO[..2], patterns(&[("head", "??HEADXX*")])).unwrap_err();
+        assert!(error.contains("no channel of the place head"), "{error}");
+    }
+
+    #[test]
+    fn what_failed_fills_no_place() {
+        let head = [
+            "!11HEADCG00H3ACXA",
+            "11HEADCG00H3ACYA",
+            "11HEADCG00H3ACZA",
+            "11HEADCG00H3ACRA",
+        ];
+        let found = chosen(&head, Asked::default()).unwrap();
+        assert_eq!(found.at("head-x"), Some(&Found::Doubtful(vec![0])));
+        assert_eq!(found.at("head-y"), Some(&Found::Coded(vec![1])));
+        // a redundant sensor takes the place of one that failed as a whole, and is not mixed with one that failed in part
+        let whole = chosen(&["!11HEADCG00H3ACXA", "11HEADCGRDH3ACXA"], Asked::default()).unwrap();
+        assert_eq!(whole.at("head-x"), Some(&Found::Coded(vec![1])));
+        let part = chosen(
+            &["!11HEADCG00H3ACXA", "11HEADCG00H3ACYA", "11HEADCGRDH3ACXA"],
+            Asked::default(),
+        )
+        .unwrap();
+        assert!(
+            matches!(part.at("head-x"), Some(Found::Several(_))),
+            "{part:?}"
+        );
+    }
+}
