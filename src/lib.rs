@@ -31,7 +31,7 @@
 //! | [`pose`] | positions of a model over plain numbers |
 //! | [`orientation`] | states in Bryant angles, converted to quaternions |
 //! | [`notation`], [`quantity`] | names in printed equations, units on the command line |
-//! | [`files`] | files that are complete or not there |
+//! | [`files`], `own` | files that are complete or not there; those that this program wrote |
 //! | [`parallel`] | the same work on many items |
 //! | [`interrupt`] | Ctrl-C |
 //! | [`process`] | signals and closed descriptors, reported as errors |
@@ -78,6 +78,7 @@ pub mod report;
 pub mod settling;
 pub mod simulation;
 pub mod stability;
+mod own;
 mod state_file;
 pub mod sweep;
 pub mod table;

@@ -62,10 +62,16 @@ impl Table {
         text
     }
 
-    /// Comma-separated values, every digit, units in the headings: `chest belt force [N]`.
-    pub fn write_csv(&self, out: impl io::Write) -> io::Result<()> {
+    /// Comma-separated values, every digit, units in the headings: `chest belt force [N]`. The first heading is in quotation marks, which
+    /// readers of CSV do not show: by it the program knows its own tables (`own`).
+    pub fn write_csv(&self, mut out: impl io::Write) -> io::Result<()> {
+        let mut headings = self.columns.iter().map(Column::heading);
+        let first = headings.next().unwrap_or_default().replace('"', "\"\"");
+        write!(out, "\"{first}\"{}", if headings.len() > 0 { "," } else { "\n" })?;
         let mut writer = csv::Writer::from_writer(out);
-        writer.write_record(self.columns.iter().map(Column::heading))?;
+        if headings.len() > 0 {
+            writer.write_record(headings)?;
+        }
         for row in 0..self.rows() {
             writer.write_record(self.columns.iter().map(|c| number(c.values[row])))?;
         }

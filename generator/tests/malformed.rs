@@ -2,6 +2,9 @@
 //!
 //! Each file of `malformed/` is read as for a user; the snapshots have the text that the user sees.
 
+#[path = "malformed/slips.rs"]
+mod slips;
+
 use bryant_generator::model::read_str;
 use bryant_generator::{Diagnostic, Diagnostics};
 use std::io;

@@ -1,6 +1,11 @@
 //! A cache directory of finished entries: an entry is complete, or it does not exist.
+//!
+//! What is in it is loaded and run. So it must belong to this user or to root, nobody else may write into it, and the file of an entry is
+//! compared with its length and its SHA-256, which stand beside it.
 
 use super::BuildError;
+use sha2::{Digest, Sha256};
+use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -56,10 +61,13 @@ impl Cache {
     ) -> Result<PathBuf, BuildError> {
         let entry = self.root.join(name);
         let wanted = entry.join(file);
-        if wanted.is_file() {
-            return Ok(wanted);
+        if self.root.exists() {
+            trusted(&self.root)?;
+            if self.has(&entry, &wanted)? {
+                return Ok(wanted);
+            }
         }
-        std::fs::create_dir_all(&self.root).map_err(|e| self.fault(e))?;
+        create_private(&self.root).map_err(|e| self.fault(e))?;
         self.remove_abandoned();
         let mut prefix = std::ffi::OsString::from(BUILDING);
         prefix.push(name);
@@ -68,12 +76,14 @@ impl Cache {
             .tempdir_in(&self.root)
             .map_err(|e| self.fault(e))?;
         build(temporary.path())?;
+        seal(temporary.path(), file).map_err(|e| self.fault(e))?;
         let built = temporary.keep();
         let Err(error) = std::fs::rename(&built, &entry) else {
+            sync_directory(&self.root);
             return Ok(wanted);
         };
-        // Another run was faster, or an entry without its file is in the way.
-        let moved = if wanted.is_file() {
+        // Another run was faster, or an entry with a missing or damaged file is in the way.
+        let moved = if self.has(&entry, &wanted)? {
             Ok(())
         } else {
             remove(&entry).and_then(|()| std::fs::rename(&built, &entry))
@@ -84,9 +94,23 @@ impl Cache {
         }
         match moved {
             Ok(()) => Ok(wanted),
-            Err(_) if wanted.is_file() => Ok(wanted),
+            Err(_) if self.has(&entry, &wanted)? => Ok(wanted),
             Err(_) => Err(self.fault(error)),
         }
+    }
+
+    /// Whether an entry has its file, undamaged.
+    ///
+    /// # Errors
+    /// Others may have written it.
+    fn has(&self, entry: &Path, wanted: &Path) -> Result<bool, BuildError> {
+        if !wanted.is_file() {
+            return Ok(false);
+        }
+        trusted(entry)?;
+        trusted(wanted)?;
+        let said = std::fs::read_to_string(seal_of(wanted));
+        Ok(said.is_ok_and(|said| checksum(wanted).is_ok_and(|is| is == said)))
     }
 
     /// Removes directories whose building began a day ago or earlier: the process that filled them was ended.
@@ -127,6 +151,101 @@ impl Cache {
             path: self.root.clone(),
             source,
         }
+    }
+}
+
+/// The file with the length and the SHA-256 of another.
+fn seal_of(file: &Path) -> PathBuf {
+    let mut name = file.as_os_str().to_owned();
+    name.push(".sha256");
+    name.into()
+}
+
+/// Writes the checksum of a file beside it, and both to the disk: after a loss of power they are there or do not fit.
+fn seal(directory: &Path, file: &str) -> io::Result<()> {
+    let file = directory.join(file);
+    // the compiler may let the group of this user write
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = std::fs::metadata(&file)?.permissions().mode();
+        std::fs::set_permissions(&file, std::fs::Permissions::from_mode(mode & !0o022))?;
+    }
+    File::open(&file)?.sync_all()?;
+    let seal = seal_of(&file);
+    std::fs::write(&seal, checksum(&file)?)?;
+    File::open(&seal)?.sync_all()?;
+    sync_directory(directory);
+    Ok(())
+}
+
+/// Writes the names in a directory to the disk, where the system lets a program do that.
+fn sync_directory(directory: &Path) {
+    if let Ok(directory) = File::open(directory) {
+        // where directories cannot be flushed, the checksum finds what is missing
+        let _ = directory.sync_all();
+    }
+}
+
+/// Length in bytes and SHA-256.
+fn checksum(file: &Path) -> io::Result<String> {
+    let mut file = File::open(file)?;
+    let mut hasher = Sha256::new();
+    let length = io::copy(&mut file, &mut hasher)?;
+    let hexadecimal: Vec<String> = hasher.finalize().iter().map(|b| format!("{b:02x}")).collect();
+    Ok(format!("{length} {}\n", hexadecimal.concat()))
+}
+
+/// Creates the directory; nobody else may read it or write into it. Those above it are created as usual.
+fn create_private(path: &Path) -> io::Result<()> {
+    if let Some(above) = path.parent() {
+        std::fs::create_dir_all(above)?;
+    }
+    let mut builder = std::fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    match builder.create(path) {
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(()),
+        done => done,
+    }
+}
+
+/// Refuses a file or directory, behind all links, that belongs to someone other than this user and root, or that others may write.
+#[cfg(unix)]
+#[expect(unsafe_code, reason = "the user of this process is known to the C library alone")]
+fn trusted(path: &Path) -> Result<(), BuildError> {
+    use std::os::unix::fs::MetadataExt;
+    let about = std::fs::metadata(path).map_err(|source| BuildError::Cache {
+        path: path.to_owned(),
+        source,
+    })?;
+    // SAFETY: it has no arguments and cannot fail.
+    let user = unsafe { libc::geteuid() };
+    match is_safe(about.uid(), about.mode(), user) {
+        Ok(()) => Ok(()),
+        Err(reason) => Err(BuildError::Untrusted {
+            path: path.to_owned(),
+            reason,
+        }),
+    }
+}
+
+/// Other systems keep caches in directories of the user.
+#[cfg(not(unix))]
+fn trusted(_: &Path) -> Result<(), BuildError> {
+    Ok(())
+}
+
+/// Whether only `user` and root decide what is in a file.
+#[cfg(unix)]
+fn is_safe(owner: u32, mode: u32, user: u32) -> Result<(), &'static str> {
+    if owner != user && owner != 0 {
+        return Err("it belongs to another user");
+    }
+    match mode & 0o022 {
+        0 => Ok(()),
+        bits if bits & 0o002 != 0 => Err("everybody may write into it"),
+        _ => Err("its group may write into it"),
     }
 }
 
@@ -187,6 +306,62 @@ mod tests {
         let again = cache.entry("a", "model", fill).unwrap();
         assert_eq!(std::fs::read_to_string(again).unwrap(), "program");
         assert_eq!(std::fs::read_dir(&cache.root).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_damaged_entry_is_built_again() {
+        let (_directory, cache) = cache();
+        let path = cache.entry("a", "model", fill).unwrap();
+        for damage in ["", "prog", "Program", "program and more"] {
+            std::fs::write(&path, damage).unwrap();
+            let again = cache.entry("a", "model", fill).unwrap();
+            assert_eq!(std::fs::read_to_string(again).unwrap(), "program", "{damage}");
+        }
+        std::fs::remove_file(seal_of(&path)).unwrap();
+        let mut built = false;
+        cache
+            .entry("a", "model", |directory| {
+                built = true;
+                fill(directory)
+            })
+            .unwrap();
+        assert!(built, "an entry without its checksum may be anything");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_others_may_write_is_not_used() {
+        use std::os::unix::fs::PermissionsExt;
+        let (directory, cache) = cache();
+        let path = cache.entry("a", "model", fill).unwrap();
+        let set = |path: &Path, mode| {
+            std::fs::set_permissions(path, std::fs::Permissions::from_mode(mode)).unwrap();
+        };
+        let mode = std::fs::metadata(&cache.root).unwrap().permissions().mode();
+        assert_eq!(mode & 0o777, 0o700);
+        // the cache may be named by a link
+        let link = directory.path().join("link");
+        std::os::unix::fs::symlink(&cache.root, &link).unwrap();
+        let linked = Cache { root: link };
+        let entry = cache.root.join("a");
+        for (place, good) in [(&cache.root, 0o700), (&entry, 0o755), (&path, 0o644)] {
+            for bits in [0o020, 0o002] {
+                set(place, good | bits);
+                for cache in [&cache, &linked] {
+                    let refused = cache.entry("a", "model", fill).unwrap_err().to_string();
+                    assert!(refused.contains("chmod"), "{refused}");
+                }
+            }
+            set(place, good);
+            assert!(linked.entry("a", "model", fill).is_ok());
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_cache_belongs_to_its_user_or_to_root() {
+        assert!(is_safe(1000, 0o40700, 1000).is_ok() && is_safe(0, 0o40755, 1000).is_ok());
+        assert!(is_safe(1001, 0o40700, 1000).is_err() && is_safe(65534, 0o40700, 0).is_err());
     }
 
     #[test]

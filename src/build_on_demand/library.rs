@@ -68,7 +68,7 @@ struct Loaded {
 impl Loaded {
     fn open(path: &Path) -> Result<Self, LoadError> {
         // SAFETY: the library was compiled from text that this program wrote around user functions, and does nothing when it is loaded.
-        // Whoever may write into the cache may run programs as this user anyway.
+        // `Cache` compared it with its checksum, and only this user and root may write there.
         let library = unsafe { libloading::Library::new(path)? };
         let library: &'static _ = Box::leak(Box::new(library));
         // SAFETY: libraries that this program wrote export these names with these types; the version protects against all others.

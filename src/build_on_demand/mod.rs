@@ -87,6 +87,17 @@ pub enum BuildError {
         /// Why.
         source: std::io::Error,
     },
+    /// Others may have put something into the cache.
+    #[error(
+        "{} is not used: {reason}, and what is in a cache is run with your rights\n  \
+         help: make it yours alone (chmod -R go-w), or name another directory by BRYANT_CACHE; it is created where it does not exist", .path.display()
+    )]
+    Untrusted {
+        /// The file or directory.
+        path: PathBuf,
+        /// Who may have done so.
+        reason: &'static str,
+    },
     /// A compiled library cannot be loaded.
     #[error(
         "the library that was compiled for this model cannot be loaded: {source}\n  help: remove {}; the library is then compiled again", .path.display()

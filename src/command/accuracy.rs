@@ -2,7 +2,7 @@
 
 use super::Error;
 use super::model_argument::{Found, find, nearest};
-use super::outputs::{self, Outputs, is_standard};
+use super::outputs::{self, Outputs, Replacing, is_standard};
 use super::parameters::{parse_parameters, values_of};
 use super::prepare::{prepare, prepare_model};
 use super::progress::{Progress, Whole};
@@ -18,6 +18,7 @@ use crate::accuracy::report::{csv, diagram, json, markdown, text};
 use crate::accuracy::setting::time;
 use crate::accuracy::study::{Effort, Stage, Study, StudyError, Subject, study};
 use crate::picture::Format;
+use crate::own::Kind;
 use crate::{files, interrupt, quantity};
 use bryant_generator::model::Model;
 use bryant_runtime::Formula;
@@ -122,6 +123,9 @@ pub struct Arguments {
     /// Print everything as JSON
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    replacing: Replacing,
 }
 
 /// Methods, each once.
@@ -348,9 +352,9 @@ impl Arguments {
             let file = format!("{}-accuracy.{extension}", found.model.name);
             self.out.clone().unwrap_or_default().join(file)
         };
-        let mut outputs = Outputs::of(&found.files);
+        let mut outputs = Outputs::of(&found.files, self.replacing);
         if self.json {
-            outputs.take("--json", Path::new("-"))?;
+            outputs.take("--json", Path::new("-"), Kind::Table)?;
         }
         let csv = self.csv.clone();
         let csv = csv.or_else(|| (!self.no_files).then(|| usual("csv")));
@@ -359,10 +363,12 @@ impl Arguments {
             [] => vec![usual("svg"), usual("png")],
             named => named.to_vec(),
         };
-        let named = csv.iter().map(|path| ("--csv", path));
-        let named = named.chain(pictures.iter().map(|path| ("--picture", path)));
-        for (option, path) in named.chain(self.markdown.iter().map(|path| ("--markdown", path))) {
-            outputs.take(option, path)?;
+        let named = csv.iter().map(|path| ("--csv", path, Kind::Table));
+        let named = named.chain(pictures.iter().map(|path| ("--picture", path, Kind::Picture)));
+        let page = self.markdown.iter();
+        let page = page.map(|path| ("--markdown", path, Kind::Markdown));
+        for (option, path, kind) in named.chain(page) {
+            outputs.take(option, path, kind)?;
         }
         Ok(Places { csv, pictures })
     }

@@ -1,6 +1,7 @@
 //! `bryant equations`: S, r_s and r_k as text, as source code, or as numbers at one state.
 
 use super::Error;
+use super::outputs::{Outputs, Replacing};
 use super::model_argument::find;
 use super::parameters::{parse_parameters, values_of};
 use super::prepare::users_of;
@@ -9,6 +10,7 @@ use super::terminal::Terminal;
 use crate::build_on_demand::UserForces;
 use crate::evaluation::{self, Evaluation, State};
 use crate::files;
+use crate::own::Kind;
 use crate::notation::Notation;
 use bryant_engine::UserFunctions;
 use bryant_generator::Config;
@@ -74,6 +76,9 @@ pub struct Arguments {
     /// Print the values at a state as JSON
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    replacing: Replacing,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -107,7 +112,7 @@ impl Arguments {
         if self.c {
             let made = Config::new().c_source(&model).map_err(Error::input);
             drop(progress);
-            return self.print_c(&made?, terminal);
+            return self.print_c(&made?, &found.files, terminal);
         }
         if !(self.json || state.is_some()) {
             let equations = derive_in_first_chart(&model);
@@ -139,7 +144,12 @@ impl Arguments {
     }
 
     /// Prints header and source, or writes them as files.
-    fn print_c(&self, made: &Source, terminal: &mut Terminal) -> Result<(), Error> {
+    fn print_c(
+        &self,
+        made: &Source,
+        read: &[PathBuf],
+        terminal: &mut Terminal,
+    ) -> Result<(), Error> {
         let Source {
             name,
             header,
@@ -148,8 +158,13 @@ impl Arguments {
         let Some(directory) = &self.output else {
             return terminal.print(&format!("{header}\n{source}"));
         };
-        for (extension, text) in [("h", header), ("c", source)] {
-            let path = directory.join(format!("{name}.{extension}"));
+        let files = [("h", header), ("c", source)];
+        let files = files.map(|(ending, text)| (directory.join(format!("{name}.{ending}")), text));
+        let mut outputs = Outputs::of(read, self.replacing);
+        for (path, _) in &files {
+            outputs.take("--output", path, Kind::Source)?;
+        }
+        for (path, text) in files {
             files::replace(&path, |out| out.write_all(text.as_bytes())).map_err(Error::system)?;
         }
         Ok(())

@@ -1,8 +1,9 @@
 //! `bryant human`: a person as a system of a model.
 
 use super::Error;
-use super::outputs::is_standard;
+use super::outputs::{Outputs, Replacing, is_standard};
 use super::terminal::Terminal;
+use crate::own::{self, Kind};
 use crate::{files, quantity};
 use bryant_generator::human::{JOINTS, NAMES, Neutral, Person, Posture, Sex, Size, Written, yaml};
 use clap::ValueEnum;
@@ -64,6 +65,9 @@ pub struct Arguments {
     /// Write to this file, instead of to standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+
+    #[command(flatten)]
+    replacing: Replacing,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -153,7 +157,10 @@ impl Arguments {
         let text = yaml(&person, written).map_err(Error::Input)?;
         match &self.output {
             Some(path) if !is_standard(path) => {
-                files::replace(path, |out| out.write_all(text.as_bytes())).map_err(Error::system)
+                let mut outputs = Outputs::of([], self.replacing);
+                outputs.take("--output", path, Kind::Model)?;
+                files::replace(path, |out| out.write_all(own::signed(&text).as_bytes()))
+                    .map_err(Error::system)
             }
             _ => terminal.print(&text),
         }

@@ -1,8 +1,10 @@
 //! `bryant import`: a URDF file as a model.
 
 use super::Error;
+use super::outputs::{Outputs, Replacing};
 use super::terminal::Terminal;
 use crate::files;
+use crate::own::{self, Kind};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::{ModelText, read_file, shown, unreadable};
 use bryant_generator::model;
@@ -46,6 +48,9 @@ pub struct Arguments {
     /// Let joints that follow others (<mimic>) move by themselves
     #[arg(long)]
     uncouple: bool,
+
+    #[command(flatten)]
+    replacing: Replacing,
 }
 
 /// What the root link does.
@@ -87,8 +92,13 @@ impl Arguments {
             .map_err(|found| Error::Model(imported.in_file(found)))?;
         match &self.output {
             None => terminal.print(&imported.text)?,
-            Some(path) => files::replace(path, |file| file.write_all(imported.text.as_bytes()))
-                .map_err(Error::system)?,
+            Some(path) => {
+                let mut outputs = Outputs::of([&self.file], self.replacing);
+                outputs.take("--output", path, Kind::Model)?;
+                let text = own::signed(&imported.text);
+                files::replace(path, |file| file.write_all(text.as_bytes()))
+                    .map_err(Error::system)?;
+            }
         }
         for note in imported.notes() {
             terminal.note(note);

@@ -12,6 +12,7 @@ use bryant_runtime::program::{ErrorKind, RunError};
 use bryant_study::engine::Status;
 use bryant_study::report::{ReportError, report};
 use bryant_study::results::{Results, ResultsError};
+use bryant_study::shard::Shard;
 use bryant_study::store::Folder;
 use bryant_study::study::Study;
 use bryant_study::summary::text::text;
@@ -50,6 +51,7 @@ impl Arguments {
         let kept = Kept::read(&self.folder).map_err(kept_error)?;
         let folder = Folder::open(&self.folder, &kept.study, &kept.program);
         let folder = folder.map_err(folder_error)?;
+        let _lock = folder.lock(Shard::WHOLE).map_err(folder_error)?;
         let how = Finish {
             shards: self.shards,
             pictures: self.pictures,

@@ -1,8 +1,11 @@
-//! The places that a command writes to: no two results go to one place, and none to a file that the command reads.
+//! The places that a command writes to: no two results go to one place, none to a file that the command reads, and none to a file that this
+//! program did not write, unless this is asked for.
 
 use super::Error;
 use crate::files;
+use crate::own::{self, Kind};
 use crate::picture::Format;
+use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
 
@@ -11,6 +14,15 @@ use std::path::{Path, PathBuf};
 pub struct Outputs {
     taken: Vec<(PathBuf, String)>,
     read: Vec<PathBuf>,
+    replacing: Replacing,
+}
+
+/// Whether any file may be replaced.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub struct Replacing {
+    /// Replace files that bryant did not write, too
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// The file that accepts everything and keeps nothing.
@@ -18,18 +30,19 @@ const NOWHERE: &str = "/dev/null";
 
 impl Outputs {
     /// No places taken yet, for a command that reads these files.
-    pub fn of(read: &[PathBuf]) -> Self {
+    pub fn of<'a>(read: impl IntoIterator<Item = &'a PathBuf>, replacing: Replacing) -> Self {
         Outputs {
             taken: Vec::new(),
-            read: read.iter().map(|path| files::place(path)).collect(),
+            read: read.into_iter().map(|path| files::place(path)).collect(),
+            replacing,
         }
     }
 
     /// Reserves the place of a result, which an option names or has by default; to be called before anything is computed.
     ///
     /// # Errors
-    /// Another result goes to this place, or the command reads this file.
-    pub fn take(&mut self, option: &str, path: &Path) -> Result<(), Error> {
+    /// Another result goes to this place, the command reads this file, or it is one that this program did not write.
+    pub fn take(&mut self, option: &str, path: &Path, kind: Kind) -> Result<(), Error> {
         let place = match is_standard(path) {
             true => PathBuf::from("-"),
             false => files::place(path),
@@ -52,8 +65,36 @@ impl Outputs {
                 path.display()
             )));
         }
+        if kind.contradicts(path) {
+            return Err(Error::Input(format!(
+                "{option} writes {}, and the name {} says otherwise\n  help: let the name end in .{}",
+                kind.name(),
+                path.display(),
+                kind.endings()[0]
+            )));
+        }
+        self.may_replace(option, path, kind)?;
         self.taken.push((place, option.to_owned()));
         Ok(())
+    }
+
+    fn may_replace(&self, option: &str, path: &Path, kind: Kind) -> Result<(), Error> {
+        if self.replacing.force || is_standard(path) {
+            return Ok(());
+        }
+        let may = own::may_replace(path, kind)
+            .map_err(|error| Error::System(format!("cannot look at {}: {error}", path.display())))?;
+        match may {
+            true => Ok(()),
+            false => Err(Error::Input(format!(
+                "{option} would replace {}, which bryant did not write{}\n  help: name another file, or give --force",
+                path.display(),
+                match kind {
+                    Kind::Model => ", or which was changed since",
+                    _ => "",
+                }
+            ))),
+        }
     }
 }
 
@@ -88,8 +129,8 @@ mod tests {
 
     #[test]
     fn places_are_taken_once() {
-        let mut outputs = Outputs::of(&[PathBuf::from("model.yaml")]);
-        let mut told = |option: &str, path: &str| match outputs.take(option, Path::new(path)) {
+        let mut outputs = Outputs::of(&[PathBuf::from("model.yaml")], Replacing::default());
+        let mut told = |option: &str, path: &str| match outputs.take(option, Path::new(path), Kind::Table) {
             Ok(()) => String::new(),
             Err(Error::Input(message)) => message,
             Err(error) => panic!("{error:?}"),

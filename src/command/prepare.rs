@@ -63,7 +63,14 @@ pub fn users_of(
         true => Ok(None),
         false => {
             let progress = Progress::new(terminal, "reading user forces".into(), Whole::Unknown);
+            let names: Vec<String> = sources.iter().map(|(name, _)| name.clone()).collect();
             UserForces::of(model, sources, &mut |stage| {
+                if stage == Stage::Compiling {
+                    progress.say(&format!(
+                        "compiling {}: Rust that a model names is a program, and runs with your rights",
+                        names.join(", ")
+                    ));
+                }
                 let what = match stage {
                     Stage::Runtime => "compiling the runtime (once for all user forces)",
                     Stage::Generating | Stage::Compiling => {

@@ -190,7 +190,12 @@ fn titled(words: &str, [start, end]: [f64; 2]) -> Result<(String, What, &str), F
     let Some((name, what, rest)) = kind(rest) else {
         let said = words.split(" of ").next().unwrap_or(words);
         let names = NAMES.map(|(name, _)| name);
-        let near = nearest(said, &names).map(|near| format!("did you mean \"{near}\"? "));
+        // the words in front, as in `max crush` and `maximum of crush`
+        let first = said.split_whitespace().next().unwrap_or(said);
+        let near = response::meant(said)
+            .or_else(|| nearest(said, &names))
+            .or_else(|| response::meant(first));
+        let near = near.map(|near| format!("did you mean \"{near}\"? "));
         let near = near.unwrap_or_default();
         return Err(Fault {
             message: "it does not begin with a response".into(),
@@ -413,6 +418,10 @@ mod tests {
                 "several outputs have these words: lap belt force",
             ),
             ("peek of lap belt force", "did you mean \"peak\"?"),
+            ("maximum of lap belt force", "did you mean \"peak\"?"),
+            ("max lap belt force", "did you mean \"peak\"?"),
+            ("average of lap belt force", "did you mean \"mean\"?"),
+            ("HIC of head accelerometer", "did you mean \"HIC15\"?"),
             ("clip of chest accelerometer", "write `3 ms clip of OUTPUT`"),
             (
                 "value of head excursion",

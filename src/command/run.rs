@@ -13,7 +13,7 @@ use super::caution::{self, singular::Near};
 use super::compare::{filter_standard, pair};
 use super::error_report::ErrorReport;
 use super::model_argument::{Found, find};
-use super::outputs;
+use super::outputs::{self, Replacing};
 use super::parameters::parse_parameters;
 use super::prepare::{by_rustc, prepare};
 use super::progress::{Progress, Whole};
@@ -262,6 +262,9 @@ pub struct Arguments {
     /// Significant digits of the largest value of every column of the table [default: by the unit]
     #[arg(long, value_name = "DIGITS", value_parser = clap::value_parser!(u8).range(1..=17))]
     precision: Option<u8>,
+
+    #[command(flatten)]
+    replacing: Replacing,
 }
 
 /// A regulation and a dummy from `REGULATION, DUMMY`.

@@ -2,13 +2,14 @@
 
 use super::Error;
 use super::model_argument::{Found, find};
-use super::outputs::is_standard;
+use super::outputs::{Outputs, Replacing, is_standard};
 use super::parameters::{parse_parameters, values_of};
 use super::prepare::{Prepared, prepare_model};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::report::with_forces;
 use crate::settling::{End, Settled, Wanted, settle};
+use crate::own::Kind;
 use crate::{files, interrupt, simulation, state_file};
 use bryant_generator::model::{
     Body, Component, ElementId, Model, Output, PointQuantity, Projection, Quantity,
@@ -56,6 +57,9 @@ pub struct Arguments {
     /// Print the forces that carry the model as JSON
     #[arg(long, requires = "output")]
     json: bool,
+
+    #[command(flatten)]
+    replacing: Replacing,
 }
 
 /// Standard gravity \[m/s²\].
@@ -73,6 +77,10 @@ impl Arguments {
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         found.tell(terminal);
+        if let Some(path) = &self.output {
+            let mut outputs = Outputs::of(&found.files, self.replacing);
+            outputs.take("--output", path, Kind::State)?;
+        }
         let values = values_of(&found.model, &self.set_values(&found)?);
         let watched = Watched::new(&found.model);
         let engine = prepare_model(&found, &watched.model, terminal)?;

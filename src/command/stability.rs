@@ -1,10 +1,11 @@
 //! `bryant stability`: the hard cases, and how far from their bounds they stay.
 
 use super::Error;
-use super::outputs::{Outputs, is_standard};
+use super::outputs::{Outputs, Replacing, is_standard};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::files;
+use crate::own::Kind;
 use crate::interrupt;
 use crate::stability::report::{json, markdown, text};
 use crate::stability::{self, Scenes};
@@ -43,6 +44,9 @@ pub struct Arguments {
     /// Print everything as JSON
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    replacing: Replacing,
 }
 
 impl Arguments {
@@ -61,12 +65,12 @@ impl Arguments {
             }
             return terminal.flush();
         }
-        let mut outputs = Outputs::default();
+        let mut outputs = Outputs::of([], self.replacing);
         if self.json {
-            outputs.take("--json", Path::new("-"))?;
+            outputs.take("--json", Path::new("-"), Kind::Table)?;
         }
         if let Some(path) = &self.markdown {
-            outputs.take("--markdown", path)?;
+            outputs.take("--markdown", path, Kind::Markdown)?;
         }
         let scenes = Scenes::new();
         let whole = Whole::Count(cases.len() as u64, "hard cases");

@@ -3,12 +3,13 @@
 use super::Error;
 use super::merge;
 use super::model_argument::{self, Found};
-use super::outputs;
+use super::outputs::{self, Outputs, Replacing};
 use super::prepare::prepare;
 use super::progress::{Progress, Whole};
 use super::run::{TIME_LIMIT, time_limit};
 use super::terminal::Terminal;
 use crate::interrupt;
+use crate::own::Kind;
 use crate::picture::Format;
 use crate::report::study::{About, quoted};
 use crate::sweep::{self, KeptError, Lanes};
@@ -99,6 +100,9 @@ pub struct Arguments {
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    replacing: Replacing,
 }
 
 /// Number of rows that --plan shows.
@@ -123,6 +127,12 @@ impl Arguments {
         if self.plan {
             return plan(&study, &found, terminal);
         }
+        if let Some(path) = &self.report {
+            let rows = file.rows_from().map(|rows| directory.join(rows));
+            let read = found.files.iter().chain([&self.study]).chain(&rows);
+            let mut outputs = Outputs::of(read, self.replacing);
+            outputs.take("--report", path, Kind::Report)?;
+        }
 
         let width = self.lanes.unwrap_or_else(Width::widest);
         let mut job = sweep::job(&study, &found.model, &facts, width).map_err(Error::Input)?;
@@ -136,6 +146,7 @@ impl Arguments {
             arithmetic: arithmetic(study.run.precision, width, job.estimate),
         };
         let folder = Folder::open(&path, &study, &program).map_err(folder_error)?;
+        let _lock = folder.lock(shard).map_err(folder_error)?;
         sweep::keep(&path, &file, &text, &facts, directory).map_err(kept_error)?;
 
         let equations = prepare(&found, terminal)?;

@@ -21,7 +21,7 @@ pub struct Figure {
     pub joints: Vec<(usize, Point)>,
     /// Centres of gravity of elements that carry no other.
     pub masses: Vec<(usize, Point)>,
-    /// Contact ellipsoids.
+    /// Ellipsoids.
     pub ellipses: Vec<Ellipse>,
     /// Contact planes that are seen edge-on.
     pub planes: Vec<Plane>,
@@ -167,7 +167,7 @@ pub fn bushings(model: &Model) -> impl Iterator<Item = &bryant_generator::model:
 /// An ellipsoid of a model: its centre, its semi-axes, the angles of these, its degree.
 type Shape<'a> = (&'a Attachment, &'a [Number; 3], &'a [Number; 3], u32);
 
-/// The ellipsoids of a model: those of its contacts, then those of its airbags.
+/// The ellipsoids of a model: those of its contacts, those of its airbags, then those that meet nothing.
 pub fn ellipsoids(model: &Model) -> impl Iterator<Item = Shape<'_>> {
     let contacts = contacts(model).flat_map(|contact| {
         let first = (
@@ -189,7 +189,12 @@ pub fn ellipsoids(model: &Model) -> impl Iterator<Item = Shape<'_>> {
         _ => None,
     });
     let bags = airbags.flat_map(|airbag| airbag.ellipsoids());
-    contacts.chain(bags.map(|bag| (&bag.center, &bag.semi_axes, &bag.axes, 2)))
+    let bags = bags.map(|bag| (&bag.center, &bag.semi_axes, &bag.axes, 2));
+    let shown = model.shown.iter().map(|shown| {
+        let round = &shown.round;
+        (&round.center, &round.semi_axes, &round.axes, shown.degree)
+    });
+    contacts.chain(bags).chain(shown)
 }
 
 /// The contacts of a model.

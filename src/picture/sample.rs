@@ -153,6 +153,7 @@ pub fn child() -> Model {
             duration: 0.12,
             every: 0.002,
         },
+        shown: Vec::new(),
         digest: String::new(),
     }
 }

@@ -242,7 +242,7 @@ impl<'a> Scene<'a> {
         bones.into()
     }
 
-    /// Contact ellipsoids, each once.
+    /// Ellipsoids, each once.
     fn ellipsoids(&self) -> Value {
         let mut found: Vec<Value> = Vec::new();
         for (center, semi_axes, axes, degree) in ellipsoids(self.model) {

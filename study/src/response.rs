@@ -126,6 +126,29 @@ pub const NAMES: [(&str, What); 16] = [
     ("OLC", What::Olc),
 ];
 
+/// Other words for the kinds, and the names that are used here.
+const MEANT: [(&str, &[&str]); 12] = [
+    ("peak", &["max", "maximum", "largest", "highest", "peak value", "maximal"]),
+    ("minimum", &["min", "least", "lowest", "smallest", "minimal"]),
+    ("magnitude", &["abs", "absolute", "absolute maximum", "absolute peak", "abs max", "max abs", "maximum absolute", "absmax", "modulus"]),
+    ("time of peak", &["time of maximum", "time of max", "time of the peak", "argmax"]),
+    ("time of minimum", &["time of min", "argmin"]),
+    ("range", &["span", "peak to peak", "amplitude", "spread"]),
+    ("mean", &["average", "avg", "mean value"]),
+    ("final", &["last", "end", "end value", "final value"]),
+    ("clip", &["3 ms", "3ms", "a3ms"]),
+    ("HIC15", &["hic", "head injury criterion"]),
+    ("excursion", &["travel", "movement"]),
+    ("integral", &["impulse", "area", "time integral"]),
+];
+
+/// The name of the kind that another word stands for.
+pub fn meant(word: &str) -> Option<&'static str> {
+    let word = word.trim().to_lowercase().replace(['_', '-'], " ");
+    let of = MEANT.iter().find(|(_, words)| words.contains(&word.as_str()));
+    of.map(|(name, _)| *name)
+}
+
 impl What {
     /// The kind with this name; its time is still 0.
     pub fn named(name: &str) -> Option<What> {
@@ -183,6 +206,19 @@ impl What {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn other_words_mean_kinds_and_are_none_themselves() {
+        for (name, words) in MEANT {
+            assert!(What::named(name).is_some(), "{name}");
+            for word in words {
+                assert!(What::named(word).is_none(), "{word}");
+                assert_eq!(meant(word), Some(name));
+            }
+        }
+        assert_eq!(meant("Maximum"), Some("peak"));
+        assert_eq!(meant("force"), None);
+    }
 
     #[test]
     fn units_follow_from_the_output() {

@@ -131,6 +131,7 @@ fn one_system(
             duration: 1.0,
             every: 0.01,
         },
+        shown: vec![],
         digest: String::new(),
     }
 }

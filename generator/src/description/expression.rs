@@ -429,6 +429,53 @@ impl Reader {
     }
 }
 
+/// Other spellings of units, and those of other systems; what is written here.
+const SPELLINGS: [(&[&str], &str); 24] = [
+    (&["nm"], "N*m"),
+    (&["nms"], "N*m*s"),
+    (&["knm"], "kN*m"),
+    (&["sec", "secs", "second", "seconds"], "s"),
+    (&["msec", "msecs", "millisecond", "milliseconds"], "ms"),
+    (&["minute", "minutes"], "min"),
+    (&["hour", "hours", "hr"], "h"),
+    (&["metre", "metres", "meter", "meters"], "m"),
+    (&["millimetre", "millimetres", "millimeter", "millimeters"], "mm"),
+    (&["degree", "degrees", "grad"], "deg"),
+    (&["radian", "radians", "rads"], "rad"),
+    (&["newton", "newtons"], "N"),
+    (&["kilogram", "kilograms", "kilo", "kgs"], "kg"),
+    (&["gs", "g0", "gee"], "gn"),
+    (&["kph", "kmh", "kmph"], "km/h"),
+    (&["mps", "ms-1"], "m/s"),
+    (&["percent"], "%"),
+    (&["celsius", "kelvin"], "K"),
+    (&["mph"], "1.609344 km/h"),
+    (&["in", "inch", "inches"], "25.4 mm"),
+    (&["ft", "foot", "feet"], "304.8 mm"),
+    (&["lb", "lbs", "lbm", "pound", "pounds"], "0.45359237 kg"),
+    (&["lbf"], "4.4482216 N"),
+    (&["psi"], "6894.757 Pa"),
+];
+
+/// How a unit that is none would be written, if it is seen to be meant as one.
+pub fn spelling(name: &str) -> Option<String> {
+    let small = name.to_lowercase();
+    let known = SPELLINGS.iter().find(|(others, _)| others.contains(&small.as_str()));
+    match known {
+        Some((_, right)) if right.starts_with(|c: char| c.is_ascii_digit()) => {
+            Some(format!("one `{name}` is `{right}`"))
+        }
+        Some((_, right)) => Some(format!("write `{right}`")),
+        // `s2`, `m3`
+        None => {
+            let digit = name.chars().last().filter(|d| "234".contains(*d))?;
+            let base = name.strip_suffix(digit)?;
+            unit(base)?;
+            Some(format!("write `{base}^{digit}`"))
+        }
+    }
+}
+
 /// What is wrong with a name behind a number or a unit, and what would be right.
 fn not_a_unit(name: &str) -> (String, String) {
     if unit(name).is_some() {
@@ -442,9 +489,10 @@ fn not_a_unit(name: &str) -> (String, String) {
         0..=2 => COMMON.into_iter().find(|u| u.eq_ignore_ascii_case(name)),
         _ => nearest(name, COMMON),
     };
-    let help = match near {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!(
+    let help = match (spelling(name), near) {
+        (Some(right), _) => right,
+        (None, Some(near)) => format!("did you mean `{near}`?"),
+        (None, None) => format!(
             "if it is a parameter, write `2 * {name}`; units are m, kg, s, N, J, W, Pa, Hz, rad with prefixes, \
              g, t, min, h, deg, rpm, %, L, K, bar, gn"
         ),

@@ -6,19 +6,21 @@ use super::curve::{self, Curve};
 use super::expand::instance::rename;
 use super::expand::{Known, expand};
 use super::force::Force;
-use super::output::Output;
+use super::mend::{Lost, mend};
+use super::output::Column;
 use super::parameter::ParameterEntry;
 use super::part;
 use super::person;
 use super::place::At;
 use super::run::Run;
-use super::shape::{Misfit, Named, Problems, Shape, misfit, record, words};
+use super::shape::{Misfit, Named, Problems, Record, Shape, misfit, record, words};
 use super::short::{Include, Mirror, Surface};
 use super::switch::Switch;
 use super::system::System;
 use super::table::Table;
 use super::tree::{Kind, MAX_BYTES, Node, Source};
 use super::vehicle::Vehicle;
+use super::what;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
 use crate::urdf::{self, Imported};
 use serde_yaml::Value;
@@ -61,7 +63,7 @@ record! {
         /// What happens once.
         switches: Option<Vec<Switch>>,
         /// Columns of the table.
-        outputs: Option<Vec<Output>>,
+        outputs: Option<Vec<Column>>,
         /// Duration and sampling.
         run: Option<Run>,
         /// By what a run is judged.
@@ -93,7 +95,7 @@ record! {
         /// What happens once.
         switches: Option<Vec<Switch>>,
         /// Columns of the table.
-        outputs: Option<Vec<Output>>,
+        outputs: Option<Vec<Column>>,
     }
 }
 
@@ -127,6 +129,24 @@ impl Shape for Dimension {
             Some(3) => Ok(Dimension::Space),
             _ => Err(misfit(value, "the dimension, 2 or 3,")),
         }
+    }
+}
+
+/// The kind of a file, and what else it may be.
+trait Document: Record {
+    /// What it is in place of this, if that is known, and what to do with it.
+    fn instead(root: &Node, name: &str) -> Option<what::What>;
+}
+
+impl Document for Model {
+    fn instead(root: &Node, name: &str) -> Option<what::What> {
+        what::instead_of_model(root, name)
+    }
+}
+
+impl Document for Included {
+    fn instead(root: &Node, name: &str) -> Option<what::What> {
+        what::instead_of_part(root, name)
     }
 }
 
@@ -169,6 +189,10 @@ pub struct Loaded {
     pub sources: BTreeMap<PathBuf, String>,
     /// Every file in the order read, the model file first.
     pub paths: Vec<PathBuf>,
+    /// What is wrong; the rest was read without it, so that mistakes there are found, too.
+    pub problems: Vec<Diagnostic>,
+    /// What is missing for that reason.
+    pub lost: Lost,
 }
 
 /// Opens a file to be read, behind links; what is no file, a folder, a device or a pipe, is refused: it may have no end.
@@ -202,7 +226,10 @@ pub fn read_file(path: &Path) -> io::Result<String> {
     String::from_utf8(bytes).or_else(|error| match of_test {
         // each byte is the character of its number
         true => Ok(error.into_bytes().into_iter().map(char::from).collect()),
-        false => Err(io::ErrorKind::InvalidData.into()),
+        false => Err(match what::of_bytes(error.as_bytes()) {
+            Some(what) => io::Error::new(io::ErrorKind::InvalidData, what),
+            None => io::ErrorKind::InvalidData.into(),
+        }),
     })
 }
 
@@ -310,10 +337,20 @@ pub fn unreadable(path: &str, error: &io::Error) -> (String, &'static str) {
             format!("there is no file {}", quoted(path)),
             "look at the path; paths of included files are relative to the file that includes them",
         ),
-        io::ErrorKind::InvalidData => (
-            format!("the file {} is not text in UTF-8", quoted(path)),
-            "save it as UTF-8",
-        ),
+        io::ErrorKind::InvalidData => match error.get_ref() {
+            Some(what) if what.to_string().starts_with("text in") => (
+                format!("the file {} is {what}, not in UTF-8", quoted(path)),
+                "save it as UTF-8",
+            ),
+            Some(what) => (
+                format!("the file {} is {what}", quoted(path)),
+                "name a file that is text",
+            ),
+            None => (
+                format!("the file {} is not text in UTF-8", quoted(path)),
+                "save it as UTF-8",
+            ),
+        },
         _ => (
             format!("the file {} cannot be read: {error}", quoted(path)),
             "look at its kind and its permissions",
@@ -321,17 +358,11 @@ pub fn unreadable(path: &str, error: &io::Error) -> (String, &'static str) {
     }
 }
 
-/// Parses a model and all that it includes.
+/// Parses a model and all that it includes; whether the Rust files of user forces are read is chosen.
+///
+/// # Errors
+/// All problems, where so little is left without what is wrong that nothing can be said of it; other problems are part of the result.
 pub fn load(
-    name: &str,
-    text: &str,
-    loader: &dyn Fn(&Path) -> io::Result<String>,
-) -> Result<Loaded, Diagnostics> {
-    load_with(name, text, loader, true)
-}
-
-/// As [`load`]; whether the Rust files of user forces are read is chosen.
-pub fn load_with(
     name: &str,
     text: &str,
     loader: &dyn Fn(&Path) -> io::Result<String>,
@@ -350,24 +381,23 @@ pub fn load_with(
         open: Vec::new(),
         planar: false,
         known: Known::default(),
+        lost: Lost::default(),
+        unread: false,
     };
     let header = reader.model(name, text);
-    let Reader {
-        problems,
-        files,
-        tables,
-        sources,
-        paths,
-        ..
-    } = reader;
-    let header = problems.into_result(header)?;
-    Ok(Loaded {
-        header,
-        files,
-        tables,
-        sources,
-        paths,
-    })
+    let (problems, _) = reader.problems.into_parts();
+    match header {
+        Some(header) if problems.is_empty() || !reader.unread => Ok(Loaded {
+            header,
+            files: reader.files,
+            tables: reader.tables,
+            sources: reader.sources,
+            paths: reader.paths,
+            problems,
+            lost: reader.lost,
+        }),
+        _ => Err(Diagnostics { problems }),
+    }
 }
 
 struct Reader<'a> {
@@ -387,16 +417,28 @@ struct Reader<'a> {
     planar: bool,
     /// What short forms refer to.
     known: Known,
+    /// What is missing of what was read, because it is wrong.
+    lost: Lost,
+    /// Whether a whole file is missing.
+    unread: bool,
 }
 
 impl Reader<'_> {
     fn model(&mut self, name: &str, text: &str) -> Option<Header> {
         let path = normal(Path::new(name));
         self.paths.push(path.clone());
+        if let Some((what, help)) = what::of_text(text) {
+            self.problems.add(Diagnostic::of_file(
+                name,
+                format!("this is {what}, no model"),
+                help,
+            ));
+            return None;
+        }
         let mut source = self.checked::<Model>(name, text)?;
         self.planar = source.root.get("dimension").and_then(Node::text) == Some("2");
         self.includes(path, &source);
-        source.root = expand(&source, self.planar, &mut self.known, &self.problems);
+        self.expand(&mut source);
         let model: Model = self.typed(&source)?;
         let contents = Included {
             include: model.include,
@@ -422,32 +464,63 @@ impl Reader<'_> {
         })
     }
 
-    /// The text as a tree of the shape of `T`; misfits are reported all at once with their places.
-    fn checked<T: Shape>(&mut self, name: &str, text: &str) -> Option<Source> {
-        let source = match Source::parse(name, text) {
+    /// The text as a tree of the shape of `T`; misfits are reported all at once with their places, and taken out.
+    fn checked<T: Shape + Document>(&mut self, name: &str, text: &str) -> Option<Source> {
+        let mut source = match Source::parse(name, text) {
             Ok(source) => source,
             Err(problem) => {
                 self.problems.add(*problem);
+                self.unread = true;
                 return None;
             }
         };
+        if let Some((what, help)) = T::instead(&source.root, name) {
+            self.problems.add(Diagnostic::of_file(
+                name,
+                format!("this is {what}, not {}", T::TITLE),
+                help,
+            ));
+            self.unread = true;
+            return None;
+        }
         let before = self.problems.count();
         T::check(source.at(), &self.problems);
-        (self.problems.count() == before).then_some(source)
+        if self.problems.count() > before {
+            match mend(&source, T::check, &mut self.lost) {
+                Some(rest) => source.root = rest,
+                None => {
+                    self.unread = true;
+                    return None;
+                }
+            }
+        }
+        Some(source)
+    }
+
+    /// Writes out the short forms of a file.
+    fn expand(&mut self, source: &mut Source) {
+        let before = self.problems.kept();
+        let root = expand(source, self.planar, &mut self.known, &self.problems);
+        for problem in self.problems.since(before) {
+            self.lost.add(source, &problem);
+        }
+        source.root = root;
     }
 
     /// The tree as `T`, its short forms written out.
-    fn typed<T: Shape>(&self, source: &Source) -> Option<T> {
+    fn typed<T: Shape>(&mut self, source: &Source) -> Option<T> {
         match T::read(&source.root.value()) {
             Ok(value) => Some(value),
-            // what is not as it should be after short forms were written out is reported there
-            Err(_) if self.problems.count() > 0 => None,
             Err(error) => {
-                self.problems.add(Diagnostic::of_file(
-                    &source.name,
-                    format!("this cannot be read: {error}"),
-                    "see the reference of the language for what may stand here",
-                ));
+                self.unread = true;
+                // what is not as it should be after short forms were written out is reported there
+                if self.problems.count() == 0 {
+                    self.problems.add(Diagnostic::of_file(
+                        &source.name,
+                        format!("this cannot be read: {error}"),
+                        "see the reference of the language for what may stand here",
+                    ));
+                }
                 None
             }
         }
@@ -481,6 +554,7 @@ impl Reader<'_> {
     }
 
     fn contents(&mut self, source: Source, contents: Included) {
+        let before = self.problems.kept();
         self.tables(source.at());
         for (index, force) in contents.forces.iter().flatten().enumerate() {
             if let Force::User(user) = force
@@ -489,6 +563,9 @@ impl Reader<'_> {
                 let at = source.at().key("forces").item(index).key("source");
                 self.user_source(at, file, &user.user);
             }
+        }
+        for problem in self.problems.since(before) {
+            self.lost.add(&source, &problem);
         }
         self.files.push(File { source, contents });
     }
@@ -502,18 +579,21 @@ impl Reader<'_> {
                 format!("there are two systems called {}", quoted(&name)),
                 "give each person a name of its own",
             ));
+            self.unread = true;
             return;
         }
-        if let Some(text) = person::text(at, self.planar, &self.problems) {
-            self.made(&format!("human {name}"), &text);
+        match person::text(at, self.planar, &self.problems) {
+            Some(text) => self.made(&format!("human {name}"), &text),
+            None => self.unread = true,
         }
     }
 
     /// Reads a part of a car, as a file that the model includes.
     fn part(&mut self, at: At<'_>) {
         let name = at.key("name").node.text().unwrap_or_default().to_owned();
-        if let Some(text) = part::text(at, self.planar, &self.problems) {
-            self.made(&format!("part {name}"), &text);
+        match part::text(at, self.planar, &self.problems) {
+            Some(text) => self.made(&format!("part {name}"), &text),
+            None => self.unread = true,
         }
     }
 
@@ -522,7 +602,7 @@ impl Reader<'_> {
         let Some(mut source) = self.checked::<Included>(name, text) else {
             return;
         };
-        source.root = expand(&source, self.planar, &mut self.known, &self.problems);
+        self.expand(&mut source);
         if let Some(contents) = self.typed::<Included>(&source) {
             self.contents(source, contents);
         }
@@ -546,6 +626,7 @@ impl Reader<'_> {
                 format!("the files include each other: {}", cycle.join(" → ")),
                 "remove one of these includes; move what both need into a file of its own",
             ));
+            self.unread = true;
             return;
         }
         let name = system.and_then(|at| at.node.text()).map(str::to_owned);
@@ -558,26 +639,28 @@ impl Reader<'_> {
             false => self.text(at, &path),
         };
         let Some(text) = text else {
+            self.unread = true;
             return;
         };
         let Some(mut source) = self.checked::<Included>(&shown(&path), &text) else {
             return;
         };
         self.includes(path, &source);
-        source.root = if again || name.is_some() {
+        if again || name.is_some() {
             let mut known = self.known.without(&source.name);
             let mut root = expand(&source, self.planar, &mut known, &self.problems);
             let at = system.unwrap_or(at);
             let Some(renaming) = rename(&mut root, name.as_deref(), again, at, &self.problems)
             else {
+                self.unread = true;
                 return;
             };
             self.known
                 .add_renamed(known, &root, &source.name, &renaming);
-            root
+            source.root = root;
         } else {
-            expand(&source, self.planar, &mut self.known, &self.problems)
-        };
+            self.expand(&mut source);
+        }
         if let Some(contents) = self.typed::<Included>(&source) {
             self.contents(source, contents);
         }

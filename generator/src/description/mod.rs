@@ -17,6 +17,7 @@ pub mod force;
 pub mod joint;
 pub mod load;
 pub mod long;
+pub mod mend;
 pub mod output;
 pub mod parameter;
 pub mod part;
@@ -30,11 +31,13 @@ pub mod short;
 pub mod switch;
 pub mod system;
 pub mod table;
+pub mod slip;
 mod token;
 pub mod tree;
 pub mod unit;
 mod value;
 pub mod vehicle;
+pub mod what;
 
 use crate::law::LAWS;
 use shape::{Key, Record};
@@ -73,6 +76,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<switch::Switch>(),
         of::<switch::Trigger>(),
         of::<output::Output>(),
+        of::<output::Formula>(),
         of::<run::Run>(),
         of::<criteria::Criteria>(),
     ]);

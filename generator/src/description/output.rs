@@ -1,8 +1,10 @@
 //! Outputs as written: the columns of the table.
 
+use super::place::At;
 use super::point::Point;
-use super::shape::{record, words};
+use super::shape::{Misfit, Named, Problems, Shape, check_record, record, words};
 use super::short::Each;
+use serde_yaml::Value;
 
 record! {
     /// A column of the table.
@@ -39,6 +41,55 @@ record! {
         filter: Option<Class>,
         /// Whether it has a mirror image.
         mirror: Option<bool>,
+    }
+}
+
+record! {
+    /// A column that is computed from others.
+    Formula as "an output with a formula" {
+        /// Heading, unique.
+        name: String,
+        /// Whether it is shown.
+        enabled: Option<bool>,
+        /// Arithmetic of outputs above it, parameters and numbers with their units.
+        formula: String,
+        /// Words of the formula and the outputs that they stand for.
+        with: Option<Named<String>>,
+    }
+}
+
+/// A column of the table: measured, or computed from others.
+#[derive(Clone, Debug)]
+pub enum Column {
+    /// Measured.
+    Output(Box<Output>),
+    /// Computed.
+    Formula(Formula),
+}
+
+impl Column {
+    /// Its heading.
+    pub fn name(&self) -> &str {
+        match self {
+            Column::Output(output) => &output.name,
+            Column::Formula(formula) => &formula.name,
+        }
+    }
+}
+
+impl Shape for Column {
+    fn check(at: At<'_>, problems: &Problems) {
+        match at.node.get("formula") {
+            Some(_) => check_record::<Formula>(at, problems),
+            None => check_record::<Output>(at, problems),
+        }
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        match value.get("formula") {
+            Some(_) => Formula::read(value).map(Column::Formula),
+            None => Output::read(value).map(Box::new).map(Column::Output),
+        }
     }
 }
 

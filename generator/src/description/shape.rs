@@ -5,8 +5,10 @@
 //! values. What passes the check can be read. Values are read by this trait and not by serde, whose code for so many records would be a tenth of the
 //! crate.
 
+use super::mend::Correction;
 use super::place::At;
-use super::tree::Kind;
+use super::slip;
+use super::tree::{Entry, Kind, Span};
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest, quoted};
 use serde_yaml::Value;
 use std::cell::{Cell, RefCell};
@@ -20,6 +22,8 @@ pub struct Problems {
     /// The first, each once.
     kept: RefCell<Vec<Diagnostic>>,
     reported: Cell<usize>,
+    /// Unknown keys, by their places, and what they were meant to be.
+    corrections: RefCell<Vec<(Span, Correction)>>,
 }
 
 impl Problems {
@@ -47,6 +51,26 @@ impl Problems {
     /// How many were reported, kept or not: where this stands still nothing is wrong.
     pub fn count(&self) -> usize {
         self.reported.get()
+    }
+
+    /// An unknown key, which was meant to be another one or means nothing.
+    pub fn correct(&self, key: Span, correction: Correction) {
+        self.corrections.borrow_mut().push((key, correction));
+    }
+
+    /// What was reported, and what unknown keys were meant to be.
+    pub fn into_parts(self) -> (Vec<Diagnostic>, Vec<(Span, Correction)>) {
+        (self.kept.into_inner(), self.corrections.into_inner())
+    }
+
+    /// Those reported since there were so many.
+    pub fn since(&self, kept: usize) -> Vec<Diagnostic> {
+        self.kept.borrow().get(kept..).unwrap_or_default().to_vec()
+    }
+
+    /// How many are kept.
+    pub fn kept(&self) -> usize {
+        self.kept.borrow().len()
     }
 
     /// `value` where there is no problem.
@@ -196,27 +220,27 @@ fn check_keys(title: &str, all: &'static [Key], at: At<'_>, problems: &Problems)
                 .collect(),
             false => keys,
         };
-        problems.add(at.problem(
-            format!("here stands {}, but {} has keys", at.node.article(), title),
-            format!("write `{{ {} }}`", keys.join(", ")),
-        ));
+        let names: Vec<&str> = all.iter().map(|k| k.name).collect();
+        let meant = at.node.text().and_then(|text| slip::key_meant(text, &names));
+        let (message, help) = meant.map_or_else(
+            || {
+                (
+                    format!("here stands {}, but {} has keys", at.node.article(), title),
+                    format!("write `{{ {} }}`", keys.join(", ")),
+                )
+            },
+            |meant| meant.said,
+        );
+        problems.add(at.problem(message, help));
         return;
     };
     let mut misspelt = Vec::new();
-    for entry in entries {
+    for (index, entry) in entries.iter().enumerate() {
         let Some(key) = all.iter().find(|k| k.name == entry.key) else {
-            let help = match nearest(&entry.key, all.iter().map(|k| k.name)) {
-                Some(near) => {
-                    misspelt.push(near);
-                    format!("did you mean `{near}`?")
-                }
-                None => format!("the keys of {} are {}", title, list(all)),
-            };
-            problems.add(at.problem_at(
-                entry.span,
-                format!("{} has no key {}", title, quoted(&entry.key)),
-                help,
-            ));
+            let before = index.checked_sub(1).map(|before| &entries[before]);
+            let meant = unknown_key(title, all, at, entry, before, problems);
+            misspelt.extend(meant.key.clone());
+            problems.correct(entry.span, meant);
             continue;
         };
         if entry.value.is_null() {
@@ -230,13 +254,53 @@ fn check_keys(title: &str, all: &'static [Key], at: At<'_>, problems: &Problems)
         }
     }
     for key in all.iter().filter(|k| !k.optional) {
-        if at.node.get(key.name).is_none() && !misspelt.contains(&key.name) {
+        if at.node.get(key.name).is_none() && !misspelt.iter().any(|meant| meant == key.name) {
             problems.add(at.problem(
                 format!("{} lacks the key \"{}\"", title, key.name),
                 format!("add `{}: …`; see the reference of the language", key.name),
             ));
         }
     }
+}
+
+/// Reports a key that is none; what it was meant to be.
+fn unknown_key(
+    title: &str,
+    all: &'static [Key],
+    at: At<'_>,
+    entry: &Entry,
+    before: Option<&Entry>,
+    problems: &Problems,
+) -> Correction {
+    let names: Vec<&str> = all.iter().map(|k| k.name).collect();
+    // the rest of a number with a comma: `mass: 4,5 kg` in braces
+    let number = before.and_then(|before| Some((&before.key, before.value.text()?)));
+    if let Some((key, number)) = number
+        && entry.value.is_null()
+        && slip::is_decimal_comma(number, &entry.key)
+    {
+        problems.add(at.problem_at(
+            entry.span,
+            format!("a comma divides `{number},{}`, which is no entry", entry.key),
+            format!("the decimal sign is a point: write `{key}: {number}.{}`", entry.key),
+        ));
+        return Correction::default();
+    }
+    if let Some(meant) = slip::key_meant(&entry.key, &names).filter(|m| m.value.is_none() || entry.value.is_null()) {
+        problems.add(at.problem_at(entry.span, meant.said.0, meant.said.1));
+        return Correction { key: Some(meant.key), value: meant.value };
+    }
+    let near = nearest(&entry.key, names.iter().copied());
+    let help = match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("the keys of {title} are {}", list(all)),
+    };
+    problems.add(at.problem_at(
+        entry.span,
+        format!("{title} has no key {}", quoted(&entry.key)),
+        help,
+    ));
+    Correction { key: near.map(str::to_owned), value: None }
 }
 
 /// Reports anything but one of some words.
@@ -250,9 +314,10 @@ pub fn check_word(at: At<'_>, words: &[&str], problems: &Problems) {
         Kind::Scalar { text, .. } if words.contains(&text.as_str()) => {}
         Kind::Scalar { text, .. } => problems.add(at.problem(
             format!("{} is none of the words that may stand here", quoted(text)),
-            match nearest(text, words.iter().copied()) {
-                Some(near) => format!("did you mean `{near}`? The words are {all}"),
-                None => format!("the words are {all}"),
+            match (slip::in_word(text), nearest(text, words.iter().copied())) {
+                (Some((message, help)), _) => format!("{message}: {help}"),
+                (None, Some(near)) => format!("did you mean `{near}`? The words are {all}"),
+                (None, None) => format!("the words are {all}"),
             },
         )),
         _ => problems.add(at.problem(

@@ -1,6 +1,7 @@
 //! The words of arithmetic: numbers, names, signs.
 
 use super::expression::Mistake;
+use super::slip;
 use crate::diagnostic::quoted;
 
 /// A token and where it stands.
@@ -71,14 +72,7 @@ pub fn tokens(characters: &[char]) -> Result<Vec<Token>, Mistake> {
                     TokenKind::Number(if c == '²' { 2.0 } else { 3.0 })
                 }
                 '+' | '-' | '*' | '/' | '(' | ')' | '^' => TokenKind::Sign(c),
-                _ => {
-                    return Err(Mistake {
-                        offset: start,
-                        length: 1,
-                        message: format!("the character {} has no meaning in a quantity", quoted(&c.to_string())),
-                        help: "a quantity is made of numbers, units, parameters, + - * / ( ) sqrt sin cos pi".to_owned(),
-                    });
-                }
+                _ => return Err(no_token(characters, start)),
             }
         };
         tokens.push(Token {
@@ -88,6 +82,32 @@ pub fn tokens(characters: &[char]) -> Result<Vec<Token>, Mistake> {
         });
     }
     Ok(tokens)
+}
+
+/// What is wrong with a character that is no part of arithmetic.
+fn no_token(characters: &[char], at: usize) -> Mistake {
+    let c = characters[at];
+    let digit = |at: Option<usize>| {
+        let c = at.and_then(|at| characters.get(at));
+        c.is_some_and(char::is_ascii_digit)
+    };
+    let (message, help) = match slip::in_word(&c.to_string()) {
+        Some(said) => said,
+        None if c == ',' && digit(at.checked_sub(1)) && digit(Some(at + 1)) => (
+            "a comma stands in a number".to_owned(),
+            "the decimal sign is a point, as in `0.5`; thousands are not divided".to_owned(),
+        ),
+        None => (
+            format!("the character {} has no meaning in a quantity", quoted(&c.to_string())),
+            "a quantity is made of numbers, units, parameters, + - * / ( ) sqrt sin cos pi".to_owned(),
+        ),
+    };
+    Mistake {
+        offset: at,
+        length: 1,
+        message,
+        help,
+    }
 }
 
 fn is_letter(c: char) -> bool {

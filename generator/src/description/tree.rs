@@ -4,6 +4,7 @@
 //! also where text that no model needs is turned away before it is read: nesting, size, aliases, tags, duplicate keys.
 
 use super::place::At;
+use super::slip;
 use crate::diagnostic::{Diagnostic, quoted};
 use saphyr_parser::{Event, Parser, ScalarStyle, ScanError, Span as Marks};
 use std::collections::HashSet;
@@ -128,7 +129,8 @@ impl Source {
                 ),
             )));
         }
-        let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n");
+        let text = text.trim_start_matches('\u{feff}');
+        let text = text.replace("\r\n", "\n").replace('\r', "\n");
         let root = Builder { name, text: &text }.build()?;
         Ok(Source {
             name: name.to_owned(),
@@ -380,19 +382,11 @@ impl Builder<'_> {
             length: 1,
         };
         let info = error.info();
-        let line = self.text.lines().nth(span.line - 1).unwrap_or("");
-        let indent: String = line.chars().take_while(|c| c.is_whitespace()).collect();
         if info.contains("recursion limit") {
             return self.too_deep(span);
         }
-        if indent.contains('\t') {
-            let column = indent.chars().take_while(|&c| c != '\t').count() + 1;
-            let span = Span { column, ..span };
-            return self.problem(
-                span,
-                "a tab stands in the indentation",
-                "YAML is indented with spaces; replace the tab by two spaces",
-            );
+        if let Some(slip) = slip::noticed_at(self.text, span.line) {
+            return self.problem(slip.span, slip.message, slip.help);
         }
         let help = if info.contains("mapping values are not allowed") {
             "text that holds `: ` needs quotation marks; two keys on one line stand in `{ a: 1, b: 2 }`"

@@ -6,10 +6,21 @@ use crate::model::{Number, ScaledCurve};
 
 /// The expression of a number.
 pub fn number<'g>(graph: &'g Graph, number: &Number) -> Expr<'g> {
-    let of = |n: &Number| self::number(graph, n);
+    arithmetic(graph, number, &|index| {
+        graph.symbol(Symbol::Parameter(index as u32))
+    })
+}
+
+/// The expression of arithmetic on what has indices.
+pub fn arithmetic<'g>(
+    graph: &'g Graph,
+    number: &Number,
+    indexed: &dyn Fn(usize) -> Expr<'g>,
+) -> Expr<'g> {
+    let of = |n: &Number| arithmetic(graph, n, indexed);
     match number {
         Number::Constant(value) => graph.constant(*value),
-        Number::Parameter(index) => graph.symbol(Symbol::Parameter(*index as u32)),
+        Number::Parameter(index) => indexed(*index),
         Number::Negative(a) => -of(a),
         Number::Sum(a, b) => of(a) + of(b),
         Number::Difference(a, b) => of(a) - of(b),

@@ -17,12 +17,12 @@ use super::augmented::{own_inertia, rotated};
 use super::force::AppliedForces;
 use super::kinematics::{ElementMotion, Motion, reference_acceleration};
 use super::layout::{Layout, Orientation};
-use super::numbers::{number, vector};
+use super::numbers::{arithmetic, number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::law::Value;
 use crate::model::{
-    Body, Component, ElementId, FreedomQuantity, JointLoadQuantity, Model, PointQuantity,
+    Body, Component, ElementId, FreedomQuantity, JointLoadQuantity, Leaf, Model, PointQuantity,
     Projection, Quantity, RotationQuantity, Switch, SwitchQuantity, SystemQuantity,
 };
 
@@ -160,6 +160,14 @@ impl<'g> Scene<'g, '_> {
                 what,
                 projection,
             } => self.system(*system, *what, *projection),
+            Quantity::Formula(formula) => {
+                let leaf = |leaf: &Leaf| match leaf {
+                    Leaf::Number(n) => number(self.graph, n),
+                    Leaf::Quantity(quantity) => self.quantity(quantity),
+                };
+                let leaves: Vec<Expr<'g>> = formula.leaves.iter().map(leaf).collect();
+                arithmetic(self.graph, &formula.value, &|index| leaves[index])
+            }
         }
     }
 

@@ -53,8 +53,10 @@ pub fn flattened(model: &Model) -> Option<Model> {
         keep.push(force.kind.flatten());
     }
     model.outputs.retain_mut(|output| {
-        let there = flatten_quantity(&mut output.quantity);
-        there && output.quantity.force_mut().is_none_or(|force| keep[*force])
+        let mut leaves = output.quantity.leaves_mut().into_iter();
+        leaves.all(|leaf| {
+            flatten_quantity(leaf) && leaf.force_mut().is_none_or(|force| keep[*force])
+        })
     });
     model.keep_forces(&keep);
     model.is_regular().then_some(model)
@@ -84,7 +86,7 @@ fn flatten_quantity(quantity: &mut Quantity) -> bool {
             projection.lies_in_plane()
         }
         Quantity::OfForce { what, .. } => what.exists_in_plane(),
-        Quantity::Freedom { .. } | Quantity::Switch { .. } => true,
+        Quantity::Freedom { .. } | Quantity::Switch { .. } | Quantity::Formula(_) => true,
         Quantity::System {
             what: SystemQuantity::AngularMomentum,
             projection,

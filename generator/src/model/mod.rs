@@ -34,7 +34,7 @@ pub use scene::Scene;
 pub use switch::{Active, Switch, SwitchQuantity, Trigger};
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Model {
     /// Name of the model, kebab-case as in the YAML.
     pub name: String,
@@ -60,8 +60,31 @@ pub struct Model {
     pub outputs: Vec<Output>,
     /// Duration and sampling of a run.
     pub run: Run,
-    /// SHA-256 of all of the above, as lower-case hexadecimal: of what the text means, not of how it is written.
+    /// Ellipsoids that meet nothing, for pictures; at the default parameters.
+    pub shown: Vec<Shown>,
+    /// SHA-256 of all of the above but [`shown`](Model::shown), as lower-case hexadecimal: of what the text means, not of how it is written.
     pub digest: String,
+}
+
+/// The digest of a model is made of this: what is only shown leaves no trace.
+impl fmt::Debug for Model {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Model")
+            .field("name", &self.name)
+            .field("title", &self.title)
+            .field("dimension", &self.dimension)
+            .field("coordinates", &self.coordinates)
+            .field("parameters", &self.parameters)
+            .field("curves", &self.curves)
+            .field("vehicles", &self.vehicles)
+            .field("systems", &self.systems)
+            .field("forces", &self.forces)
+            .field("switches", &self.switches)
+            .field("outputs", &self.outputs)
+            .field("run", &self.run)
+            .field("digest", &self.digest)
+            .finish()
+    }
 }
 
 /// Number of space dimensions.
@@ -618,6 +641,26 @@ pub enum Quantity {
         /// Which component, where it is a vector.
         projection: Projection,
     },
+    /// Arithmetic of others.
+    Formula(Box<Formula>),
+}
+
+/// Arithmetic of quantities, in SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    /// The arithmetic. Its parameters are not those of the model, but the indices of the leaves.
+    pub value: Number,
+    /// What it is made of.
+    pub leaves: Vec<Leaf>,
+}
+
+/// What stands in a formula.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Leaf {
+    /// An expression of the model's parameters.
+    Number(Number),
+    /// A quantity.
+    Quantity(Quantity),
 }
 
 /// As the digest of a model has it: under the name of the law.
@@ -633,6 +676,32 @@ impl fmt::Debug for Digested<'_> {
 }
 
 impl Quantity {
+    /// What is looked at: of a formula all that stands in it, of others themselves.
+    pub fn leaves(&self) -> Vec<&Quantity> {
+        let Quantity::Formula(formula) = self else {
+            return vec![self];
+        };
+        let leaves = formula.leaves.iter().flat_map(|leaf| match leaf {
+            Leaf::Number(_) => Vec::new(),
+            Leaf::Quantity(quantity) => quantity.leaves(),
+        });
+        leaves.collect()
+    }
+
+    /// The same, to be changed.
+    pub fn leaves_mut(&mut self) -> Vec<&mut Quantity> {
+        match self {
+            Quantity::Formula(formula) => {
+                let leaves = formula.leaves.iter_mut().flat_map(|leaf| match leaf {
+                    Leaf::Number(_) => Vec::new(),
+                    Leaf::Quantity(quantity) => quantity.leaves_mut(),
+                });
+                leaves.collect()
+            }
+            leaf => vec![leaf],
+        }
+    }
+
     /// Whether it is the length of a vector.
     pub fn is_resultant(&self) -> bool {
         match self {

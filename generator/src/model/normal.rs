@@ -179,7 +179,8 @@ fn settle(translation: &mut Translation) {
 
 /// What outputs and switches look at.
 fn looked_at(model: &mut Model) -> impl Iterator<Item = &mut Quantity> {
-    let outputs = model.outputs.iter_mut().map(|output| &mut output.quantity);
+    let outputs = model.outputs.iter_mut();
+    let outputs = outputs.flat_map(|output| output.quantity.leaves_mut());
     let switches = model.switches.iter_mut();
     outputs.chain(switches.filter_map(|switch| switch.trigger.quantity_mut()))
 }
@@ -214,7 +215,8 @@ fn for_each_switch(model: &mut Model, used: &[bool], visit: &mut dyn FnMut(&mut 
         since.iter_mut().chain(until).for_each(&mut *visit);
         force.kind.switches_mut().into_iter().for_each(&mut *visit);
     }
-    let outputs = model.outputs.iter_mut().map(|output| &mut output.quantity);
+    let outputs = model.outputs.iter_mut();
+    let outputs = outputs.flat_map(|output| output.quantity.leaves_mut());
     let switches = model.switches.iter_mut().zip(used);
     let triggers = switches.filter_map(|(s, &used)| s.trigger.quantity_mut().filter(|_| used));
     for quantity in outputs.chain(triggers) {

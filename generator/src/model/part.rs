@@ -9,7 +9,7 @@
 use super::rule::{Rule, Ruled};
 use super::{
     Attachment, Body, Bristle, Curve, Dimension, Element, Extrapolate, FieldComponent, Follows,
-    ForceKind, Freedom, Friction, Hysteresis, Interpolate, Model, Number, Output, Parameter,
+    ForceKind, Freedom, Friction, Hysteresis, Interpolate, Leaf, Model, Number, Output, Parameter,
     Quantity, Reference, ScaledCurve, Switch, System, Translation, Trigger, Vehicle,
 };
 
@@ -502,6 +502,7 @@ impl Model {
             switches,
             outputs,
             run: _,
+            shown: _,
             digest: _,
         } = self;
         let mut numbers = Vec::new();
@@ -568,9 +569,17 @@ fn of_translation(translation: &mut Translation) -> impl Iterator<Item = &mut Sc
     curves.iter_mut().chain([stops]).flatten()
 }
 
-fn of_quantity(quantity: &mut Quantity) -> &mut [Number] {
+fn of_quantity(quantity: &mut Quantity) -> Vec<&mut Number> {
     match quantity {
-        Quantity::Point { at, .. } => at,
+        Quantity::Point { at, .. } => at.iter_mut().collect(),
+        Quantity::Formula(formula) => {
+            let leaves = formula.leaves.iter_mut();
+            let numbers = leaves.flat_map(|leaf| match leaf {
+                Leaf::Number(number) => vec![number],
+                Leaf::Quantity(quantity) => of_quantity(quantity),
+            });
+            numbers.collect()
+        }
         Quantity::Rotation { .. }
         | Quantity::JointLoad { .. }
         | Quantity::ForceOn { .. }
@@ -578,7 +587,7 @@ fn of_quantity(quantity: &mut Quantity) -> &mut [Number] {
         | Quantity::OfForce { .. }
         | Quantity::Freedom { .. }
         | Quantity::Switch { .. }
-        | Quantity::System { .. } => &mut [],
+        | Quantity::System { .. } => Vec::new(),
     }
 }
 
@@ -628,7 +637,7 @@ fn of_freedom(freedom: &mut Freedom) -> impl Iterator<Item = &mut Number> {
 }
 
 impl Quantity {
-    /// The bodies that are looked at, or from; elements that joints carry, systems and bodies of forces are not among them.
+    /// The bodies that are looked at, or from; elements that joints carry, systems and bodies of forces are not among them, and of a formula none.
     pub fn bodies_mut(&mut self) -> impl Iterator<Item = &mut Body> {
         let bodies = match self {
             Quantity::Point {
@@ -651,12 +660,14 @@ impl Quantity {
                 let projection = what.projection_mut();
                 [projection.map(|p| &mut p.axes), None, None]
             }
-            Quantity::Freedom { .. } | Quantity::Switch { .. } => [None, None, None],
+            Quantity::Freedom { .. } | Quantity::Switch { .. } | Quantity::Formula(_) => {
+                [None, None, None]
+            }
         };
         bodies.into_iter().flatten()
     }
 
-    /// The force that is looked at, by its index.
+    /// The force that is looked at, by its index; of a formula none.
     pub fn force_mut(&mut self) -> Option<&mut usize> {
         match self {
             Quantity::OfForce { force, .. }
@@ -667,6 +678,7 @@ impl Quantity {
             | Quantity::JointLoad { .. }
             | Quantity::Freedom { .. }
             | Quantity::Switch { .. }
+            | Quantity::Formula(_)
             | Quantity::System { .. } => None,
         }
     }

@@ -119,7 +119,7 @@ impl Places {
             }
             for (index, output) in contents.outputs.iter().flatten().enumerate() {
                 let at = top.key("outputs").item(index);
-                let owner = format!("output {}", output.name);
+                let owner = format!("output {}", output.name());
                 places.enter(&owner, "", at);
                 places.below(&owner, "", at, &[]);
             }

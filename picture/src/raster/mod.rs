@@ -53,6 +53,11 @@ pub fn png(drawing: &Drawing) -> Result<Vec<u8>, RasterError> {
     Ok(png::encode(size, &points))
 }
 
+/// Whether a file begins like one that [`png()`] made.
+pub fn is_own_png(begin: &[u8]) -> bool {
+    png::is_own(begin)
+}
+
 /// Width, height, and red, green, blue of each point.
 fn points(drawing: &Drawing) -> Result<([usize; 2], Vec<u8>), RasterError> {
     let rules = Rules::read(&drawing.style)?;

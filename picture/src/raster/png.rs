@@ -4,6 +4,8 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 
 /// The first bytes of every PNG.
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+/// The keyword and the text that say which program made a picture.
+const SOFTWARE: &[u8] = b"Software\0bryant";
 /// From 0 to 10; higher values take long and save little.
 const COMPRESSION: u8 = 7;
 
@@ -24,6 +26,7 @@ pub fn encode([width, height]: [usize; 2], points: &[u8]) -> Vec<u8> {
     }
     let mut file = SIGNATURE.to_vec();
     chunk(&mut file, b"IHDR", &header);
+    chunk(&mut file, b"tEXt", SOFTWARE);
     chunk(
         &mut file,
         b"IDAT",
@@ -31,6 +34,14 @@ pub fn encode([width, height]: [usize; 2], points: &[u8]) -> Vec<u8> {
     );
     chunk(&mut file, b"IEND", &[]);
     file
+}
+
+/// Whether these are the first bytes of a file that [`encode`] made.
+pub fn is_own(bytes: &[u8]) -> bool {
+    let mut text = Vec::new();
+    chunk(&mut text, b"tEXt", SOFTWARE);
+    // behind the signature and the header of 13 bytes
+    bytes.starts_with(&SIGNATURE) && bytes.get(33..).is_some_and(|rest| rest.starts_with(&text))
 }
 
 fn chunk(file: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) {

@@ -4,6 +4,7 @@ use super::{Arguments, Error, Terminal};
 use crate::command::model_argument::Found;
 use crate::command::outputs::{Outputs, is_standard};
 use crate::files;
+use crate::own::Kind;
 use crate::picture::corridor::Corridor;
 use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement, Format, View};
@@ -46,49 +47,47 @@ impl Files {
             )));
         }
         let directory = arguments.out.clone().unwrap_or_default();
-        let read: Vec<PathBuf> = found
-            .files
-            .iter()
-            .chain(&arguments.start)
-            .cloned()
-            .collect();
-        let mut outputs = Outputs::of(&read);
+        let read = found.files.iter().chain(&arguments.start);
+        let read = read.chain(&arguments.measured).chain(&arguments.responses);
+        let mut outputs = Outputs::of(read, arguments.replacing);
         if arguments.json {
-            outputs.take("--json", Path::new("-"))?;
+            outputs.take("--json", Path::new("-"), Kind::Table)?;
         }
-        let mut place = |option: &str, named: &Option<PathBuf>, extension: &str| {
+        let mut place = |option: &str, named: &Option<PathBuf>, (extension, kind): (&str, Kind)| {
             let usual = || directory.join(format!("{}.{extension}", model.name));
             let path = match named {
                 Some(path) => Some(path.clone()),
                 None => (!arguments.no_files).then(usual),
             };
             if let Some(path) = &path {
-                outputs.take(option, path)?;
+                outputs.take(option, path, kind)?;
             }
             Ok(path)
         };
-        let csv = place("--csv", &arguments.csv, "csv")?;
+        let csv = place("--csv", &arguments.csv, ("csv", Kind::Table))?;
         let final_state = arguments.final_state.clone();
-        let picture = place("--picture", &arguments.picture, arguments.pictures.ending())?;
+        let ending = (arguments.pictures.ending(), Kind::Picture);
+        let picture = place("--picture", &arguments.picture, ending)?;
         if let Some(path) = &final_state {
-            outputs.take("--final-state", path)?;
+            outputs.take("--final-state", path, Kind::State)?;
         }
         if let Some(folder) = &arguments.mme {
-            outputs.take("--mme", &folder.join(format!("{}.mme", model.name)))?;
+            let test = folder.join(format!("{}.mme", model.name));
+            outputs.take("--mme", &test, Kind::Test)?;
             has_equal_intervals(arguments, model)?;
         }
         let binary = [
-            ("--parquet", &arguments.parquet),
-            ("--animation", &arguments.animation),
+            ("--parquet", &arguments.parquet, Kind::Parquet),
+            ("--animation", &arguments.animation, Kind::Animation),
         ];
-        for (option, path) in binary {
+        for (option, path, kind) in binary {
             let Some(path) = path else { continue };
             if is_standard(path) {
                 return Err(Error::Input(format!(
                     "{option} -: the file is not text and cannot be printed\n  help: name a file"
                 )));
             }
-            outputs.take(option, path)?;
+            outputs.take(option, path, kind)?;
         }
         if let Some(path) = &arguments.report {
             if is_standard(path) {
@@ -96,7 +95,7 @@ impl Files {
                     "--report -: a report is a page for a browser and is not printed\n  help: name a file, as --report run.html".into(),
                 ));
             }
-            outputs.take("--report", path)?;
+            outputs.take("--report", path, Kind::Report)?;
         }
         let (plots, corridors) = plots(arguments, model, &directory, &mut outputs)?;
         Ok(Files {
@@ -226,7 +225,8 @@ fn plots(
             plot.slug(),
             arguments.pictures.ending()
         ));
-        outputs.take(&format!("--plot '{}'", plot.text()), &path)?;
+        let option = format!("--plot '{}'", plot.text());
+        outputs.take(&option, &path, Kind::Picture)?;
         plots.push((plot, path));
     }
     let corridors = arguments.corridor.iter();

@@ -15,6 +15,7 @@ use crate::facts::ModelFacts;
 use crate::response::Response;
 use crate::study::{RunSettings, Study};
 use bryant_generator::description::tree::Source;
+use bryant_generator::description::what;
 use bryant_generator::{Diagnostic, Diagnostics};
 use reader::{Reader, optional};
 pub(crate) use responses::sampling;
@@ -53,7 +54,15 @@ impl StudyFile {
         if text.trim().is_empty() {
             return Err(Diagnostic::of_file(name, "the file is empty", BEGIN).into());
         }
+        if let Some((what, _)) = what::of_text(text) {
+            let message = format!("this is {what}, not a study");
+            return Err(Diagnostic::of_file(name, message, BEGIN).into());
+        }
         let source = Source::parse(name, text).map_err(|problem| *problem)?;
+        if let Some((what, help)) = what::instead_of_study(&source.root, name) {
+            let message = format!("this is {what}, not a study");
+            return Err(Diagnostic::of_file(name, message, help).into());
+        }
         let reader = Reader::default();
         let root = source.at();
         let model = match reader.required(root, "model", BEGIN) {

@@ -184,11 +184,26 @@ impl Reader {
 
     /// One of some words.
     pub fn word<'w>(&self, at: At<'_>, what: &str, words: &[&'w str]) -> Option<&'w str> {
+        self.word_or(at, what, words, |_| None)
+    }
+
+    /// The same; `meant` knows which of them other words stand for.
+    pub fn word_or<'w>(
+        &self,
+        at: At<'_>,
+        what: &str,
+        words: &[&'w str],
+        meant: impl Fn(&str) -> Option<&'static str>,
+    ) -> Option<&'w str> {
         let text = self.text(at)?;
         let found = words.iter().find(|word| **word == text).copied();
         if found.is_none() {
             let message = format!("there is no {what} {}", quoted(&text));
-            self.add(at.problem(message, suggestion(&text, words.iter().copied(), "")));
+            let help = match meant(&text) {
+                Some(word) => format!("did you mean {}?", quoted(word)),
+                None => suggestion(&text, words.iter().copied(), ""),
+            };
+            self.add(at.problem(message, help));
         }
         found
     }

@@ -4,7 +4,7 @@ use super::reader::{Reader, optional};
 use crate::criteria;
 use crate::facts::ModelFacts;
 use crate::quantity::dimension;
-use crate::response::{NAMES, Response, What, channel_of};
+use crate::response::{NAMES, Response, What, channel_of, meant};
 use crate::study::RunSettings;
 use bryant_generator::description::place::At;
 use bryant_generator::description::tree::Kind;
@@ -114,7 +114,7 @@ fn response(
     let words = NAMES.map(|(name, _)| name);
     let word = reader
         .required(at, "what", &format!("one of {}", words.join(", ")))
-        .and_then(|at| reader.word(at, "response", &words))?;
+        .and_then(|at| reader.word_or(at, "response", &words, meant))?;
     let what = timed(reader, at, word, facts, run)?;
     let (index, output) = output?;
     if what.is_injury_criterion() && dimension(&output.unit) != dimension("m/s^2") {

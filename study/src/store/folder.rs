@@ -4,6 +4,7 @@ use super::identity::{Identity, Program};
 use super::part::{self, PartError};
 use super::write::{UNFINISHED, WriteError, at, replace};
 use crate::engine::Outcomes;
+use crate::shard::Shard;
 use crate::study::Study;
 use bryant_generator::description::load::read_bytes;
 use std::ops::Range;
@@ -79,6 +80,12 @@ pub enum FolderError {
         "{} is not a folder of results, and not empty\n  help: name a new folder, or an empty one", .0.display()
     )]
     Foreign(PathBuf),
+    /// Another process works in the folder.
+    #[error(
+        "{} is in use: another `bryant sweep` or `bryant merge` works in this folder\n  \
+         help: wait until it ends, or name another folder by --out; shards of one study may run at once, each by its own --shard I/N", .0.display()
+    )]
+    Busy(PathBuf),
     /// `study.json` was not written by this program.
     #[error("{} cannot be understood: {reason}\n  help: name another folder; if nothing else is in this one, remove it", .path.display())]
     Unreadable {
@@ -135,6 +142,22 @@ impl Folder {
             identity,
             responses: study.responses.len(),
         })
+    }
+
+    /// Reserves the blocks of a shard for this process, or all of the folder; until the result is dropped or the process ends in whatever
+    /// way, because the system keeps such locks. Where the file system has none, nothing is reserved.
+    ///
+    /// # Errors
+    /// Another process has reserved them.
+    pub fn lock(&self, shard: Shard) -> Result<Lock, FolderError> {
+        let busy = |_| FolderError::Busy(self.path.clone());
+        let whole = shard == Shard::WHOLE;
+        let mut files = locked(&self.path.join("study.json"), !whole).map_err(busy)?;
+        if !whole {
+            let name = format!("shard-{}.lock", shard.to_string().replace('/', "-of-"));
+            files.extend(locked(&self.path.join("blocks").join(name), false).map_err(busy)?);
+        }
+        Ok(Lock { _files: files })
     }
 
     /// The path of the folder.
@@ -230,6 +253,34 @@ impl Folder {
             }
         }
         Ok(())
+    }
+}
+
+/// What a process has reserved; see [`Folder::lock`].
+#[derive(Debug)]
+pub struct Lock {
+    _files: Vec<fs::File>,
+}
+
+/// Another process has locked a file.
+struct Locked;
+
+/// The file, locked: alone, or together with others that share it. None where it cannot be written, or cannot be locked.
+fn locked(path: &Path, shared: bool) -> Result<Vec<fs::File>, Locked> {
+    let mut options = fs::OpenOptions::new();
+    let file = options.write(true).create(true).truncate(false).open(path);
+    let Ok(file) = file else {
+        return Ok(Vec::new());
+    };
+    let tried = match shared {
+        true => file.try_lock_shared(),
+        false => file.try_lock(),
+    };
+    match tried {
+        Ok(()) => Ok(vec![file]),
+        Err(fs::TryLockError::WouldBlock) => Err(Locked),
+        // there may be file systems without locks
+        Err(fs::TryLockError::Error(_)) => Ok(Vec::new()),
     }
 }
 

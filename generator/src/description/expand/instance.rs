@@ -25,13 +25,15 @@ enum Reference {
     Of,
     /// A switch.
     Switch,
+    /// An output, by its heading.
+    Output,
 }
 
 /// How names change.
 pub struct Renaming {
     from: String,
     to: String,
-    /// The names that get a prefix, behind their kind: `contact chin`, `switch fire`, `surface head`.
+    /// The names that get a prefix, behind their kind: `contact chin`, `switch fire`, `surface head`, `output head force`.
     names: HashSet<String>,
 }
 
@@ -97,11 +99,23 @@ impl Renaming {
 
     /// Whether an item mentions the system.
     fn mentions(&self, item: &mut Node) -> bool {
-        let mut found = false;
+        let mut found = !self.words_of_formula(item).is_empty();
         references(item, &mut |kind, text| {
             found |= self.renamed(kind, text).is_some();
         });
         found
+    }
+
+    /// The words of a formula that are names of outputs that change.
+    fn words_of_formula(&self, item: &Node) -> Vec<String> {
+        let formula = item.word("formula").unwrap_or_default();
+        let words = formula.split(|c: char| !c.is_alphanumeric() && c != '_');
+        let with = |word: &str| item.get("with").is_some_and(|with| with.get(word).is_some());
+        let changes = |word: &&str| self.names.contains(&format!("output {word}")) && !with(word);
+        let mut words: Vec<String> = words.filter(changes).map(str::to_owned).collect();
+        words.sort();
+        words.dedup();
+        words
     }
 
     /// Changes the names; leaves out what is common if that was read before.
@@ -156,12 +170,40 @@ impl Renaming {
             ("switches", _) => item.change("switch", |n| {
                 n.with_text(self.prefixed(n.text().unwrap_or_default()))
             }),
-            ("outputs", _) if self.from != self.to => item.change("name", |n| {
-                n.with_text(format!("{} {}", self.to, n.text().unwrap_or_default()))
-            }),
+            ("outputs", _) if self.from != self.to => {
+                for word in self.words_of_formula(item) {
+                    self.stands_for(item, &word);
+                }
+                item.change("name", |n| {
+                    n.with_text(self.heading(n.text().unwrap_or_default()))
+                });
+            }
             _ => {}
         }
         true
+    }
+
+    /// Lets a word of a formula stand for the output that was called so.
+    fn stands_for(&self, formula: &mut Node, word: &str) {
+        let renamed = Node::plain(self.heading(word), formula.span);
+        if formula.get("with").is_none() {
+            let with = Node {
+                span: formula.span,
+                kind: Kind::Map(Vec::new()),
+            };
+            formula.set("with", with);
+        }
+        if let Some(with) = formula.get_mut("with") {
+            with.set(word, renamed);
+        }
+    }
+
+    /// The heading of an output under the new name.
+    fn heading(&self, name: &str) -> String {
+        match self.from == self.to {
+            true => name.to_owned(),
+            false => format!("{} {name}", self.to),
+        }
     }
 
     fn prefixed(&self, name: &str) -> String {
@@ -179,6 +221,10 @@ impl Renaming {
         };
         match kind {
             Reference::Body => body(text),
+            Reference::Output => {
+                let known = self.names.contains(&format!("output {text}"));
+                known.then(|| self.heading(text))
+            }
             Reference::Switch => {
                 let known = self.names.contains(&format!("switch {text}"));
                 known.then(|| self.prefixed(text))
@@ -204,9 +250,10 @@ fn items<'n>(root: &'n mut Node, section: &str) -> Vec<(Option<String>, &'n mut 
         Some(Kind::List(all)) => all
             .iter_mut()
             .map(|item| {
-                let name = match item.word("switch").filter(|_| section == "switches") {
-                    Some(name) => Some(format!("switch {name}")),
-                    None => kind_and_name(item).map(|(kind, name)| format!("{kind} {name}")),
+                let name = match section {
+                    "switches" => item.word("switch").map(|name| format!("switch {name}")),
+                    "outputs" => item.word("name").map(|name| format!("output {name}")),
+                    _ => kind_and_name(item).map(|(kind, name)| format!("{kind} {name}")),
                 };
                 (name, item)
             })
@@ -222,6 +269,7 @@ fn items<'n>(root: &'n mut Node, section: &str) -> Vec<(Option<String>, &'n mut 
 /// Visits the texts in an item that refer to bodies, switches and what outputs look at.
 fn references(item: &mut Node, visit: &mut dyn FnMut(Reference, &mut String)) {
     let is_output = item.get("what").is_some();
+    let is_formula = item.get("formula").is_some();
     match &mut item.kind {
         Kind::Scalar { .. } => {}
         Kind::List(all) => all.iter_mut().for_each(|one| references(one, visit)),
@@ -231,6 +279,7 @@ fn references(item: &mut Node, visit: &mut dyn FnMut(Reference, &mut String)) {
                 let is_text = matches!(value.kind, Kind::Scalar { .. });
                 match entry.key.as_str() {
                     "on" | "joint" | "relative_to" => texts(value, Reference::Body, visit),
+                    "with" if is_formula => texts(value, Reference::Output, visit),
                     "axes" if is_output => texts(value, Reference::Body, visit),
                     "bodies" | "joints" => texts(value, Reference::Body, visit),
                     "of" => texts(value, Reference::Of, visit),

@@ -108,6 +108,15 @@ pub struct Ellipsoid {
     pub axes: [Number; 3],
 }
 
+/// An ellipsoid of a body that meets nothing: it is only shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shown {
+    /// The ellipsoid.
+    pub round: Ellipsoid,
+    /// As [`Contact::degree`].
+    pub degree: u32,
+}
+
 /// The finite extent of a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extent {
@@ -302,16 +311,53 @@ fn check_fading_edge(
 }
 
 /// Judges a named surface, also where no contact names it.
-pub(crate) fn surface(resolver: &Resolver<'_>, name: &str, written: &Surface, at: At<'_>) {
+pub(crate) fn surface(
+    resolver: &Resolver<'_>,
+    name: &str,
+    written: &Surface,
+    at: At<'_>,
+) -> Option<Shown> {
     resolver.check_name(name, "a surface", Style::Either, at.on_key());
     match written {
         Surface::Ellipsoid(written) => {
-            ellipsoid(resolver, written, at);
-            degree(resolver, written.degree.as_ref(), at.key("degree"));
+            let round = ellipsoid(resolver, written, at);
+            let degree = degree(resolver, written.degree.as_ref(), at.key("degree"));
+            round.map(|round| Shown { round, degree })
         }
         Surface::Plane(written) => {
             plane(resolver, written, at);
+            None
         }
+    }
+}
+
+impl Shown {
+    /// Whether a contact has this ellipsoid.
+    pub(crate) fn is_of(&self, contact: &Contact) -> bool {
+        let Ellipsoid {
+            center,
+            semi_axes,
+            axes,
+        } = &self.round;
+        let first = (&contact.ellipsoid, &contact.semi_axes, &contact.axes);
+        let is_second = match &contact.against {
+            Against::Ellipsoid(second) => *second == self.round,
+            Against::Plane(_) => false,
+        };
+        first == (center, semi_axes, axes) || is_second
+    }
+
+    /// The same at these values of the parameters: it changes with none.
+    pub(crate) fn fixed(mut self, parameters: &[f64]) -> Self {
+        let Ellipsoid {
+            center,
+            semi_axes,
+            axes,
+        } = &mut self.round;
+        for number in center.at.iter_mut().chain(semi_axes).chain(axes) {
+            *number = Number::Constant(number.value(parameters));
+        }
+        self
     }
 }
 

@@ -203,8 +203,9 @@ impl Joint {
 
 impl Keys for Joint {
     const KEY: &'static str = "joint";
-    const TWICE: Option<&'static str> =
-        Some("write all laws of a joint in one force, or give one of them a name: `name: broken`");
+    const TWICE: Option<&'static str> = Some(
+        "give one of them a name: `name: broken`; it then is `joint SYSTEM/ELEMENT/broken`. Laws about the same rotations may also stand in one force",
+    );
 
     fn header(&self) -> Header<'_> {
         Header {

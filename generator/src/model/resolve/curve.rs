@@ -10,6 +10,7 @@ use crate::description::curve::{
 use crate::description::load::{beside, channel_key};
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
+use crate::description::slip;
 use crate::description::table::{Column, Columns, Fault, Table, is_unit};
 use crate::description::tree::MAX_POINTS;
 use crate::description::unit::{Dimension, unit};
@@ -227,7 +228,7 @@ impl Resolver<'_> {
             let [x, y] = point.as_slice() else {
                 self.problems.add(here.problem(
                     format!("a point has two numbers, but this list has {}", point.len()),
-                    "write `[abscissa, ordinate]`",
+                    slip::in_list(here).unwrap_or_else(|| "write `[abscissa, ordinate]`".to_owned()),
                 ));
                 return None;
             };

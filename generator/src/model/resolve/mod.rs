@@ -11,6 +11,7 @@ pub(crate) mod channel;
 mod criteria;
 pub(crate) mod curve;
 mod element;
+mod formula;
 pub(crate) mod hysteresis;
 pub(crate) mod kinematics;
 mod mobility;
@@ -28,11 +29,12 @@ mod translation;
 mod vehicle;
 
 use super::{
-    Attachment, Body, Coordinates, Criteria, Dimension, ElementId, Force, Model, Number, Output,
-    Parameter, Switch, System, Vehicle,
+    Attachment, Body, Coordinates, Criteria, Dimension, ElementId, Force, ForceKind, Model, Number,
+    Output, Parameter, Shown, Switch, System, Vehicle,
 };
 use crate::description::force::Attachment as WrittenEnd;
-use crate::description::load::{Header, Loaded, load_with, read_file, read_model, shown};
+use crate::description::load::{Header, Loaded, load, read_file, read_model, shown};
+use crate::description::output::Column;
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::shape::Problems;
@@ -106,22 +108,24 @@ fn resolve_with(
     loader: &dyn Fn(&Path) -> io::Result<String>,
     with_sources: bool,
 ) -> Result<(Resolved, Loaded), Diagnostics> {
-    let loaded = load_with(name, text, loader, with_sources)?;
+    let mut loaded = load(name, text, loader, with_sources)?;
     let problems = Problems::default();
     let model = Resolver::new(&problems, &loaded).model(&loaded);
+    let (mut found, _) = problems.into_parts();
+    found.retain(|problem| !loaded.lost.explains(problem));
+    let mut all = std::mem::take(&mut loaded.problems);
+    all.append(&mut found);
+    if let Some(model) = model.filter(|_| all.is_empty()) {
+        return Ok((model, loaded));
+    }
     let order: HashMap<String, usize> = loaded
         .paths
         .iter()
         .enumerate()
         .map(|(i, p)| (shown(p), i))
         .collect();
-    let model = problems.into_result(model).map_err(|mut found| {
-        found
-            .problems
-            .sort_by_key(|p| (order.get(&p.file).copied().unwrap_or(0), p.line, p.column));
-        found
-    })?;
-    Ok((model, loaded))
+    all.sort_by_key(|p| (order.get(&p.file).copied().unwrap_or(0), p.line, p.column));
+    Err(Diagnostics { problems: all })
 }
 
 /// What is resolved so far, and what is wrong.
@@ -158,6 +162,8 @@ pub struct Resolver<'a> {
     /// Those of them that could be resolved.
     pub(crate) off: Vec<Force>,
     pub(crate) outputs: Vec<Output>,
+    /// Ellipsoids that meet nothing.
+    pub(crate) shown: Vec<Shown>,
     pub(crate) switch_names: Vec<String>,
     /// In the order of their names; `None` for what is wrong.
     pub(crate) switches: Vec<Option<Switch>>,
@@ -185,6 +191,7 @@ impl<'a> Resolver<'a> {
             disabled: Vec::new(),
             off: Vec::new(),
             outputs: Vec::new(),
+            shown: Vec::new(),
             switch_names: Vec::new(),
             switches: Vec::new(),
             loaded,
@@ -209,7 +216,7 @@ impl<'a> Resolver<'a> {
         self.switch_names = switch::switch_names(&self, loaded);
         self.enter_forces(loaded);
         self.switches = switch::switches(&self, loaded);
-        let sound = self.problems.count() == 0;
+        let sound = self.problems.count() == 0 && loaded.problems.is_empty();
         let mut headings = Vec::new();
         self.enter_outputs(loaded, &mut headings);
         let criteria = criteria::criteria(
@@ -243,6 +250,7 @@ impl<'a> Resolver<'a> {
             switches: self.switches.into_iter().collect::<Option<_>>()?,
             outputs: self.outputs,
             run,
+            shown: self.shown,
             digest: String::new(),
         };
         let mut written = model.clone();
@@ -321,10 +329,11 @@ impl<'a> Resolver<'a> {
 
     /// Enters the forces, after a look at all surfaces, also those that no contact names.
     fn enter_forces(&mut self, loaded: &Loaded) {
+        let mut shown = Vec::new();
         for file in &loaded.files {
             let at = file.source.at().key("surfaces");
             for (name, written) in file.contents.surfaces.iter().flat_map(|s| &s.0) {
-                surface(self, name, written, at.key(name));
+                shown.extend(surface(self, name, written, at.key(name)));
             }
         }
         for file in &loaded.files {
@@ -333,6 +342,18 @@ impl<'a> Resolver<'a> {
                 applied::force(self, written, at.item(index));
             }
         }
+        let contacts = self.forces.iter().filter_map(|force| match &force.kind {
+            ForceKind::Contact(contact) => Some(contact),
+            _ => None,
+        });
+        let contacts: Vec<_> = contacts.collect();
+        shown.retain(|shown| {
+            // vehicles that nothing uses are left out
+            let on_element = matches!(shown.round.center.on, Body::Element(_));
+            on_element && !contacts.iter().any(|contact| shown.is_of(contact))
+        });
+        let fixed = shown.into_iter().map(|shown| shown.fixed(&self.defaults));
+        self.shown = fixed.collect();
     }
 
     /// Enters the outputs; `headings` become those of all, also of outputs that are switched off.
@@ -340,7 +361,11 @@ impl<'a> Resolver<'a> {
         for file in &loaded.files {
             let at = file.source.at().key("outputs");
             for (index, written) in file.contents.outputs.iter().flatten().enumerate() {
-                let output = output::output(self, written, at.item(index), headings);
+                let at = at.item(index);
+                let output = match written {
+                    Column::Output(written) => output::output(self, written, at, headings),
+                    Column::Formula(written) => formula::formula(self, written, at, headings),
+                };
                 self.outputs.extend(output);
             }
         }

@@ -187,7 +187,7 @@ fn check_code(resolver: &Resolver<'_>, code: &str, filter: Option<u16>, at: At<'
 }
 
 /// Reports a heading that cannot be one, or is too much like another; adds it to them.
-fn heading(resolver: &Resolver<'_>, name: &str, at: At<'_>, headings: &mut Vec<String>) {
+pub(super) fn heading(resolver: &Resolver<'_>, name: &str, at: At<'_>, headings: &mut Vec<String>) {
     let plain = |name: &str| {
         name.to_lowercase()
             .replace(|c: char| !c.is_alphanumeric(), "_")

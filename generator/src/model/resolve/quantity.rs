@@ -7,6 +7,7 @@ use super::Resolver;
 use crate::description::expression::{self, Expression, Function, Kind, Operator};
 use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
+use crate::description::slip;
 use crate::description::unit::Dimension;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Number, Requirement};
@@ -21,6 +22,9 @@ pub enum Measure {
     /// Given by units.
     Known(Dimension),
 }
+
+/// What a name in an expression stands for, by the name, its first character and its length; `None` where it is reported.
+pub type Names<'a> = &'a dyn Fn(&str, usize, usize) -> Option<(Number, Measure)>;
 
 /// What a key wants.
 #[derive(Clone, Copy, Debug)]
@@ -110,7 +114,9 @@ impl Resolver<'_> {
                     return None;
                 }
                 match expression::parse(text) {
-                    Ok(expression) => self.expression(&expression, at)?,
+                    Ok(expression) => self.expression(&expression, at, &|name, offset, length| {
+                        self.parameter(name, at, offset, length)
+                    })?,
                     Err(m) => {
                         self.problems
                             .add(at.text_problem(m.offset, m.length, m.message, m.help));
@@ -255,7 +261,7 @@ impl Resolver<'_> {
         if length != right {
             self.problems.add(at.problem(
                 format!("a vector has {right} components, but this list has {length}"),
-                help,
+                slip::in_list(at).unwrap_or_else(|| help.to_owned()),
             ));
         }
         length == right
@@ -315,7 +321,8 @@ impl Resolver<'_> {
         ));
     }
 
-    fn parameter(
+    /// The parameter of this name, which stands in a text; reported where there is none.
+    pub(super) fn parameter(
         &self,
         name: &str,
         at: At<'_>,
@@ -332,7 +339,10 @@ impl Resolver<'_> {
                     "it is a curve; a curve is scaled by `{ curve: name, times: factor }`"
                         .to_owned()
                 } else {
-                    suggestion(name, names, "declare it under `parameters`")
+                    match expression::spelling(name) {
+                        Some(right) => format!("as a unit: {right}"),
+                        None => suggestion(name, names, "declare it under `parameters`"),
+                    }
                 };
                 self.problems.add(at.text_problem(
                     offset,
@@ -362,21 +372,26 @@ impl Resolver<'_> {
         Some((number.constant()?, measure))
     }
 
-    /// Folds an expression and finds its dimension.
-    fn expression(&self, e: &Expression, at: At<'_>) -> Option<(Number, Measure)> {
+    /// Folds an expression and finds its dimension. `names` knows what its names stand for, and reports those that stand for nothing.
+    pub(super) fn expression(
+        &self,
+        e: &Expression,
+        at: At<'_>,
+        names: Names<'_>,
+    ) -> Option<(Number, Measure)> {
         use Measure::{Bare, Known};
         Some(match &e.kind {
             Kind::Number(value) => (Number::Constant(*value), Bare),
             Kind::Quantity(value, unit) => {
                 (Number::Constant(value * unit.factor), Known(unit.dimension))
             }
-            Kind::Parameter(name) => self.parameter(name, at, e.offset, e.length)?,
+            Kind::Parameter(name) => names(name, e.offset, e.length)?,
             Kind::Negative(a) => {
-                let (a, measure) = self.expression(a, at)?;
+                let (a, measure) = self.expression(a, at, names)?;
                 (Number::negative(a), measure)
             }
             Kind::Binary(operator, left, right) => {
-                let (a, b) = (self.expression(left, at), self.expression(right, at));
+                let (a, b) = (self.expression(left, at, names), self.expression(right, at, names));
                 let ((a, of_a), (b, of_b)) = (a?, b?);
                 let measure = self.measure_of(*operator, of_a, of_b, e, at)?;
                 let number = match operator {
@@ -388,7 +403,7 @@ impl Resolver<'_> {
                 (number, measure)
             }
             Kind::Call(Function::SquareRoot, a) => {
-                let (number, measure) = self.expression(a, at)?;
+                let (number, measure) = self.expression(a, at, names)?;
                 let measure = match measure {
                     Known(dimension) => match dimension.root() {
                         Some(root) => Known(root),
@@ -407,7 +422,7 @@ impl Resolver<'_> {
                 (Number::square_root(number), measure)
             }
             Kind::Call(function, a) => {
-                let (number, measure) = self.expression(a, at)?;
+                let (number, measure) = self.expression(a, at, names)?;
                 if let Known(dimension) = measure
                     && dimension != Dimension::ONE
                 {

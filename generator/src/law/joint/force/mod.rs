@@ -211,7 +211,8 @@ fn apply_to_freedom<'g>(
 
 /// Whether an output or a switch looks at a rotation of a joint.
 fn looked_at(model: &Model, force: usize, about: usize) -> bool {
-    let outputs = model.outputs.iter().map(|output| &output.quantity);
+    let outputs = model.outputs.iter();
+    let outputs = outputs.flat_map(|output| output.quantity.leaves());
     let triggers = model.switches.iter().filter_map(|s| s.trigger.quantity());
     outputs.chain(triggers).any(|quantity| match quantity {
         Quantity::OfForce {

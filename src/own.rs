@@ -1,0 +1,223 @@
+//! What this program wrote: only such files are replaced without being asked to.
+//!
+//! Every file has a mark that other programs do not see: the first heading of a table is in quotation marks although it needs none, pages
+//! and animations name their generator, texts of models end with a line that has their checksum.
+
+use sha2::{Digest, Sha256};
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+use std::path::Path;
+
+/// What a file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A table of a run or of a study of accuracy, CSV.
+    Table,
+    /// The same as Apache Parquet.
+    Parquet,
+    /// SVG or PNG.
+    Picture,
+    /// A report, HTML.
+    Report,
+    /// A page, Markdown.
+    Markdown,
+    /// glTF.
+    Animation,
+    /// A state, JSON.
+    State,
+    /// The description of a test in ISO-MME, whose channels stand in a folder beside it.
+    Test,
+    /// A model or a part of one, YAML.
+    Model,
+    /// Equations in C.
+    Source,
+}
+
+impl Kind {
+    /// The endings of the names of such files; no endings where names are not chosen by the user.
+    pub fn endings(self) -> &'static [&'static str] {
+        match self {
+            Kind::Table => &["csv", "txt", "dat"],
+            Kind::Parquet => &["parquet"],
+            Kind::Picture => &["svg", "png"],
+            Kind::Report => &["html", "htm"],
+            Kind::Markdown => &["md", "markdown", "txt"],
+            Kind::Animation => &["glb"],
+            Kind::State => &["json"],
+            Kind::Test => &["mme"],
+            Kind::Model => &["yaml", "yml"],
+            Kind::Source => &["c", "h"],
+        }
+    }
+
+    /// What is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Table => "a table, CSV",
+            Kind::Parquet => "Apache Parquet",
+            Kind::Picture => "a picture, SVG or PNG",
+            Kind::Report => "a page of HTML",
+            Kind::Markdown => "Markdown",
+            Kind::Animation => "binary glTF",
+            Kind::State => "a state, JSON",
+            Kind::Test => "ISO-MME",
+            Kind::Model => "YAML",
+            Kind::Source => "C",
+        }
+    }
+
+    /// Whether the ending of a name says that the file holds something else.
+    pub fn contradicts(self, path: &Path) -> bool {
+        let Some(ending) = path.extension().and_then(|e| e.to_str()) else {
+            return false;
+        };
+        let ending = ending.to_ascii_lowercase();
+        !self.endings().contains(&ending.as_str()) && OF_FORMATS.contains(&ending.as_str())
+    }
+}
+
+/// Endings of formats, those of this program and others.
+const OF_FORMATS: [&str; 38] = [
+    "csv", "tsv", "txt", "dat", "parquet", "svg", "png", "jpg", "jpeg", "gif", "webp", "tif", "tiff", "bmp", "eps", "pdf",
+    "html", "htm", "md", "markdown", "glb", "gltf", "obj", "stl", "fbx", "mp4", "webm", "json", "yaml", "yml", "toml", "xml",
+    "urdf", "mme", "xls", "xlsx", "zip", "rs",
+];
+
+/// So much of the beginning of a file is looked at, and of the end a part \[bytes\].
+const LOOKED_AT: u64 = 1 << 24;
+/// The first heading of a table of a run.
+pub const FIRST_HEADING: &str = "\"time [s]\"";
+/// The beginning of the last line of the text of a model.
+const SIGNED: &str = "# Written by bryant and not changed since, if this is the SHA-256 of the lines above: ";
+
+/// Whether replacing the file loses nothing that this program did not write: it has such a file of this kind, an empty one, or none. What
+/// is no file, such as a pipe, loses nothing.
+///
+/// # Errors
+/// The file is there and cannot be read.
+pub fn may_replace(path: &Path, kind: Kind) -> io::Result<bool> {
+    if kind == Kind::Test {
+        return may_replace_test(path);
+    }
+    let about = match std::fs::metadata(path) {
+        Ok(about) => about,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
+        Err(error) => return Err(error),
+    };
+    if !about.is_file() || about.len() == 0 {
+        return Ok(true);
+    }
+    if kind == Kind::Model {
+        return Ok(std::fs::read(path).is_ok_and(|bytes| is_signed(&bytes)));
+    }
+    let mut file = File::open(path)?;
+    let mut begin = Vec::new();
+    (&mut file).take(LOOKED_AT).read_to_end(&mut begin)?;
+    let mut end = Vec::new();
+    file.seek(SeekFrom::Start(about.len().saturating_sub(LOOKED_AT / 256)))?;
+    file.take(LOOKED_AT / 256).read_to_end(&mut end)?;
+    Ok(is_own(&begin, &end, kind))
+}
+
+fn is_own(begin: &[u8], end: &[u8], kind: Kind) -> bool {
+    let has = |bytes: &[u8], mark: &str| bytes.windows(mark.len()).any(|w| w == mark.as_bytes());
+    let line = begin.split(|b| *b == b'\n').next().unwrap_or_default();
+    match kind {
+        Kind::Table => is_own_heading(line) || has(line, "model digest,bryant,commit"),
+        Kind::Parquet => begin.starts_with(b"PAR1") && has(end, "bryant"),
+        Kind::Picture => {
+            let svg = begin.starts_with(b"<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"")
+                && has(line, "role=\"img\"")
+                && has(begin, "</title>\n<style>\ntext{");
+            svg || bryant_picture::is_own_png(begin)
+        }
+        Kind::Report => has(begin, "<meta name=\"generator\" content=\"bryant\">"),
+        Kind::Markdown => begin.starts_with(b"# Hard cases\n") || has(begin, "\n(`bryant accuracy"),
+        Kind::Animation => begin.starts_with(b"glTF") && has(begin, "\"generator\":\"bryant"),
+        Kind::State => begin.starts_with(b"{\n  \"model\": ") && has(begin, "\n  \"coordinates\": {"),
+        Kind::Source => has(begin, "@generated by bryant") || begin.starts_with(b"/* Functions of "),
+        Kind::Test | Kind::Model => false,
+    }
+}
+
+/// Whether a line is the heading of a table as a run writes it: the first heading in quotation marks, the others only where they need them.
+fn is_own_heading(line: &[u8]) -> bool {
+    let Some(rest) = line.strip_prefix(FIRST_HEADING.as_bytes()) else {
+        return false;
+    };
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(rest);
+    let Some(Ok(cells)) = reader.byte_records().next() else {
+        return rest.is_empty();
+    };
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let written = writer.write_byte_record(&cells).is_ok();
+    let again = writer.into_inner().unwrap_or_default();
+    written && again.strip_suffix(b"\n") == Some(rest)
+}
+
+/// Of a test in ISO-MME a channel says which program made it.
+fn may_replace_test(path: &Path) -> io::Result<bool> {
+    let folder = path.parent().unwrap_or(Path::new("")).join("Channel");
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let channel = folder.join(format!("{stem}.001"));
+    match std::fs::read(&channel) {
+        Ok(bytes) => Ok(String::from_utf8_lossy(&bytes).contains("\nComments                    :bryant ")),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            Ok(!path.exists() && !folder.join(format!("{stem}.chn")).exists())
+        }
+        Err(error) => Err(error),
+    }
+}
+
+/// The text of a model with a last line that shows whether it was changed since.
+pub fn signed(text: &str) -> String {
+    format!("{text}{SIGNED}{}\n", checksum(text.as_bytes()))
+}
+
+/// Whether a text is as [`signed`] made it.
+fn is_signed(bytes: &[u8]) -> bool {
+    let Some(at) = bytes.windows(SIGNED.len()).rposition(|w| w == SIGNED.as_bytes()) else {
+        return false;
+    };
+    let said = String::from_utf8_lossy(&bytes[at + SIGNED.len()..]);
+    said.trim_end() == checksum(&bytes[..at])
+}
+
+fn checksum(bytes: &[u8]) -> String {
+    let digest = Sha256::digest(bytes);
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headings_of_others_are_not_ours() {
+        for own in ["\"time [s]\",a [N]", "\"time [s]\",\"a, b [N]\"", "\"time [s]\""] {
+            assert!(is_own_heading(own.as_bytes()), "{own}");
+        }
+        for other in ["time [s],a [N]", "\"time [s]\",\"a [N]\"", "\"time\",a", "data"] {
+            assert!(!is_own_heading(other.as_bytes()), "{other}");
+        }
+    }
+
+    #[test]
+    fn endings_of_other_formats_contradict() {
+        let contradicts = |kind: Kind, name: &str| kind.contradicts(Path::new(name));
+        assert!(contradicts(Kind::Report, "x.pdf") && contradicts(Kind::Animation, "x.gltf"));
+        assert!(contradicts(Kind::Parquet, "x.CSV") && contradicts(Kind::Table, "a/x.xlsx"));
+        for (kind, name) in [(Kind::Report, "x.HTML"), (Kind::Table, "x"), (Kind::State, "x.v2")] {
+            assert!(!contradicts(kind, name), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_text_that_was_changed_is_not_ours_any_more() {
+        let text = signed("model: a\n");
+        assert!(is_signed(text.as_bytes()));
+        assert!(!is_signed(text.replace("model: a", "model: b").as_bytes()));
+        assert!(!is_signed(format!("{text}# mine\n").as_bytes()));
+        assert!(!is_signed(b"model: a\n"));
+    }
+}
