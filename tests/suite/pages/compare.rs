@@ -100,16 +100,27 @@ pub fn same_line(shown: &str, is: &str) -> bool {
         })
 }
 
-/// What a line is about: its words without numbers. A line of numbers alone is about its first number.
-pub fn about(line: &str) -> Vec<String> {
-    let words = tokens(line);
-    let plain: Vec<String> = words.iter().filter(|word| Number::of(word).is_none()).map(|word| word.to_string()).collect();
-    match plain.is_empty() {
-        true => words.first().map(|word| word.to_string()).into_iter().collect(),
-        false => plain,
+/// How much two lines are about the same, from 0 to 1: the share of their words, without numbers, that they have in common. Lines of numbers
+/// alone are about their first number.
+pub fn alike(a: &str, b: &str) -> f64 {
+    let words = |line: &str| -> Vec<String> {
+        let all = tokens(line).into_iter();
+        all.filter(|word| Number::of(word).is_none()).map(str::to_owned).collect()
+    };
+    let (one, mut other) = (words(a), words(b));
+    if one.is_empty() && other.is_empty() {
+        return f64::from(tokens(a).first() == tokens(b).first());
     }
+    let size = one.len().max(other.len());
+    let mut common = 0;
+    for word in &one {
+        if let Some(place) = other.iter().position(|other| other == word) {
+            other.swap_remove(place);
+            common += 1;
+        }
+    }
+    f64::from(common) / size as f64
 }
-
 
 /// The rules themselves, which the test of all pages begins with.
 pub fn rules_hold() -> Result<(), String> {

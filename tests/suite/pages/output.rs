@@ -1,6 +1,6 @@
 //! A block of text beside what a command printed.
 
-use super::compare::{about, same_line};
+use super::compare::{alike, same_line};
 
 /// Whether a shown line stands for lines that are left out.
 fn elides(line: &str) -> bool {
@@ -67,6 +67,16 @@ fn places(chunk: &Chunk, last: bool, open: bool, from: usize, length: usize) -> 
     }
 }
 
+/// The first of the places where a chunk is most alike what was printed, and how much: the sum over its lines.
+fn nearest(chunk: &Chunk, is: &[&str], places: std::ops::Range<usize>) -> Option<(usize, f64)> {
+    let score = |at: usize| -> f64 {
+        let pairs = chunk.lines.iter().zip(&is[at..]);
+        pairs.map(|(a, b)| alike(a, b)).sum()
+    };
+    let scored = places.map(|at| (at, score(at)));
+    scored.rev().max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
 /// The first shown line that is not printed, if there is one.
 fn missing<'a>(shown: &[&'a str], is: &[&str]) -> Option<(&'a str, String)> {
     let (chunks, open) = chunks(shown);
@@ -77,11 +87,8 @@ fn missing<'a>(shown: &[&'a str], is: &[&str]) -> Option<(&'a str, String)> {
         match places.clone().find(fits) {
             Some(at) => from = at + chunk.lines.len(),
             None => {
-                let best = places.max_by_key(|at| {
-                    let pairs = chunk.lines.iter().zip(&is[*at..]);
-                    pairs.filter(|(a, b)| about(a) == about(b)).count()
-                });
-                let pairs = best.map(|at| chunk.lines.iter().zip(&is[at..]));
+                let best = nearest(chunk, is, places);
+                let pairs = best.map(|(at, _)| chunk.lines.iter().zip(&is[at..]));
                 let differs = pairs.and_then(|mut pairs| pairs.find(|(a, b)| !same_line(a, b)));
                 return Some(match differs {
                     Some((shown, is)) => (shown, is.to_string()),
@@ -105,14 +112,14 @@ pub fn differs(shown: &[&str], printed: &Printed) -> Option<String> {
 pub fn renewed(shown: &[&str], printed: &Printed) -> Option<Vec<String>> {
     let (chunks, open) = chunks(shown);
     let whole = chunks.len() == 1 && chunks[0].before.is_none() && open.is_none();
-    let alike = |is: &[&str]| {
-        let known: std::collections::HashSet<_> = is.iter().map(|line| about(line)).collect();
-        let found = shown.iter().filter(|line| !elides(line) && known.contains(&about(line))).count();
-        // among versions that show as much, the shortest
-        (found, usize::MAX - is.len())
+    // among versions that show as much, the shortest
+    let shows = |is: &[&str]| {
+        let lines = shown.iter().filter(|line| !elides(line));
+        let known = lines.filter(|line| is.iter().any(|is| alike(line, is) > 0.5));
+        (known.count(), usize::MAX - is.len())
     };
     let versions = printed.versions();
-    let is = versions.iter().max_by_key(|is| alike(is))?;
+    let is = versions.iter().max_by_key(|is| shows(is))?;
     if whole {
         return Some(is.iter().map(|line| line.to_string()).collect());
     }
@@ -120,12 +127,8 @@ pub fn renewed(shown: &[&str], printed: &Printed) -> Option<Vec<String>> {
     for (k, chunk) in chunks.iter().enumerate() {
         lines.extend(chunk.before.map(str::to_owned));
         let places = places(chunk, k + 1 == chunks.len(), open.is_some(), from, is.len());
-        let score = |at: &usize| {
-            let pairs = chunk.lines.iter().zip(&is[*at..]);
-            pairs.filter(|(a, b)| about(a) == about(b)).count()
-        };
-        let at = places.rev().max_by_key(score)?;
-        if 2 * score(&at) < chunk.lines.len() {
+        let (at, score) = nearest(chunk, is, places)?;
+        if score < 0.5 * chunk.lines.len() as f64 {
             return None;
         }
         from = at + chunk.lines.len();
