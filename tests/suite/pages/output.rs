@@ -1,6 +1,6 @@
 //! A block of text beside what a command printed.
 
-use super::compare::{alike, same_line};
+use super::compare::{alike, as_shown, same_line};
 
 /// Whether a shown line stands for lines that are left out.
 fn elides(line: &str) -> bool {
@@ -121,7 +121,9 @@ pub fn renewed(shown: &[&str], printed: &Printed) -> Option<Vec<String>> {
     let versions = printed.versions();
     let is = versions.iter().max_by_key(|is| shows(is))?;
     if whole {
-        return Some(is.iter().map(|line| line.to_string()).collect());
+        // the most alike of the shown lines says how times are shown
+        let like = |is: &&str| shown.iter().max_by(|a, b| alike(a, is).total_cmp(&alike(b, is)));
+        return Some(is.iter().map(|is| like(is).map_or(is.to_string(), |shown| as_shown(shown, is))).collect());
     }
     let (mut from, mut lines) = (0, Vec::new());
     for (k, chunk) in chunks.iter().enumerate() {
@@ -132,7 +134,8 @@ pub fn renewed(shown: &[&str], printed: &Printed) -> Option<Vec<String>> {
             return None;
         }
         from = at + chunk.lines.len();
-        lines.extend(is[at..from].iter().map(|line| line.to_string()));
+        let pairs = chunk.lines.iter().zip(&is[at..from]);
+        lines.extend(pairs.map(|(shown, is)| as_shown(shown, is)));
     }
     lines.extend(open.map(str::to_owned));
     Some(lines)

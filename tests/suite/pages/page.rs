@@ -14,6 +14,7 @@
 //! | `part of` | the block is some columns and rows of the table that this command prints |
 //! | `exit` | the exit code of the command, by default 0 |
 //! | `run` | a command that the page does not show is run first; several are separated by ` && ` |
+//! | `says` | what the command of `run` prints, and the page repeats in its own words: numbers of three digits and more stand on the page, too |
 //! | `replace` | before the command, `FILE: OLD -> NEW` in this file |
 //! | `take` | `PAGE: FILE`: a file that another page shows is in the folder, too |
 //! | `each` | a command is run for each picture, with `{}` for its name without ending |
@@ -29,9 +30,9 @@
 pub struct Mark(pub Vec<(String, String)>);
 
 /// All keys of marks.
-const KEYS: [&str; 16] = [
+const KEYS: [&str; 17] = [
     "file", "prints", "part of", "exit", "run", "replace", "rows", "columns", "with", "picture", "within", "slow",
-    "not run", "other", "each", "take",
+    "not run", "other", "each", "take", "says",
 ];
 
 impl Mark {

@@ -107,6 +107,9 @@ impl Page<'_> {
                 self.command(command, 0, at);
             }
         }
+        for says in part.mark.all("says") {
+            self.says(says, at);
+        }
         match part.kind {
             Kind::Block if part.language == "sh" => self.commands(part),
             Kind::Block if part.language == "text" => self.text(part),
@@ -128,6 +131,23 @@ impl Page<'_> {
         }
         self.known.clear();
         std::fs::write(path, text.replacen(old, new, 1)).map_err(|error| error.to_string())
+    }
+
+    /// Checks that the last command printed a text, and that the page has its numbers.
+    fn says(&mut self, text: &str, line: usize) {
+        let printed = self.last.clone().unwrap_or_default();
+        let squeezed = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        if !squeezed(&format!("{}\n{}", printed.out, printed.err)).contains(text) {
+            self.problem(line, &format!("the command does not print {text:?}:\n{}", printed.end()));
+        }
+        let own = self.lines.iter().filter(|line| !line.contains("says: "));
+        let own: String = own.flat_map(|line| line.chars().filter(|c| *c != ' ').chain(['\n'])).collect();
+        let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.');
+        for number in numbers.filter(|number| number.len() > 2) {
+            if !own.contains(number) {
+                self.problem(line, &format!("the page does not have {number}"));
+            }
+        }
     }
 
     /// `PAGE: FILE` of another page.
@@ -307,14 +327,14 @@ fn beside(page: &Path, folder: &Path) {
     }
 }
 
-/// Runs a line of the shell in a folder: its exit code and what it printed.
+/// Runs a line of the shell in a folder: its exit code and what it printed. `$ROOT` is the root of the repository.
 pub fn call(folder: &Path, line: &str) -> (Option<i32>, Printed) {
     let programs = Path::new(env!("CARGO_BIN_EXE_bryant")).parent().unwrap().to_owned();
     let mut path = vec![programs];
     path.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
     let mut command = Command::new("sh");
     command.args(["-c", line]).current_dir(folder).stdin(Stdio::null());
-    command.env("PATH", std::env::join_paths(path).unwrap()).env("BRYANT_CACHE", cache());
+    command.env("PATH", std::env::join_paths(path).unwrap()).env("BRYANT_CACHE", cache()).env("ROOT", root());
     let output = command.output().unwrap();
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     let printed = Printed { out: text(&output.stdout), err: text(&output.stderr) };
@@ -365,7 +385,7 @@ fn within(folder: &Path, base: &str, part: &str) -> Result<String, String> {
 /// A mark that is not about a part of this kind.
 pub fn strange(part: &Part) -> Option<String> {
     let fits = |key: &str| match key {
-        "not run" | "slow" | "run" | "replace" | "take" => true,
+        "not run" | "slow" | "run" | "says" | "replace" | "take" => true,
         "file" => part.kind == Kind::Block,
         "other" => part.kind == Kind::Block && matches!(part.language.as_str(), "text" | "yaml"),
         "prints" | "part of" | "exit" => part.kind == Kind::Block && part.language == "text",
