@@ -145,12 +145,14 @@ impl Drawing {
         self.add(class, Shape::Circle { centre, radius });
     }
 
-    /// An ellipse, rotated by an angle (clockwise on the screen, degrees).
+    /// An ellipse, rotated by an angle (clockwise on the screen, degrees). The angle of a circle, which rounding alone decides, is 0.
     pub fn ellipse(&mut self, class: &str, centre: [f64; 2], semi: [f64; 2], degrees: f64) {
+        let semi = point(semi);
+        let is_circle = semi[0] == semi[1];
         let shape = Shape::Ellipse {
             centre: point(centre),
-            semi: point(semi),
-            degrees: round(degrees),
+            semi,
+            degrees: if is_circle { 0.0 } else { round(degrees) },
         };
         self.add(class, shape);
     }

@@ -38,35 +38,7 @@ fn first_row(path: &Path, model: &str) -> Vec<(String, f64)> {
 }
 
 /// A person on a seat with a back, feet on the floor, in a moving car.
-const SITTER: &str = "model: sitter
-dimension: 2
-curves:
-  foam: { unit: [mm, N], points: [[0, 0], [25, 500], [60, 2500], [100, 8000]], extrapolate: linear }
-vehicles: [{ name: car, start: { velocity: [10, 0] } }]
-systems:
-  - name: man
-    elements:
-      - { name: torso, mass: 45, cg: [0, 0.28], inertia: 2.5 }
-      - { name: head, on: torso, at: [0, 0.6], mass: 5, cg: [0.02, 0.12], inertia: 0.03 }
-      - { name: thigh, on: torso, at: [0, 0], mass: 16, cg: [0.2, 0], inertia: 0.3 }
-      - { name: shank, on: thigh, at: [0.42, 0], mass: 10, cg: [0, -0.22], inertia: 0.2 }
-    start: { position: [0, 0.52], velocity: [10, 0], angles: { torso: -15 deg } }
-forces:
-  - { field: earth, acceleration: [0, -1 gn] }
-  - { joint: man/head, stiffness: 60, damping: 2, neutral: 15 deg }
-  - { joint: man/thigh, stiffness: 40, damping: 5 }
-  - { joint: man/shank, stiffness: 20, damping: 5 }
-  - { contact: seat, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.11, 0.11] }, plane: { on: car, at: [0, 0.4], normal: [-0.2, 1] }, elastic: foam, damping: 200 }
-  - { contact: back, ellipsoid: { on: man/torso, center: [0, 0.45], semi_axes: [0.12, 0.2] }, plane: { on: car, at: [-0.2, 0.4], normal: [1, 0.25] }, elastic: foam, damping: 200 }
-  - { contact: floor, ellipsoid: { on: man/shank, center: [0, -0.44], semi_axes: [0.05, 0.05] }, plane: { on: car, at: [0, 0], normal: [0, 1] }, elastic: foam, damping: 200 }
-outputs:
-  - { name: head, of: man/head, at: cg, what: accelerometer }
-  - { name: torso, of: man/torso, at: cg, what: accelerometer }
-  - { name: seat, of: contact seat, what: force, component: [x, z] }
-  - { name: back, of: contact back, what: force, component: [x, z] }
-  - { name: floor, of: contact floor, what: force, component: [x, z] }
-run: { duration: 0.1 s, every: 10 ms }
-";
+const SITTER: &str = include_str!("../../docs/settle/sitter.yaml");
 
 /// The seat carries the weight of the body, and the run begins without a jerk.
 #[test]

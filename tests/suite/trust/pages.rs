@@ -3,6 +3,8 @@
 //! A body of mass m whose centre of gravity is its joint and whose moments of inertia are all J fulfils F = m a and M = J ω̇: its
 //! accelerations show the force and moment on it.
 
+mod told;
+
 use super::read;
 use bryant::evaluation::{State, at, functions};
 use bryant_generator::dynamics::{Options, derive_with};
