@@ -193,7 +193,7 @@ pub(super) fn channel(
             element, freedom, ..
         } => of_freedom(resolver, *element, *freedom, wanted)?,
         Quantity::OfForce { force, what } => of_law(resolver, *force, what, wanted)?,
-        Quantity::Switch { .. } => false,
+        Quantity::Switch { .. } | Quantity::Formula(_) => false,
     };
     let remark = match &quantity {
         Quantity::Point {
@@ -203,6 +203,7 @@ pub(super) fn channel(
         } if resolver.part(*id).neck.is_some() => {
             Some("the head has the neck in it: at their common centre of gravity")
         }
+        Quantity::Formula(_) => Some("a formula: with the sign that the model gives it"),
         _ => None,
     };
     Some((quantity, Channel { reversed, remark }))

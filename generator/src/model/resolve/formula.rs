@@ -88,6 +88,7 @@ pub(super) fn formula(
         unit,
         code: None,
         filter: None,
+        channel: None,
     })
 }
 
