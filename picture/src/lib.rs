@@ -15,7 +15,7 @@ mod svg;
 pub mod text;
 
 pub use drawing::{Anchor, Drawing};
-pub use raster::RasterError;
+pub use raster::{RasterError, is_own_png};
 
 use std::path::Path;
 

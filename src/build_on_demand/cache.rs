@@ -6,7 +6,7 @@
 use super::BuildError;
 use sha2::{Digest, Sha256};
 use std::fs::File;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -164,12 +164,12 @@ fn seal_of(file: &Path) -> PathBuf {
 /// Writes the checksum of a file beside it, and both to the disk: after a loss of power they are there or do not fit.
 fn seal(directory: &Path, file: &str) -> io::Result<()> {
     let file = directory.join(file);
-    // the compiler may let the group of this user write
+    // with some settings of a user his group may write what he creates
     #[cfg(unix)]
-    {
+    for path in [directory, &file] {
         use std::os::unix::fs::PermissionsExt;
-        let mode = std::fs::metadata(&file)?.permissions().mode();
-        std::fs::set_permissions(&file, std::fs::Permissions::from_mode(mode & !0o022))?;
+        let mode = std::fs::metadata(path)?.permissions().mode();
+        std::fs::set_permissions(path, std::fs::Permissions::from_mode(mode & !0o022))?;
     }
     File::open(&file)?.sync_all()?;
     let seal = seal_of(&file);
@@ -191,7 +191,16 @@ fn sync_directory(directory: &Path) {
 fn checksum(file: &Path) -> io::Result<String> {
     let mut file = File::open(file)?;
     let mut hasher = Sha256::new();
-    let length = io::copy(&mut file, &mut hasher)?;
+    let mut length = 0;
+    let mut piece = vec![0; 1 << 16];
+    loop {
+        let read = file.read(&mut piece)?;
+        if read == 0 {
+            break;
+        }
+        hasher.update(&piece[..read]);
+        length += read;
+    }
     let hexadecimal: Vec<String> = hasher.finalize().iter().map(|b| format!("{b:02x}")).collect();
     Ok(format!("{length} {}\n", hexadecimal.concat()))
 }

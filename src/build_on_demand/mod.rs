@@ -90,7 +90,7 @@ pub enum BuildError {
     /// Others may have put something into the cache.
     #[error(
         "{} is not used: {reason}, and what is in a cache is run with your rights\n  \
-         help: make it yours alone (chmod -R go-w), or name another directory by BRYANT_CACHE; it is created where it does not exist", .path.display()
+         help: make it yours alone (chown -R, chmod -R go-w), or name another directory by BRYANT_CACHE; it is created where it does not exist", .path.display()
     )]
     Untrusted {
         /// The file or directory.
