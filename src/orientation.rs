@@ -4,6 +4,7 @@
 //! with Ry(−90°) behind it in chart 1. To compare states of two runs or to draw them, they are converted to quaternions (w, x, y, z) and
 //! angular velocities in absolute axes, as those of the same model with `coordinates: quaternion`. States of other models stay as they are.
 
+use crate::pose::rotation;
 use bryant_runtime::program::Header;
 
 /// The conversion of the states of a model to quaternions.
@@ -99,6 +100,34 @@ impl WithoutCharts {
     }
 }
 
+/// Beyond this sine of the middle angle in chart 0, angles are given in chart 1 \[1\]: as runs change charts.
+const CHANGE: f64 = 0.8;
+
+/// The unit quaternion and the angular velocity in absolute axes of Bryant angles and their rates in a chart.
+pub(crate) fn without_chart(angles: [f64; 3], rates: [f64; 3], chart: f64) -> ([f64; 4], [f64; 3]) {
+    let [first, second] = [0, 1].map(|i| angles[i].sin_cos());
+    (quaternion(angles, chart), omega(first, second, rates))
+}
+
+/// The Bryant angles, their rates and their chart of a unit quaternion and an angular velocity in absolute axes: [`without_chart`] undoes it.
+pub(crate) fn in_chart(quaternion: [f64; 4], omega: [f64; 3]) -> ([f64; 3], [f64; 3], f64) {
+    let a = rotation(&quaternion);
+    let (r, chart) = match a[0][2].abs() > CHANGE {
+        // before the turn by −90° about y: the columns of A are (r₃, r₂, −r₁)
+        true => (a.map(|[x, y, z]| [-z, y, x]), 1.0),
+        false => (a, 0.0),
+    };
+    let angles = [
+        (-r[1][2]).atan2(r[2][2]),
+        r[0][2].clamp(-1.0, 1.0).asin(),
+        (-r[0][1]).atan2(r[0][0]),
+    ];
+    let [(s1, c1), (s2, c2)] = [0, 1].map(|i| f64::sin_cos(angles[i]));
+    let third = (c1 * omega[2] - s1 * omega[1]) / c2;
+    let rates = [omega[0] - s2 * third, c1 * omega[1] + s1 * omega[2], third];
+    (angles, rates, chart)
+}
+
 /// The unit quaternion of Rx(φ₁) Ry(φ₂) Rz(φ₃), turned by −90° about the element's y in chart 1.
 fn quaternion(angles: [f64; 3], chart: f64) -> [f64; 4] {
     let [(s1, c1), (s2, c2), (s3, c3)] = angles.map(|angle| (0.5 * angle).sin_cos());
@@ -123,7 +152,7 @@ fn omega((s1, c1): (f64, f64), (s2, c2): (f64, f64), [d1, d2, d3]: [f64; 3]) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pose::{bryant_rotation, rotation};
+    use crate::pose::bryant_rotation;
 
     fn header(coordinates: &[&str], velocities: &[&str], memory: &[&str]) -> Header {
         let strings = |names: &[&str]| names.iter().map(|n| n.to_string()).collect();
@@ -194,6 +223,29 @@ mod tests {
             // a rate of φ₃ alone is a rotation about the third axis of R
             for i in 0..3 {
                 assert!((y[10 + i] - 2.0 * r[i][2]).abs() < 8.0 * f64::EPSILON);
+            }
+        }
+    }
+
+    /// A state in quaternions becomes one in angles, in either chart, and the same again.
+    #[test]
+    fn angles_and_quaternions_convert_both_ways() {
+        for angles in [[0.4, -0.7, 1.1], [2.0, 1.4, -3.0], [0.1, -1.5, 0.2]] {
+            for chart in [0.0, 1.0] {
+                let rates = [2.0, -0.5, 0.25];
+                let (q, w) = without_chart(angles, rates, chart);
+                let (found, of_found, its_chart) = in_chart(q, w);
+                let (again, w_again) = without_chart(found, of_found, its_chart);
+                // q and −q are the same orientation
+                let sign = (0..4).map(|i| q[i] * again[i]).sum::<f64>().signum();
+                for i in 0..4 {
+                    assert!((sign * again[i] - q[i]).abs() < 1e-14, "{angles:?} {chart}");
+                }
+                for i in 0..3 {
+                    assert!((w_again[i] - w[i]).abs() < 1e-13, "{angles:?} {chart}");
+                }
+                // in its chart the middle angle is far from ±90°
+                assert!(found[1].sin().abs() <= CHANGE + 1e-12, "{found:?}");
             }
         }
     }

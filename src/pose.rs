@@ -173,6 +173,42 @@ impl Pose {
         Some(Self { vehicles, systems })
     }
 
+    /// The pose of the model's own start, at time `t` \[s\] for what moves as prescribed.
+    pub fn at_start(model: &Model, parameters: &[f64], t: f64) -> Option<Self> {
+        let numbers = Numbers { model, parameters };
+        let (mut names, mut q) = (Vec::new(), Vec::new());
+        let mut add = |name: String, value: f64| {
+            names.push(name);
+            q.push(value);
+        };
+        for system in &model.systems {
+            if matches!(system.reference, Reference::Free) {
+                let position = numbers.vector(&system.position);
+                for (axis, value) in ["x", "y", "z"].into_iter().zip(position) {
+                    add(format!("{}.{axis}", system.name), value);
+                }
+            }
+            for element in &system.elements {
+                let name = format!("{}/{}.start", system.name, element.name);
+                let angles = numbers.vector(&element.angles);
+                match (&element.joint, model.dimension) {
+                    (Joint::Ball, Dimension::Plane) => add(name, angles[1]),
+                    (Joint::Ball, Dimension::Space) => {
+                        angles
+                            .into_iter()
+                            .for_each(|angle| add(name.clone(), angle));
+                    }
+                    (Joint::Freedoms(all), _) => {
+                        let own = all.iter().filter(|freedom| freedom.is_own());
+                        own.for_each(|one| add(name.clone(), numbers.value(&one.position)));
+                    }
+                }
+            }
+        }
+        let layout = Layout::new(model, &names).ok()?;
+        Pose::new(model, &layout, parameters, t, &q)
+    }
+
     /// Frame of an element.
     pub fn frame(&self, id: ElementId) -> Frame {
         self.systems[id.system][id.element]

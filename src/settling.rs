@@ -49,8 +49,10 @@ pub enum End {
     Rest,
     /// The model rests, but a slight push moves it away.
     Unstable,
-    /// The model still moves after all evaluations.
+    /// The model still moves after all evaluations, or has not come nearer to rest for many stops.
     Moving,
+    /// It still moves, and is so far from its start that it is not to go on.
+    Lost,
     /// Its numbers are no longer finite.
     NotFinite,
 }
@@ -63,6 +65,10 @@ const LONGEST_STEP: f64 = 0.01;
 /// Each time after this many stops the model follows its accelerations, for at most this many steps.
 const STOPS: u32 = 10;
 const FOLLOWED: u32 = 300;
+/// Each time after this many steps between stops it is looked whether the model is still near its start.
+const STEPS: u32 = 20;
+/// After this many stops that did not halve the acceleration the search is in vain: something slides or pays out, and always will.
+const IN_VAIN: u32 = 100;
 /// Length of the first of these steps \[s²\], and the distance that the accelerations alone may move the model in one step \[m, rad\]: a
 /// longer step could pass through a body.
 const FIRST: f64 = 1e-5;
@@ -74,20 +80,23 @@ const WATCH: f64 = 2.0;
 const DRIFT: f64 = 10.0;
 
 /// Searches for a state of rest, from a state and at a time that stands still. `acceleration` is the largest acceleration \[m/s²\] of a
-/// state in which nothing moves relative to the start.
+/// state in which nothing moves relative to the start, and whether the state is near enough to the start.
 pub fn settle(
     model: &dyn Dynamics<f64>,
     time: f64,
     start: &[f64],
     wanted: Wanted,
-    acceleration: &mut dyn FnMut(&[f64]) -> f64,
+    acceleration: &mut dyn FnMut(&[f64]) -> (f64, bool),
     go_on: &mut dyn FnMut(u32, f64) -> bool,
 ) -> Settled {
     let mut motion = Motion::new(model, time, start);
     motion.stop();
     let mut stops = 0;
-    let mut left = acceleration(&motion.state);
+    let (mut left, _) = acceleration(&motion.state);
     let mut before = 0.0;
+    let mut steps = 0u32;
+    // the smallest acceleration so far, and after which stop it was halved last
+    let (mut best, mut nearer) = (left, 0);
     let mut end = End::Moving;
     while motion.evaluations < wanted.evaluations {
         if left <= wanted.acceleration {
@@ -105,18 +114,33 @@ pub fn settle(
         }
         if energy >= before {
             before = energy;
+            steps += 1;
+            if steps.is_multiple_of(STEPS) && !acceleration(&motion.state).1 {
+                end = End::Lost;
+                break;
+            }
             continue;
         }
         motion.stop();
         stops += 1;
         before = 0.0;
-        left = acceleration(&motion.state);
+        let near;
+        (left, near) = acceleration(&motion.state);
         if !go_on(stops, left) {
+            break;
+        }
+        if !near && left > wanted.acceleration {
+            end = End::Lost;
+            break;
+        }
+        if left < 0.5 * best {
+            (best, nearer) = (left, stops);
+        } else if stops >= nearer + IN_VAIN {
             break;
         }
         if stops.is_multiple_of(STOPS) && left > wanted.acceleration {
             motion.follow(1e-3 * wanted.acceleration);
-            left = acceleration(&motion.state);
+            (left, _) = acceleration(&motion.state);
         }
     }
     let state = motion.state.clone();
@@ -435,9 +459,10 @@ mod tests {
         let mut acceleration = |state: &[f64]| {
             bryant_runtime::Dynamics::derivative(&model, 0.0, state, &mut rate);
             let rates = &rate[first..first + info.velocities.len()];
-            rates
+            let most = rates
                 .iter()
-                .fold(0.0, |most: f64, rate| most.max(rate.abs()))
+                .fold(0.0, |most: f64, rate| most.max(rate.abs()));
+            (most, true)
         };
         let wanted = Wanted {
             acceleration: 1e-4,

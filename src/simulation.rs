@@ -42,6 +42,8 @@ pub struct Recording {
     pub doubts: Vec<Finding>,
     /// Notes about the run.
     pub notes: Vec<String>,
+    /// The smallest value of each event function, as in the header; empty if nothing ran.
+    pub nearest: Vec<f64>,
     /// Time of the computation, including the writing of machine code, without deriving, starting and printing.
     pub wall: Duration,
 }
@@ -220,6 +222,7 @@ impl Recorder {
             energy: outcome.energy,
             doubts: outcome.doubts,
             notes: outcome.notes,
+            nearest: outcome.nearest,
             wall,
         }
     }

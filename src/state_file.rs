@@ -12,15 +12,17 @@
 //! ```
 //!
 //! All numbers are in SI units and have all digits of a double; their names are those of [`Info`]. `laws` has the continuous states of
-//! force laws, `memory` their discrete states; a group that the model does not have may be left out.
+//! force laws, `memory` their discrete states; a group that the model does not have may be left out. A state of a model that is like another one
+//! starts that one, too: what both have is taken over by name.
 
+use crate::orientation;
 use crate::simulation::Recording;
 use bryant_generator::description::load::read_file;
 use bryant_runtime::Info;
 use bryant_runtime::program::Start;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 use std::path::Path;
 
@@ -120,59 +122,203 @@ fn of_groups(model: &str, names: [Vec<&str>; 4], time: f64, state: &[f64]) -> St
     text
 }
 
-/// Reads a state of a model.
+/// A state that was read, and what is to be said of it.
+#[derive(Debug)]
+pub struct Read {
+    /// The state, with its time.
+    pub start: Start,
+    /// Sentences about what the file and the model do not have in common.
+    pub notes: Vec<String>,
+}
+
+/// Reads a state of a model, or of one that is like it. Of a system that only one of the two has, and of states and memory of laws, what the file
+/// lacks begins as in `own`, the start of the model, and what the model does not have is left out; both are said. Orientations are converted between
+/// quaternions and Bryant angles. `end` is where the run ends \[s\].
 ///
 /// # Errors
-/// The file cannot be read or is not a state, or names are missing in the model or in the file; the message has the file, the names and a
-/// remedy.
-pub fn read(path: &Path, info: &Info) -> Result<Start, String> {
+/// The file cannot be read or is not a state, its time is not one of the run, or names of a system are missing in the model or in the file; the message
+/// has the file, the names and a remedy.
+pub fn read(path: &Path, info: &Info, own: &[f64], end: f64) -> Result<Read, String> {
     let shown = path.display();
     let text =
         read_file(path).map_err(|error| format!("cannot read the state {shown}: {error}"))?;
-    of_text(&text, info).map_err(|error| format!("{shown}: {error}"))
+    let file: File = serde_json::from_str(&text).map_err(|error| {
+        format!(
+            "{shown}: this is no state: {error}\n  help: --final-state of `bryant run` writes one"
+        )
+    })?;
+    if !(0.0..end).contains(&file.time) {
+        let place = text.lines().position(|line| line.contains("\"time\""));
+        let line = place.map_or(String::new(), |line| format!(":{}", line + 1));
+        return Err(format!(
+            "{shown}{line}: the time of the state is {} s, but a run that begins there must begin at 0 s or later, and before its end at {end} s\n  \
+             help: write the time that the state belongs to (0 of a state of rest), or give a later --duration",
+            file.time
+        ));
+    }
+    taken_over(file, info, own)
+        .map(|(start, notes)| Read {
+            start,
+            notes: notes
+                .into_iter()
+                .map(|note| format!("{shown}: {note}"))
+                .collect(),
+        })
+        .map_err(|error| format!("{shown}: {error}"))
 }
 
-fn of_text(text: &str, info: &Info) -> Result<Start, String> {
-    let file: File = serde_json::from_str(text).map_err(|error| {
-        format!("this is no state: {error}\n  help: --final-state of `bryant run` writes one")
-    })?;
-    let groups = [
-        ("coordinates", info.coordinates, file.coordinates.0),
-        ("velocities", info.velocities, file.velocities.0),
-        ("laws", info.auxiliaries, file.laws.0),
-        ("memory", info.memory, file.memory.0),
+/// The system that a coordinate or a velocity belongs to.
+fn system_of(name: &str) -> Option<&str> {
+    name.find(['/', '.']).map(|end| &name[..end])
+}
+
+fn taken_over(file: File, info: &Info, own: &[f64]) -> Result<(Start, Vec<String>), String> {
+    let mut groups = [
+        file.coordinates.0,
+        file.velocities.0,
+        file.laws.0,
+        file.memory.0,
     ];
-    let mut state = Vec::with_capacity(info.state_length());
+    let own_names = [
+        info.coordinates,
+        info.velocities,
+        info.auxiliaries,
+        info.memory,
+    ];
+    convert(&mut groups, own_names);
+    let systems = |names: &mut dyn Iterator<Item = &str>| -> BTreeSet<String> {
+        names.filter_map(system_of).map(str::to_owned).collect()
+    };
+    let given = systems(
+        &mut groups[..2]
+            .iter()
+            .flat_map(|group| group.keys().map(String::as_str)),
+    );
+    let known = systems(
+        &mut own_names[..2]
+            .iter()
+            .flat_map(|names| names.iter().copied()),
+    );
+    let strange = known.is_disjoint(&given) && !known.is_empty();
+    let belongs =
+        |name: &str, to: &BTreeSet<String>| system_of(name).is_none_or(|s| to.contains(s));
+
+    let mut state = own.to_vec();
     let (mut missing, mut unknown) = (Vec::new(), Vec::new());
-    for (group, names, mut values) in groups {
-        for name in names {
+    let (mut begin, mut left) = (Vec::new(), Vec::new());
+    let mut index = 0;
+    for (place, (names, values)) in own_names.iter().zip(&mut groups).enumerate() {
+        let of_bodies = place < 2;
+        for name in *names {
             match values.remove(*name) {
-                Some(value) => state.push(value),
-                None => missing.push(*name),
+                Some(value) => state[index] = value,
+                None if of_bodies && (strange || belongs(name, &given)) => missing.push(*name),
+                None => begin.push((*name).to_owned()),
+            }
+            index += 1;
+        }
+        let group = ["coordinates", "velocities", "laws", "memory"][place];
+        for name in std::mem::take(values).into_keys() {
+            match of_bodies && belongs(&name, &known) {
+                true => unknown.push(format!("{name} ({group})")),
+                false => left.push(name),
             }
         }
-        unknown.extend(values.into_keys().map(|name| format!("{name} ({group})")));
     }
-    let (count, wrong) = match (missing.is_empty(), unknown.is_empty()) {
+    let entries =
+        |count: usize| format!("{count} {}", if count == 1 { "entry" } else { "entries" });
+    let wrong = match (missing.is_empty(), unknown.is_empty()) {
         (true, true) => {
-            return Ok(Start {
-                t: file.time,
-                state,
-            });
+            let name = info.name;
+            let mut notes = Vec::new();
+            if !begin.is_empty() {
+                notes.push(format!(
+                    "the state lacks {}, of what only {name} has; these begin as at its start: {}",
+                    entries(begin.len()),
+                    few(&begin)
+                ));
+            }
+            if !left.is_empty() {
+                notes.push(format!(
+                    "the state has {} of what {name} does not have, and which are left out: {}",
+                    entries(left.len()),
+                    few(&left)
+                ));
+            }
+            let t = file.time;
+            return Ok((Start { t, state }, notes));
         }
-        (false, _) => (missing.len(), format!("it lacks {}", few(&missing))),
-        (true, false) => (
-            unknown.len(),
-            format!("{} has no {}", info.name, few(&unknown)),
+        (false, _) => format!("it lacks {} ({})", few(&missing), entries(missing.len())),
+        (true, false) => format!(
+            "{} has no {} ({})",
+            info.name,
+            few(&unknown),
+            entries(unknown.len())
         ),
     };
-    let entries = if count == 1 { "entry" } else { "entries" };
     Err(format!(
-        "this is not a state of {}: {wrong} ({count} {entries})\n  \
-         help: a state has every coordinate, velocity, state and memory of a law, by name; start from one of a model with the same \
-         elements, joints and laws",
+        "this is not a state of {}: {wrong}\n  \
+         help: a state has every coordinate and velocity of a system, by name; start from one of a model with the same elements and joints",
         info.name
     ))
+}
+
+/// Turns quaternions and angular velocities into Bryant angles and their rates, or the other way, where the model has the other kind.
+fn convert(groups: &mut [BTreeMap<String, f64>; 4], own_names: [&[&str]; 4]) {
+    for name in own_names[0] {
+        let (Some(of), to_angles) = (match name.strip_suffix(".phi1") {
+            Some(element) => (Some(element), true),
+            None => (name.strip_suffix(".qw"), false),
+        }) else {
+            continue;
+        };
+        let names =
+            |letter: &str, parts: [&str; 3]| parts.map(|part| format!("{of}.{letter}{part}"));
+        let axes = ["x", "y", "z"];
+        let numbers = ["1", "2", "3"];
+        let [q, w] = [names("q", axes), names("w", axes)];
+        let [phi, rates] = [names("phi", numbers), names("dphi", numbers)];
+        let (real, chart) = (format!("{of}.qw"), format!("{of}: chart"));
+        let [coordinates, velocities, _, memory] = groups;
+        let three = |group: &BTreeMap<String, f64>, names: &[String; 3]| -> Option<[f64; 3]> {
+            let values = names.each_ref().map(|name| group.get(name).copied());
+            Some([values[0]?, values[1]?, values[2]?])
+        };
+        let replace = |group: &mut BTreeMap<String, f64>,
+                       old: &[String; 3],
+                       new: [String; 3],
+                       values: [f64; 3]| {
+            old.iter().for_each(|name| {
+                group.remove(name);
+            });
+            group.extend(new.into_iter().zip(values));
+        };
+        if to_angles {
+            let (Some(scalar), Some([x, y, z]), Some(omega)) = (
+                coordinates.get(&real).copied(),
+                three(coordinates, &q),
+                three(velocities, &w),
+            ) else {
+                continue;
+            };
+            let (angles, of_angles, of_chart) = orientation::in_chart([scalar, x, y, z], omega);
+            coordinates.remove(&real);
+            replace(coordinates, &q, phi, angles);
+            replace(velocities, &w, rates, of_angles);
+            memory.insert(chart, of_chart);
+        } else {
+            let (Some(angles), Some(of_angles)) =
+                (three(coordinates, &phi), three(velocities, &rates))
+            else {
+                continue;
+            };
+            let chart = memory.remove(&chart).unwrap_or(0.0);
+            let ([scalar, x, y, z], omega) = orientation::without_chart(angles, of_angles, chart);
+            coordinates.insert(real, scalar);
+            replace(coordinates, &phi, q, [x, y, z]);
+            replace(velocities, &rates, w, omega);
+        }
+    }
 }
 
 /// Some of many names.

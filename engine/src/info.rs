@@ -37,6 +37,7 @@ fn leaked(facts: &Facts) -> Info {
             Watched::Bearing => CurveKind::Bearing,
             Watched::Direction(component) => CurveKind::Direction(component),
             Watched::Volume => CurveKind::Volume,
+            Watched::Edge => CurveKind::Edge,
         },
     });
     let outputs = facts.outputs.iter().map(|output| OutputInfo {

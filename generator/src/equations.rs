@@ -154,6 +154,8 @@ pub enum Watched {
     Direction(u8),
     /// The share of the volume of an airbag that what it meets takes.
     Volume,
+    /// The push of a fading edge of a plane over the force of the plane.
+    Edge,
 }
 
 /// What parameters must keep: a function of them, and what it may be.

@@ -390,12 +390,15 @@ pub enum CurveKind {
     Direction(u8),
     /// The share of the volume of an airbag that a penetrating body takes; 0 while it does not push. The law ends at [`CurveInfo::last`].
     Volume,
+    /// How hard the fading edge of a plane pushes sideways, as a share of the elastic force with which the plane pushes within its edges. Beyond
+    /// [`CurveInfo::last`] the edge is too narrow for the depth.
+    Edge,
 }
 
 impl CurveKind {
     /// Whether it has an interval that its argument may leave. Bearings and directions have none; they may leap instead.
     pub(crate) fn may_be_left(self) -> bool {
-        matches!(self, CurveKind::Curve | CurveKind::Volume)
+        matches!(self, CurveKind::Curve | CurveKind::Volume | CurveKind::Edge)
     }
 }
 
@@ -424,18 +427,33 @@ impl CurveInfo {
         self.name.starts_with("bushing ")
     }
 
-    /// Whether it belongs to the laws about x, y and z of a joint: its name ends like this.
+    /// Whether it belongs to the laws about x, y and z of a joint.
     pub(crate) fn is_of_angles(&self) -> bool {
-        self.name.ends_with(" about x, y and z")
+        self.middle().is_some()
+    }
+
+    /// The middle one of the three turns that the laws of a joint are about. Its name ends with their order: "joint man/head about x, y and z".
+    fn middle(&self) -> Option<char> {
+        let order = self.name.rsplit_once(" about ")?.1;
+        let (first, others) = order.split_once(", ")?;
+        let (middle, last) = others.split_once(" and ")?;
+        let axis = |name: &str| matches!(name, "x" | "y" | "z");
+        (axis(first) && axis(middle) && axis(last)).then(|| middle.chars().next())?
     }
 
     /// Of a [bearing](CurveKind::Bearing) that leapt, what became of its law.
     pub fn singular(&self) -> &'static str {
-        match self.is_of_bushing() || self.is_of_angles() {
-            true => {
-                "is turned through ±90° about y, where the angles about x and z are not defined"
+        match self.middle() {
+            Some('x') => {
+                "is turned through ±90° about x, where the angles about y and z are not defined"
             }
-            false => "is bent through 180°, where flexion has no direction and torsion no angle",
+            Some('z') => {
+                "is turned through ±90° about z, where the angles about x and y are not defined"
+            }
+            None if !self.is_of_bushing() => {
+                "is bent through 180°, where flexion has no direction and torsion no angle"
+            }
+            _ => "is turned through ±90° about y, where the angles about x and z are not defined",
         }
     }
 
@@ -450,7 +468,9 @@ impl CurveInfo {
         match self.kind {
             CurveKind::Bearing => Some(1),
             CurveKind::Direction(0) => Some(dimension as usize),
-            CurveKind::Curve | CurveKind::Volume | CurveKind::Direction(_) => None,
+            CurveKind::Curve | CurveKind::Volume | CurveKind::Edge | CurveKind::Direction(_) => {
+                None
+            }
         }
     }
 
@@ -523,7 +543,7 @@ impl CurveInfo {
                     self.last
                 },
             ],
-            (CurveKind::Volume, _) => [endless[0], self.last],
+            (CurveKind::Volume | CurveKind::Edge, _) => [endless[0], self.last],
             _ => endless,
         }
     }

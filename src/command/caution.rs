@@ -1,19 +1,26 @@
 //! Warnings about likely problems in the runs of a valid model.
 
 pub mod singular;
+pub mod start;
 
-use bryant_generator::model::{Active, Dimension, Direction, ForceKind, JointTorque, Model};
+use bryant_generator::model::{Active, Dimension, Direction, ForceKind, JointTorque, Model, Scene};
+use start::Start;
 use std::f64::consts::FRAC_PI_2;
 
 /// The middle one of three relative angles is critical within this distance of ±90°: 10° \[rad\].
 const NEAR: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// The warnings, each a sentence with a remedy.
-pub fn cautions(model: &Model) -> Vec<String> {
+pub fn cautions(scene: &Scene) -> Vec<String> {
+    let model = &scene.model;
     let mut all = middle_angles(model);
     all.extend(bushings(model));
     all.extend(singular::cautions(model));
     all.extend(thinned(model));
+    let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
+    let start = Start::of_model(model, &defaults);
+    all.extend(start.iter().flat_map(|start| start.cautions(scene)));
+    all.extend(start::unused(scene));
     all
 }
 
@@ -43,34 +50,37 @@ fn middle_angles(model: &Model) -> Vec<String> {
     }
     let joints = || {
         model.forces.iter().filter_map(|force| match &force.kind {
-            ForceKind::Joint(law) => Some((force, law.child, &law.about)),
+            ForceKind::Joint(law) => Some((force, law)),
             _ => None,
         })
     };
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     let none = JointTorque::default();
     joints()
-        .filter_map(|(force, child, [x, y, z])| {
+        .filter_map(|(force, law)| {
             let name = &force.name;
-            if *x == none && *z == none {
+            let [first, middle, last] = law.order.0;
+            if law.about[first] == none && law.about[last] == none {
                 return None;
             }
-            // a law of any force ends the rotation of this joint if it always acts about y
-            let always = joints().filter(|(other, element, _)| {
-                *element == child && other.active == Active::default()
+            let axes = [first, middle, last].map(|axis| ["x", "y", "z"][axis]);
+            let [first, axis, last] = axes;
+            // a law of any force ends the rotation of this joint if it always acts about this axis
+            let always = joints().filter(|(other, its)| {
+                its.child == law.child && other.active == Active::default()
             });
-            let mut ends = vec![y];
-            ends.extend(always.map(|(_, _, [_, y, _])| y));
+            let mut ends = vec![&law.about[middle]];
+            ends.extend(always.map(|(_, its)| &its.about[middle]));
             let reaches = ends.iter().map(|y| middle_angle(y, &defaults));
             let reaches = reaches.reduce(|a, b| Some(a?.min(b?))).flatten()?;
             let way = match reaches.is_finite() {
-                true => format!("its stops let the angle about y come to {:.0}°", reaches.to_degrees()),
-                false => "nothing ends the rotation about y".to_owned(),
+                true => format!("its stops let the angle about {axis} come to {:.0}°", reaches.to_degrees()),
+                false => format!("nothing ends the rotation about {axis}"),
             };
             Some(format!(
-                "joint \"{name}\" has laws about x or z, and {way}: near ±90° these have no direction, and steps become very small\n  \
-                 help: end the rotation about y by stops within ±80°, or turn the frames so that the widest rotation is about x or z, or \
-                 use `flexion` and `torsion`"
+                "joint \"{name}\" has laws about {first} or {last}, and {way}: near ±90° these have no direction, and steps become very small\n  \
+                 help: end the rotation about {axis} by stops within ±80°, or let another rotation be the middle one of the three \
+                 (`about: {{ order: yxz, … }}`), or use `flexion` and `torsion`"
             ))
         })
         .collect()

@@ -9,7 +9,7 @@ use bryant_generator::dynamics::{self, derive_with};
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::model::{
-    Coordinates, Dimension, ForceKind, Model, Parameter, Reference, System,
+    Coordinates, Dimension, ForceKind, Model, Parameter, Reference, Scene, System,
 };
 use bryant_generator::program::{self, Options};
 use bryant_generator::target::rust;
@@ -65,7 +65,7 @@ impl Arguments {
         let progress = Progress::deriving(terminal, &found.model.name);
         let costs = Costs::of(&found.model);
         drop(progress);
-        for caution in cautions(&found.model) {
+        for caution in cautions(&found.scene) {
             terminal.note(&format!("warning: {caution}"));
         }
         for caution in judged
@@ -75,7 +75,7 @@ impl Arguments {
             terminal.note(&caution);
         }
         if self.json {
-            terminal.print_json(&as_json(&found.model, &costs))
+            terminal.print_json(&as_json(&found.scene, &costs))
         } else {
             terminal.print(&as_text(&found.model, &costs))
         }
@@ -325,7 +325,8 @@ fn short(value: f64) -> String {
     format!("{}", rounded + 0.0)
 }
 
-fn as_json(model: &Model, costs: &Costs) -> Value {
+fn as_json(scene: &Scene, costs: &Costs) -> Value {
+    let model = &scene.model;
     let systems: Vec<Value> = model
         .systems
         .iter()
@@ -390,6 +391,6 @@ fn as_json(model: &Model, costs: &Costs) -> Value {
         "accelerations": cost(&costs.accelerations),
         "route": route(costs.route),
         "output_cost": cost(&costs.outputs),
-        "warnings": cautions(model),
+        "warnings": cautions(scene),
     })
 }

@@ -4,6 +4,7 @@ mod beside;
 mod criteria;
 mod files;
 mod outcome;
+mod remarks;
 mod report;
 mod responses;
 
@@ -14,8 +15,8 @@ use super::compare::{filter_standard, pair};
 use super::error_report::ErrorReport;
 use super::model_argument::{Found, find};
 use super::outputs::{self, Replacing};
-use super::parameters::parse_parameters;
-use super::prepare::{by_rustc, prepare};
+use super::parameters::{parse_parameters, values_of};
+use super::prepare::{Prepared, by_rustc, prepare};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::accuracy::check::{self, Verdict};
@@ -32,12 +33,13 @@ use crate::{balance, quantity, state_file};
 use bryant_generator::model::{Model, Scene};
 use bryant_runtime::program::{ErrorKind, Finding, Job, RunError};
 use bryant_runtime::response::filter::Standard;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Family, Formula, Method, Tolerances};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use files::Files;
+use remarks::{look_for_right_angle, remark};
 use responses::Responses;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Run a model: print its table, write it as CSV, draw the motion
@@ -303,9 +305,12 @@ impl Arguments {
         }
         let engine = prepare(&found, terminal)?;
         if let Some(path) = &self.start {
-            let start = state_file::read(path, engine.info()).map_err(Error::Input)?;
-            responses = Responses::of(&self, &found, start.t)?;
-            job.start = Some(start);
+            let read = self.read_start(path, &found, &engine, &job)?;
+            for note in &read.notes {
+                terminal.note(note);
+            }
+            responses = Responses::of(&self, &found, read.start.t)?;
+            job.start = Some(read.start);
         }
         for caution in responses.cautions() {
             terminal.note(&format!("warning: {caution}"));
@@ -323,6 +328,7 @@ impl Arguments {
         let (mut recording, errors) = self.record(evaluated, &job, &found.model, terminal);
         engine.check()?;
         self.look_for_cause(&engine, &found.model, &job, &mut recording);
+        remark(&found, &job, &mut recording);
         if let Some(failure) = compiled.as_ref().and_then(RustcModel::failure) {
             return Err(Error::failed(failure.to_owned()));
         }
@@ -353,6 +359,22 @@ impl Arguments {
         terminal.end(printed, outcome)
     }
 
+    /// The state of `--start`, with what is to be said of it.
+    fn read_start(
+        &self,
+        path: &Path,
+        found: &Found,
+        engine: &Prepared,
+        job: &Job,
+    ) -> Result<state_file::Read, Error> {
+        let mut model = Family::over::<f64>(&**engine);
+        model.set_parameters(&values_of(&found.model, &job.parameters));
+        let mut own = vec![0.0; engine.info().state_length()];
+        model.initial_state(&mut own);
+        let end = self.duration.unwrap_or(found.model.run.duration);
+        state_file::read(path, engine.info(), &own, end).map_err(Error::Input)
+    }
+
     /// Looks for what made a run slow, or for a joint in a singular position.
     fn look_for_cause(&self, engine: &Engine, model: &Model, job: &Job, recording: &mut Recording) {
         match &recording.result {
@@ -363,9 +385,11 @@ impl Arguments {
                 if let (Some(fastest), Err(error)) = (fastest, &mut recording.result) {
                     error.cause = fastest.text();
                 }
+                look_for_right_angle(model, job, recording);
             }
             Err(error) if error.kind == ErrorKind::Run => {
                 look_for_singular_joint(model, job, recording);
+                look_for_right_angle(model, job, recording);
             }
             Err(_) => {}
         }

@@ -1,5 +1,8 @@
 //! `bryant settle`: a state of rest to start from.
 
+mod carrying;
+mod written;
+
 use super::Error;
 use super::model_argument::{Found, find};
 use super::outputs::{Outputs, Replacing, is_standard};
@@ -9,10 +12,10 @@ use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::report::with_forces;
 use crate::settling::{End, Settled, Wanted, settle};
-use crate::own::Kind;
-use crate::{files, interrupt, simulation, state_file};
+use crate::own::{self, Kind};
+use crate::{files, interrupt, quantity, simulation, state_file};
 use bryant_generator::model::{
-    Body, Component, ElementId, Model, Output, PointQuantity, Projection, Quantity,
+    Body, Component, ElementId, Model, Output, PointQuantity, Projection, Quantity, Reference,
 };
 use bryant_runtime::program::{Job, Start};
 use bryant_runtime::{Dynamics, Family, Info};
@@ -29,11 +32,12 @@ have the values that they took on the way to rest. Reference joints keep their v
 relative to them; angular velocities are not kept.
 
 In a state of rest every centre of gravity accelerates by at most 0.001 g, or as --residual says, and a slight push does not move the model away. If there is no such
-state, the exit code is 3 and nothing is written.
+state, or if a system rests further from its start than --distance, the exit code is 3 and nothing is written.
 
 Examples:
   bryant settle my.yaml -o rest.json
-  bryant run my.yaml --start rest.json")]
+  bryant run my.yaml --start rest.json
+  bryant settle my.yaml --yaml                       the same as `start:` of its systems, in the words of a model")]
 pub struct Arguments {
     /// Name of a bundled model, or path of a YAML or URDF file
     model: String,
@@ -49,6 +53,14 @@ pub struct Arguments {
     /// Acceleration that may remain in a state of rest, in parts of the acceleration of gravity
     #[arg(long, value_name = "SHARE", default_value_t = 1e-3, value_parser = share, allow_hyphen_values = true)]
     residual: f64,
+
+    /// How far the root of a free system may rest from where it starts, by its centre of gravity: who sits nearly right is moved by centimetres, and who slides off by metres
+    #[arg(long, value_name = "LENGTH", default_value = "0.3 m", value_parser = distance, allow_hyphen_values = true)]
+    distance: f64,
+
+    /// Write the systems' `start:` in the words of a model, instead of a state
+    #[arg(long)]
+    yaml: bool,
 
     /// Largest number of evaluations of the equations
     #[arg(long, value_name = "COUNT", default_value_t = 5_000_000, value_parser = clap::value_parser!(u64).range(1..))]
@@ -72,6 +84,21 @@ fn share(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A length, or off.
+fn distance(text: &str) -> Result<f64, String> {
+    match text {
+        "off" => Ok(f64::INFINITY),
+        text => match quantity::quantity(text, "m") {
+            Ok(length) if length > 0.0 => Ok(length),
+            Ok(_) => Err("give a length above 0, or off".to_owned()),
+            Err(error) => Err(format!("{error}, or off")),
+        },
+    }
+}
+
+/// A body that went this many times as far as it may before it rests will not come back.
+const LOST: f64 = 2.0;
+
 impl Arguments {
     /// Searches the state of rest and writes it.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
@@ -79,7 +106,11 @@ impl Arguments {
         found.tell(terminal);
         if let Some(path) = &self.output {
             let mut outputs = Outputs::of(&found.files, self.replacing);
-            outputs.take("--output", path, Kind::State)?;
+            let kind = match self.yaml {
+                true => Kind::Model,
+                false => Kind::State,
+            };
+            outputs.take("--output", path, kind)?;
         }
         let values = values_of(&found.model, &self.set_values(&found)?);
         let watched = Watched::new(&found.model);
@@ -99,12 +130,24 @@ impl Arguments {
             acceleration: self.residual * G,
             evaluations: self.evaluations,
         };
+        // the largest force of each law on the way
+        let mut carried: Vec<(String, f64)> = Vec::new();
         let settled = settle(
             &*model,
             0.0,
             &start,
             wanted,
-            &mut |state| watched.acceleration(&watched.outputs(&*model, state)).0,
+            &mut |state| {
+                let outputs = watched.outputs(&*model, state);
+                for (name, force) in watched.rests_on(&outputs) {
+                    match carried.iter_mut().find(|(one, _)| *one == name) {
+                        Some((_, most)) => *most = most.max(force),
+                        None => carried.push((name, force)),
+                    }
+                }
+                let near = watched.distance(&outputs, true).0 <= LOST * self.distance;
+                (watched.acceleration(&outputs).0, near)
+            },
             &mut |_, _| !interrupt::asked(),
         );
         drop(progress);
@@ -116,10 +159,16 @@ impl Arguments {
         }
         let outputs = watched.outputs(&*model, &settled.state);
         let (_, worst) = watched.acceleration(&outputs);
-        refuse(&settled, worst)?;
-        doubt(&engine, &self.set_values(&found)?, &settled)?;
-        self.write(&found, &settled, engine.info(), terminal)?;
         let rests = watched.rests_on(&outputs);
+        let found_at = Place {
+            farthest: watched.distance(&outputs, true),
+            allowed: self.distance,
+            reasons: carrying::reasons(&found.model, engine.info(), &settled.state, &carried),
+        };
+        refuse(&settled, worst, &found_at)?;
+        doubt(&engine, &self.set_values(&found)?, &settled)?;
+        self.write(&found, &values, &settled, engine.info(), terminal)?;
+        let farthest = watched.distance(&outputs, false);
         if self.json {
             let forces: Vec<_> = rests
                 .iter()
@@ -129,10 +178,12 @@ impl Arguments {
                 "acceleration": settled.acceleration,
                 "of": worst,
                 "stops": settled.stops,
+                "farthest_m": farthest.0,
+                "farthest_of": farthest.1,
                 "rests_on": forces,
             }));
         }
-        for line in text(&settled, worst, &rests).lines() {
+        for line in text(&settled, worst, farthest, &rests).lines() {
             match &self.output {
                 Some(path) if !is_standard(path) => terminal.print(&format!("{line}\n"))?,
                 // the state goes to standard output, so the line goes to standard error
@@ -149,11 +200,17 @@ impl Arguments {
     fn write(
         &self,
         found: &Found,
+        values: &[f64],
         settled: &Settled,
-        info: &Info,
+        info: &'static Info,
         terminal: &mut Terminal,
     ) -> Result<(), Error> {
-        let state = state_file::of_state(&found.model.name, info, 0.0, &settled.state);
+        let state = match self.yaml {
+            true => written::start(&found.model, info, values, &settled.state)
+                .map(|text| own::signed(&text))
+                .map_err(Error::failed)?,
+            false => state_file::of_state(&found.model.name, info, 0.0, &settled.state),
+        };
         match &self.output {
             Some(path) if !is_standard(path) => {
                 files::replace(path, |out| out.write_all(state.as_bytes())).map_err(Error::system)
@@ -199,18 +256,50 @@ fn doubt(engine: &Prepared, set: &[(String, f64)], settled: &Settled) -> Result<
     }
 }
 
+/// Where the search ended.
+struct Place<'a> {
+    /// How far the centre of gravity that went farthest is from its start \[m\], and its element.
+    farthest: (f64, &'a str),
+    /// How far it may be \[m\].
+    allowed: f64,
+    /// What is likely to be the reason.
+    reasons: Vec<String>,
+}
+
+impl Place<'_> {
+    /// The likely reasons as lines behind a message.
+    fn reasons(&self) -> String {
+        let lines = self.reasons.iter().map(|reason| format!("\n  {reason}"));
+        lines.collect()
+    }
+}
+
 /// The reason why there is no state of rest, if there is none.
-fn refuse(settled: &Settled, worst: &str) -> Result<(), Error> {
+fn refuse(settled: &Settled, worst: &str, place: &Place<'_>) -> Result<(), Error> {
     let g = settled.acceleration / G;
+    let (far, element) = place.farthest;
+    let allowed = place.allowed;
     match settled.end {
+        End::Rest if far > allowed => Err(Error::failed(format!(
+            "\"{element}\" rests {far:.2} m from its start: is this what you want?{}\n  \
+             help: look at where it lies (`bryant run` from a start without --start shows its way); --distance says how far it may go (here {allowed} m), or off",
+            place.reasons()
+        ))),
+        End::Lost => Err(Error::failed(format!(
+            "the model does not come to rest near its start: after {} stops \"{element}\" is {far:.2} m from there, and \"{worst}\" still has {g:.3} g{}\n  \
+             help: `bryant run` shows where it goes; let something hold it, or give a larger --distance (here {allowed} m), or off",
+            settled.stops,
+            place.reasons()
+        ))),
         End::Rest => Ok(()),
         End::Unstable => Err(Error::failed(
             "the model is in balance, but the balance is unstable: a slight push moves it away\n  help: let it start beside that place, or add something that holds it".to_owned(),
         )),
         End::Moving => Err(Error::failed(format!(
-            "the model does not come to rest: after {} stops the centre of gravity of \"{worst}\" still has {g:.3} g\n  \
+            "the model does not come to rest: after {} stops the centre of gravity of \"{worst}\" still has {g:.3} g, and \"{element}\" is {far:.2} m from its start{}\n  \
              help: look at what does not carry it (`bryant run` shows where it goes), or allow more --evaluations or --residual",
-            settled.stops
+            settled.stops,
+            place.reasons()
         ))),
         End::NotFinite => Err(Error::failed(
             "the numbers of the model are no longer finite on its way to rest\n  help: `bryant run` shows where it goes".to_owned(),
@@ -218,9 +307,14 @@ fn refuse(settled: &Settled, worst: &str) -> Result<(), Error> {
     }
 }
 
-fn text(settled: &Settled, worst: &str, rests: &[(String, f64)]) -> String {
+fn text(
+    settled: &Settled,
+    worst: &str,
+    (far, element): (f64, &str),
+    rests: &[(String, f64)],
+) -> String {
     let mut text = format!(
-        "rests after {} stops; the largest remaining acceleration is {:.1e} g, that of \"{worst}\"\n",
+        "rests after {} stops; the largest remaining acceleration is {:.1e} g, that of \"{worst}\"; farthest from its start is \"{element}\", {far:.3} m\n",
         settled.stops,
         settled.acceleration / G
     );
@@ -243,8 +337,10 @@ struct Watched {
     model: Model,
     /// Contacts, belts, springs and bushings by name, and the index of the first of three outputs of each.
     forces: Vec<(String, usize)>,
-    /// Elements by name, and the index of the output of the first.
+    /// Elements by name, and the index of the outputs of the first: its acceleration and how far it is from its start.
     elements: (usize, Vec<String>),
+    /// Whether each of them is the root of a system that is free.
+    roots: Vec<bool>,
 }
 
 impl Watched {
@@ -266,7 +362,7 @@ impl Watched {
         }
         let mut add = |name: String, body: Body, at: _, what: PointQuantity| {
             watched.outputs.push(Output {
-                name: format!("{name} at rest"),
+                name: format!("{name} at rest: {what:?}"),
                 quantity: Quantity::Point {
                     body,
                     at,
@@ -281,7 +377,7 @@ impl Watched {
             });
         };
         let first_element = own + 3 * forces.len();
-        let mut elements = Vec::new();
+        let (mut elements, mut roots) = (Vec::new(), Vec::new());
         for (s, system) in model.systems.iter().enumerate() {
             for (e, element) in system.elements.iter().enumerate() {
                 let id = ElementId {
@@ -289,19 +385,19 @@ impl Watched {
                     element: e,
                 };
                 let name = format!("{}/{}", system.name, element.name);
-                add(
-                    name.clone(),
-                    Body::Element(id),
-                    element.cg.clone(),
-                    PointQuantity::Acceleration,
-                );
+                for what in [PointQuantity::Acceleration, PointQuantity::Displacement] {
+                    add(name.clone(), Body::Element(id), element.cg.clone(), what);
+                }
                 elements.push(name);
+                let free = matches!(system.reference, Reference::Free);
+                roots.push(free && element.parent.is_none());
             }
         }
         Watched {
             model: watched,
             forces,
             elements: (first_element, elements),
+            roots,
         }
     }
 
@@ -315,7 +411,7 @@ impl Watched {
     fn acceleration(&self, outputs: &[f64]) -> (f64, &str) {
         let (first, names) = &self.elements;
         let mut worst = (0.0, names.first().map_or("", String::as_str));
-        for (value, name) in outputs[*first..].iter().zip(names) {
+        for (value, name) in outputs[*first..].iter().step_by(2).zip(names) {
             // NaN is not rest
             if value.is_nan() || *value > worst.0 {
                 worst = (
@@ -329,6 +425,20 @@ impl Watched {
             }
         }
         worst
+    }
+
+    /// How far the centre of gravity that went farthest is from its start \[m\], and the name of its element; of the roots of free systems alone,
+    /// because arms hang down and legs stretch, or of all elements.
+    fn distance(&self, outputs: &[f64], of_roots: bool) -> (f64, &str) {
+        let (first, names) = &self.elements;
+        let mut farthest = (0.0, names.first().map_or("", String::as_str));
+        let distances = outputs[*first..].iter().skip(1).step_by(2);
+        for ((value, name), root) in distances.zip(names).zip(&self.roots) {
+            if *value > farthest.0 && (*root || !of_roots) {
+                farthest = (*value, name);
+            }
+        }
+        farthest
     }
 
     /// Contacts, belts, springs and bushings that carry load, with their forces \[N\].

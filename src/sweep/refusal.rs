@@ -72,6 +72,10 @@ pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
             "the {} is compressed so far that its law is no longer valid",
             info.curves.get(curve)?.name
         ),
+        Doubt::Left(curve) if info.curves.get(curve)?.kind == CurveKind::Edge => format!(
+            "the edge of \"{}\" pushes harder than the surface: it fades over less than the depth of the body",
+            info.curves.get(curve)?.name
+        ),
         Doubt::Left(curve) => format!(
             "the argument of the curve \"{}\" is so far outside of its points that the value of the curve is arbitrary",
             info.curves.get(curve)?.name

@@ -14,6 +14,7 @@ mod long;
 mod people;
 mod pictures;
 mod polarity;
+mod remarks;
 mod reports;
 mod responses;
 mod resting;

@@ -153,12 +153,12 @@ fn a_state_that_is_not_one_of_the_model_is_refused() {
         (
             "kick.yaml",
             kick.replace("\"time\": 0.001", "\"time\": 1.0"),
-            "start is 1, but",
+            "state.json:3: the time of the state is 1 s, but",
         ),
         (
             "kick.yaml",
             kick.replace("\"time\": 0.001", "\"time\": -1e-3"),
-            "start is -0.001, but",
+            "state.json:3: the time of the state is -0.001 s, but",
         ),
         (
             "kick.yaml",

@@ -217,3 +217,133 @@ fn what_does_not_rest_is_said_and_nothing_is_written() {
         call(path, &["settle", "clock.yaml", option, wrong], 2);
     }
 }
+
+/// A body on a slope of 45°, held by friction by speed, or by friction that holds.
+const SLOPE: &str = "model: slope
+dimension: 2
+systems:
+  - name: box
+    elements: [{ name: body, mass: 5, cg: [0, 0], inertia: 0.02 }]
+    start: { position: [0, 0.14] }
+surfaces:
+  slope: { on: frame, at: [0, 0], normal: [1, 1] }
+forces:
+  - { field: earth, acceleration: [0, -9.81] }
+  - { contact: slope, ellipsoid: { on: box/body, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: slope, stiffness: 100 kN/m, damping: 500, FRICTION }
+run: { duration: 1 s, every: 0.1 s }
+";
+
+/// A body that slides off has no state of rest near its start: within few stops the search says so, with the contact that does not hold it.
+#[test]
+fn what_slides_away_is_said_with_what_does_not_hold_it() {
+    let directory = directory();
+    let path = directory.path();
+    let slides = SLOPE.replace("FRICTION", "friction: 2");
+    fs::write(path.join("slope.yaml"), &slides).unwrap();
+    let (_, error) = call(path, &["settle", "slope.yaml", "-o", "rest.json"], 3);
+    for said in [
+        "\"box/body\" is 0.6",
+        "from there",
+        "contact \"slope\"",
+        "friction by speed does not hold; give it `friction_displacement`",
+    ] {
+        assert!(error.contains(said), "{said}\n{error}");
+    }
+    // it slides into a trough 1 m away, where it would rest
+    let trough = slides.replace(
+        "run:",
+        "  - { contact: stop, ellipsoid: { on: box/body, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0.4, -0.4], normal: [-1, 1] }, stiffness: 100 kN/m, damping: 500 }\nrun:",
+    );
+    fs::write(path.join("slope.yaml"), &trough).unwrap();
+    let (_, error) = call(path, &["settle", "slope.yaml", "-o", "rest.json"], 3);
+    assert!(
+        error.contains("\"box/body\" rests 0.4") && error.contains("is this what you want?"),
+        "{error}"
+    );
+    assert!(!path.join("rest.json").exists());
+    let allowed = [
+        "settle",
+        "slope.yaml",
+        "-o",
+        "rest.json",
+        "--distance",
+        "1 m",
+    ];
+    let (told, _) = call(path, &allowed, 0);
+    assert!(
+        told.contains("farthest from its start is \"box/body\", 0.4"),
+        "{told}"
+    );
+    for wrong in ["0", "-1 m", "3 kg", "far"] {
+        call(path, &["settle", "slope.yaml", "--distance", wrong], 2);
+    }
+}
+
+/// A body that hangs in a reel sinks for ever, as long as no switch has locked it.
+#[test]
+fn what_hangs_in_an_open_reel_is_said() {
+    let directory = directory();
+    let path = directory.path();
+    let scene = format!(
+        "{BALL}  - {{ belt: strap, from: {{ on: frame, at: [0, 2] }}, to: {{ on: ball/body, at: [0, 0] }}, stiffness: 10 kN, retractor: {{ lock: crash, spool: 5 N }} }}
+switches: [{{ switch: crash, when: {{ time: 10 ms }} }}]
+run: {{ duration: 1 s, every: 0.1 s }}
+"
+    );
+    fs::write(path.join("reel.yaml"), scene).unwrap();
+    let (_, error) = call(path, &["settle", "reel.yaml", "-o", "rest.json"], 3);
+    assert!(
+        error.contains("belt \"strap\" (up to 5 N) hangs in a reel that is not locked"),
+        "{error}"
+    );
+}
+
+/// The start that `--yaml` writes, in the words of a model, is the state of rest.
+#[test]
+fn a_state_of_rest_becomes_the_start_of_a_model() {
+    let directory = directory();
+    let path = directory.path();
+    fs::write(path.join("sitter.yaml"), SITTER).unwrap();
+    call(path, &["settle", "sitter.yaml", "-o", "rest.json"], 0);
+    let by_state = first_row(path, "sitter.yaml");
+    call(
+        path,
+        &["settle", "sitter.yaml", "--yaml", "-o", "rest.yaml"],
+        0,
+    );
+    let start = fs::read_to_string(path.join("rest.yaml")).unwrap();
+    let start = start.split("    start:\n").nth(1).unwrap();
+    let seated = SITTER.replace(
+        "    start: { position: [0, 0.52], velocity: [10, 0], angles: { torso: -15 deg } }\n",
+        &format!("    start:\n{start}"),
+    );
+    assert_ne!(seated, SITTER);
+    fs::write(path.join("seated.yaml"), seated).unwrap();
+    let arguments = [
+        "run",
+        "seated.yaml",
+        "--csv",
+        "run.csv",
+        "--no-files",
+        "--no-verify",
+        "--duration",
+        "1 ms",
+        "--every",
+        "1 ms",
+    ];
+    call(path, &arguments, 0);
+    let table = fs::read_to_string(path.join("run.csv")).unwrap();
+    let row: Vec<f64> = table
+        .lines()
+        .nth(1)
+        .unwrap()
+        .split(',')
+        .map(|cell| cell.parse().unwrap())
+        .collect();
+    for ((name, by_state), by_start) in by_state.iter().zip(&row) {
+        assert!(
+            (by_state - by_start).abs() <= 1e-9 * by_state.abs().max(1.0),
+            "{name}: {by_state} {by_start}"
+        );
+    }
+}

@@ -45,10 +45,27 @@ const fn stop(damping: f64, between: [f64; 2], [stiffness, damping_of_stop]: [f6
     }
 }
 
-/// Laws of the joints of the spine: first about x and z, then about y. A positive angle about y leans forward.
-const SPINE: [(&str, [Law; 2]); 3] = [
-    ("abdomen", LUMBAR),
-    ("thorax", LUMBAR),
+/// How far the joints of the spine bend aside, and turn about the long axis, before a stop pushes back \[deg\], with its stiffness and damping. A healthy
+/// neck bends aside by 45° (clinical norm) to 63°, and turns by 73° to 100° (NASA-STD-3000, 95th percentile: from memory, unverified). Those of the
+/// lumbar spine and all stiffnesses are assumed: they end what no spine does, and keep the middle turn away from 90°.
+const NECK_ASIDE: Stop = ends(60.0);
+const NECK_TWIST: Stop = ends(90.0);
+const LUMBAR_ASIDE: Stop = ends(40.0);
+const LUMBAR_TWIST: Stop = ends(40.0);
+
+const fn ends(at: f64) -> Stop {
+    Stop {
+        between: [-at, at],
+        stiffness: 1500.0,
+        damping: 15.0,
+    }
+}
+
+/// Laws of the joints of the spine: first about x and z, then about y; then the stops about x and about z. A positive angle about y leans forward. The
+/// turn about y is the first of the three, because it is the widest; the middle one is the one about x.
+const SPINE: [(&str, [Law; 2], [Stop; 2]); 3] = [
+    ("abdomen", LUMBAR, [LUMBAR_ASIDE, LUMBAR_TWIST]),
+    ("thorax", LUMBAR, [LUMBAR_ASIDE, LUMBAR_TWIST]),
     (
         "head",
         [
@@ -64,6 +81,7 @@ const SPINE: [(&str, [Law; 2]); 3] = [
                 1.0,
             ),
         ],
+        [NECK_ASIDE, NECK_TWIST],
     ),
 ];
 const LUMBAR: [Law; 2] = [
@@ -160,17 +178,24 @@ impl Law {
         }
         keys.push(format!("damping: {}", short(factor * self.damping)));
         if let Some(stop) = &self.stop {
-            let [from, to] = stop.between;
-            let damping = match stop.damping {
-                0.0 => String::new(),
-                damping => format!(", damping: {}", short(factor * damping)),
-            };
-            keys.push(format!(
-                "stop: {{ from: {from} deg, to: {to} deg, stiffness: {}{damping} }}",
-                short(factor * stop.stiffness)
-            ));
+            keys.push(stop.key(factor));
         }
         keys.join(", ")
+    }
+}
+
+impl Stop {
+    /// The stop as a YAML key, with torques times a factor.
+    fn key(&self, factor: f64) -> String {
+        let [from, to] = self.between;
+        let damping = match self.damping {
+            0.0 => String::new(),
+            damping => format!(", damping: {}", short(factor * damping)),
+        };
+        format!(
+            "stop: {{ from: {from} deg, to: {to} deg, stiffness: {}{damping} }}",
+            short(factor * self.stiffness)
+        )
     }
 }
 
@@ -446,7 +471,7 @@ impl Scene<'_> {
 
     fn laws(&self, text: &mut String) {
         let name = self.written.name;
-        for (joint, of_people) in &SPINE {
+        for (joint, of_people, stops) in &SPINE {
             let ([aside, forward], factor) = match (&self.dummy, *joint) {
                 (None, _) => (of_people, self.factor),
                 (Some(dummy), "head") => (&DUMMY_NECK, dummy.neck / NECK),
@@ -464,10 +489,13 @@ impl Scene<'_> {
             let forward = format!("{neutral}{}", forward.keys(factor));
             let law = match self.written.planar {
                 true => forward,
-                false => format!(
-                    "about: {{ xz: {{ {} }}, y: {{ {forward} }} }}",
-                    aside.keys(factor)
-                ),
+                false => {
+                    let aside = aside.keys(factor);
+                    let [x, z] = stops.each_ref().map(|stop| stop.key(factor));
+                    format!(
+                        "about: {{ order: yxz, x: {{ {aside}, {x} }}, y: {{ {forward} }}, z: {{ {aside}, {z} }} }}"
+                    )
+                }
             };
             let _ = writeln!(text, "  - {{ joint: {name}/{joint}, {law} }}");
         }

@@ -125,6 +125,18 @@ impl Model {
         retain(&mut self.curves, &used);
     }
 
+    /// By switch, whether something waits for it or looks at it.
+    pub fn used_switches(&mut self) -> Vec<bool> {
+        let mut used = vec![false; self.switches.len()];
+        loop {
+            let before = used.clone();
+            for_each_switch(self, &before, &mut |switch| used[*switch] = true);
+            if used == before {
+                return used;
+            }
+        }
+    }
+
     /// Drops the parameters on which nothing depends; those left keep their order.
     fn keep_used_parameters(&mut self) {
         let mut used = vec![false; self.parameters.len()];
@@ -187,14 +199,7 @@ fn looked_at(model: &mut Model) -> impl Iterator<Item = &mut Quantity> {
 
 /// Drops the switches that nothing waits for; those left keep their order.
 fn keep_used_switches(model: &mut Model) {
-    let mut used = vec![false; model.switches.len()];
-    loop {
-        let before = used.clone();
-        for_each_switch(model, &before, &mut |switch| used[*switch] = true);
-        if used == before {
-            break;
-        }
-    }
+    let used = model.used_switches();
     let mut kept = 0;
     let new: Vec<usize> = used
         .iter()

@@ -472,6 +472,7 @@ fn of_switch(switch: &mut Switch) -> Vec<&mut Number> {
         name: _,
         trigger,
         after,
+        shown: _,
     } = switch;
     let mut numbers = Vec::new();
     numbers.extend(after);

@@ -4,7 +4,7 @@ use super::{Digested, Number, Quantity};
 use std::fmt;
 
 /// Something that fires once in a run and from then on has fired.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Switch {
     /// Name, unique among the switches.
     pub name: String,
@@ -12,6 +12,19 @@ pub struct Switch {
     pub trigger: Trigger,
     /// Time between its firing and its effect \[s\], not negative; none is 0.
     pub after: Option<Number>,
+    /// The unit in which its threshold is written, and its SI value.
+    pub shown: (String, f64),
+}
+
+/// The digest of a model is made of this, in which a unit leaves no trace.
+impl fmt::Debug for Switch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Switch")
+            .field("name", &self.name)
+            .field("trigger", &self.trigger)
+            .field("after", &self.after)
+            .finish()
+    }
 }
 
 /// What makes a switch fire.

@@ -224,6 +224,7 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
         let crate::equations::Watched::Curve(curve) = watched.what else {
             let range = match watched.what {
                 crate::equations::Watched::Volume => [0.0, 1.0 - LEAST_VOLUME],
+                crate::equations::Watched::Edge => [0.0, 1.0],
                 _ => BEARINGS,
             };
             return Watched {

@@ -398,6 +398,10 @@ fn execute<T: Real>(
     let doubts = watch.iter().flat_map(Watch::diagnostics);
     let doubts: Vec<Finding> = doubts.map(Finding::from).collect();
     let notes = watch.as_ref().map(finding::notes).unwrap_or_default();
+    let nearest = watch
+        .iter()
+        .flat_map(|watch| (0..info.event_functions.len()).filter_map(|index| watch.nearest(index)));
+    let nearest = nearest.collect();
     let result = match result {
         Ok(report) if stopped => Err(RunError::stopped(&report)),
         Ok(report) if late => Err(RunError::out_of_time(&report, patience.late())),
@@ -418,6 +422,7 @@ fn execute<T: Real>(
         kept,
         doubts,
         notes,
+        nearest,
         history: watch.as_mut().and_then(|watch| watch.history.take()),
         energy: watch.map(|watch| Energy::of(&watch.balance, info)),
     }
@@ -519,6 +524,8 @@ pub struct Outcome {
     pub doubts: Vec<Finding>,
     /// Notes that are no reason for doubt: curves that were left as far as they may be.
     pub notes: Vec<String>,
+    /// The smallest value of each event function, in the order of [`Info::event_functions`]; empty where nothing ran.
+    pub nearest: Vec<f64>,
 }
 
 /// The balance of energy of a run, in J.
@@ -573,6 +580,7 @@ impl Outcome {
             history: None,
             doubts: Vec::new(),
             notes: Vec::new(),
+            nearest: Vec::new(),
         }
     }
 }

@@ -119,6 +119,7 @@ impl Diagnostic {
         match self.problem {
             Problem::Step { .. } => "step",
             Problem::Curve { curve, .. } if self.is_volume(curve) => "volume",
+            Problem::Curve { curve, .. } if self.is_edge(curve) => "edge",
             Problem::Curve { .. } => "curve",
             Problem::Missed { .. } => "missed",
             Problem::Flexion { bearing } if self.is_bushing(bearing) => "bushing",
@@ -149,6 +150,12 @@ impl Diagnostic {
         curve.is_some_and(|curve| curve.kind == CurveKind::Volume)
     }
 
+    /// Whether an entry of [`Info::curves`] is the fading edge of a plane.
+    fn is_edge(&self, curve: usize) -> bool {
+        let curve = self.info.curves.get(curve);
+        curve.is_some_and(|curve| curve.kind == CurveKind::Edge)
+    }
+
     /// What the user can do about it.
     pub fn remedy(&self) -> &'static str {
         match self.problem {
@@ -157,6 +164,9 @@ impl Diagnostic {
             }
             Problem::Curve { curve, .. } if self.is_volume(curve) => {
                 "give the bag more gas, a smaller vent or more volume, or let a contact stop the bodies before"
+            }
+            Problem::Curve { curve, .. } if self.is_edge(curve) => {
+                "let the edge fade over the depth of the body, `edge: { rule: fade, width: … }`, or write `edge: { rule: cut }`; or give the plane more extent"
             }
             Problem::Curve { .. } => {
                 "give the curve points as far as it is used; or write `extrapolate: hold` where its last value is meant to go on"
@@ -168,7 +178,7 @@ impl Diagnostic {
                 "give it a stiffness about y that ends the rotation before 90°, or turn its frames so that the widest rotation is about x or z"
             }
             Problem::Flexion { bearing } if self.is_angles(bearing) => {
-                "end the rotation about y by stops within ±80°, or turn the frames so that the widest rotation is about x or z, or use `flexion` and `torsion`"
+                "end this rotation by stops within ±80°, or let another rotation be the middle one of the three (`about: { order: yxz, … }`), or use `flexion` and `torsion`"
             }
             Problem::Flexion { .. } => {
                 "let a stop or a stiffer curve end the bending before 180°, start the joint straighter, or give it laws `about` x, y, z"
@@ -308,6 +318,14 @@ impl fmt::Display for OutOfRange<'_> {
                 f,
                 "the {name} is compressed to less than {} % of its volume, where its law is no longer valid",
                 Short(left)
+            );
+        }
+        if curve.kind == CurveKind::Edge {
+            return write!(
+                f,
+                "the edge of \"{}\" pushes harder than the surface, up to {} times as hard: it fades over less than the depth of the body",
+                curve.name,
+                Short(*argument)
             );
         }
         let how = match curve.extrapolate {

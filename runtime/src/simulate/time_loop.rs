@@ -325,6 +325,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.event_functions
             .copy_from_slice(self.event_functions_ahead);
         if let Some(watch) = &mut self.watch {
+            watch.look_at_event_functions(self.event_functions_ahead);
             let spare = [&mut *self.inside, &mut *self.spare];
             watch.open(self.model, self.y, &self.settings, spare);
         }
@@ -419,6 +420,9 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         core::mem::swap(&mut self.event_functions_past, &mut self.event_functions);
         self.event_functions
             .copy_from_slice(self.event_functions_ahead);
+        if let Some(watch) = &mut self.watch {
+            watch.look_at_event_functions(self.event_functions_ahead);
+        }
         let latest = self.f.latest;
         let goes_on = self.begin(step, &reach, &landing, renewed)?;
         if let (Some(watch), Pace::Fixed(_)) = (&mut self.watch, self.settings.method.pace) {

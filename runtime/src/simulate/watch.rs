@@ -111,6 +111,8 @@ pub struct Watch<'a, T: Real> {
     within: Buffer<'a, T>,
     /// The powers of all effects, node by node of a step. The first node is the beginning of the step, the last is its end.
     powers: Buffer<'a, T>,
+    /// The smallest value of each event function at the ends of steps.
+    nearest: Buffer<'a, T>,
     /// The state at the start.
     start: Buffer<'a, T>,
     /// How far each entry of the state is from the solution in steps half as long.
@@ -177,7 +179,10 @@ impl<'a, T: Real> Watch<'a, T> {
 
     /// The number of scalars that the watch of a model keeps.
     pub const fn length(info: &Info) -> usize {
-        (1 + NODES) * info.powers.len() + 6 * info.curves.len() + 3 * info.state_length()
+        (1 + NODES) * info.powers.len()
+            + 6 * info.curves.len()
+            + 3 * info.state_length()
+            + info.event_functions.len()
     }
 
     /// A watch for one run. `memory` gives a buffer of the length that it is called with.
@@ -188,6 +193,8 @@ impl<'a, T: Real> Watch<'a, T> {
     ) -> Self {
         let (powers, curves) = (info.powers.len(), info.curves.len());
         let [mut since, mut farthest] = [memory(curves), memory(curves)];
+        let mut nearest = memory(info.event_functions.len());
+        nearest.fill(T::from_f64(f64::INFINITY));
         since.fill(T::from_f64(f64::NAN));
         farthest.fill(T::from_f64(f64::NAN));
         Watch {
@@ -206,6 +213,7 @@ impl<'a, T: Real> Watch<'a, T> {
             arguments: memory(curves),
             within: memory(3 * curves),
             powers: memory(NODES * powers),
+            nearest,
             start: memory(info.state_length()),
             error: memory(info.state_length()),
             rates: memory(info.state_length()),
@@ -229,7 +237,14 @@ impl<'a, T: Real> Watch<'a, T> {
 
     /// Whether the watched model has as many effects, curves and entries of the state as this one.
     pub(super) fn fits(&self, info: &Info) -> bool {
-        let lengths = |info: &Info| (info.powers.len(), info.curves.len(), info.state_length());
+        let lengths = |info: &Info| {
+            (
+                info.powers.len(),
+                info.curves.len(),
+                info.state_length(),
+                info.event_functions.len(),
+            )
+        };
         lengths(self.info) == lengths(info)
     }
 
@@ -258,7 +273,7 @@ impl<'a, T: Real> Watch<'a, T> {
                 return None;
             }
             let problem = match curve.kind {
-                CurveKind::Curve | CurveKind::Volume => return None,
+                CurveKind::Curve | CurveKind::Volume | CurveKind::Edge => return None,
                 CurveKind::Bearing => Problem::Flexion { bearing },
                 CurveKind::Direction(_) => Problem::Sunk { contact: bearing },
             };
@@ -286,6 +301,18 @@ impl<'a, T: Real> Watch<'a, T> {
     pub(super) fn step_over(&mut self, t: f64, onset: usize) {
         let (.., steps) = self.missed.get_or_insert((t, onset, 0));
         *steps += 1;
+    }
+
+    /// Takes up the event functions at the end of a step.
+    pub(super) fn look_at_event_functions(&mut self, values: &[T]) {
+        for (nearest, value) in self.nearest.iter_mut().zip(values) {
+            *nearest = nearest.min(*value);
+        }
+    }
+
+    /// The smallest value of an event function at the start and at the ends of steps; infinite before the run.
+    pub fn nearest(&self, event_function: usize) -> Option<f64> {
+        self.nearest.get(event_function).map(|value| value.to_f64())
     }
 
     /// The curves of the state whose arguments left their points.

@@ -171,6 +171,17 @@ impl<'g> AppliedForces<'g> {
         });
     }
 
+    /// Tells of the push of a fading edge over the elastic force of its plane, while that is not 0.
+    pub fn edge(&mut self, owner: &str, ratio: impl Fn() -> Expr<'g> + 'g, force: Expr<'g>) {
+        self.events.curves.push(CurveOfState {
+            name: owner.to_owned(),
+            what: equations::Watched::Edge,
+            idle: 0.0,
+            argument: Box::new(ratio),
+            acts: Some(force),
+        });
+    }
+
     /// Tells of the direction in which two ellipsoids push each other, of length 1, or shorter where it is not determined, so that a run in
     /// which it leaps says so.
     pub fn direction(&mut self, owner: &str, components: Vec<impl Fn() -> Expr<'g> + 'g>) {

@@ -148,7 +148,7 @@ pub(crate) fn contact(
         written.ellipsoid.degree.as_ref(),
         round.key("degree"),
     );
-    let (against, other) = against(resolver, written, degree, at);
+    let (mut against, other) = against(resolver, written, degree, at);
     if let (Some(first), Some(second)) = (&ellipsoid, &against) {
         check_bodies(resolver, &written.contact, first, second, other);
     }
@@ -188,6 +188,13 @@ pub(crate) fn contact(
     );
     let displacement = written.friction_displacement.as_ref();
     let bristle = resolver.bristle((limit, friction.is_some()), displacement, at, LENGTH);
+    if let (Some(first), Some(Against::Plane(flat)), Some(edge)) =
+        (&ellipsoid, &mut against, &written.plane)
+        && edge.edge.as_ref().is_none_or(|edge| edge.width.is_none())
+        && let Some(extent) = &mut flat.extent
+    {
+        fade_over_depth(resolver, extent, &first.semi_axes, elastic.as_ref());
+    }
     check_fading_edge(
         resolver,
         against.as_ref(),
@@ -280,6 +287,43 @@ fn check_bodies(
         format!("{both} of contact {} are on the same body", quoted(name)),
         "put them on two bodies; `frame` is the absolute frame",
     ));
+}
+
+/// Width over which a force fades at least at an edge, where none is given \[m\].
+pub(super) const EDGE_WIDTH: f64 = 10e-3;
+
+/// Gives a fading edge the width of the depth that is to be expected: the last point of the elastic curve, or the smallest semi-axis of the
+/// ellipsoid if that is less. The push E S'/width of the edge, S' ≤ 3/2, is then at most 3/4 of the force f of the surface up to this depth δ, if f
+/// does not bend down: its energy E is at most f δ/2.
+fn fade_over_depth(
+    resolver: &Resolver<'_>,
+    extent: &mut Extent,
+    semi_axes: &[Number; 3],
+    elastic: Option<&ScaledCurve>,
+) {
+    let EdgeRule::Fade(width) = &mut extent.rule else {
+        return;
+    };
+    let [x, y, z] = semi_axes.clone();
+    let mut depth = Number::smaller(x, z);
+    if !resolver.planar {
+        depth = Number::smaller(depth, y);
+    }
+    let Some(elastic) = elastic else {
+        // nothing is stored, and the edge does not push
+        return;
+    };
+    let curve = resolver.curves.get(elastic.curve).and_then(Option::as_ref);
+    if let Some(curve) = curve.map(|measured| &measured.curve)
+        && let (false, Some([last, _])) = (curve.is_proportional(), curve.points.last())
+    {
+        let last = Number::product(elastic.stretch.clone(), (*last).into());
+        depth = Number::smaller(depth, last);
+    }
+    let negative = |number| Number::negative(number);
+    let least = Number::smaller(negative(depth), negative(EDGE_WIDTH.into()));
+    let halves = extent.half_lengths.iter().cloned();
+    *width = halves.fold(negative(least), Number::smaller);
 }
 
 /// Reports an edge that fades where the force has no energy as a function of the penetration, or leaps.

@@ -1,14 +1,12 @@
 //! Planes that ellipsoids meet: their directions, and where they end.
 
+use super::check::EDGE_WIDTH;
 use super::keys::{EdgeRule as WrittenRule, Plane as Written};
 use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
 use crate::model::resolve::quantity::{LENGTH, PURE};
 use crate::model::resolve::{NOWHERE, Resolver};
 use crate::model::{Attachment, EdgeRule, Extent, Number, Plane};
-
-/// Width over which a force fades at an edge, where none is given \[m\].
-const EDGE_WIDTH: f64 = 10e-3;
 
 /// The checked form of a plane.
 pub(crate) fn plane(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Plane> {

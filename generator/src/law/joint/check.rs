@@ -2,13 +2,13 @@
 
 use super::keys::{
     Drive as WrittenDrive, Flexion, Joint as Written, Lock as WrittenLock, LongAxis,
-    Stop as WrittenStop, Torque,
+    Order as WrittenOrder, Stop as WrittenStop, Torque,
 };
 use crate::description::curve::Function;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::diagnostic::{nearest, quoted};
-use crate::model::part::Part;
+use crate::model::part::{AXES, Part};
 use crate::model::resolve::Resolver;
 use crate::model::resolve::hysteresis::Unloading;
 use crate::model::resolve::quantity::{
@@ -19,6 +19,7 @@ use crate::model::{
     Bristle, ElementId, FieldComponent, ForceKind, Freedom as KinematicFreedom, Friction,
     Hysteresis, Joint as KinematicJoint, Number, ScaledCurve,
 };
+use std::fmt;
 
 /// Speed at which joint friction is fully there, where none is given \[rad/s\].
 const FRICTION_SPEED: f64 = 0.1;
@@ -148,15 +149,56 @@ impl<'w> Law<'w> {
 }
 
 /// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Joint {
     /// The element outboard of the joint.
     pub child: ElementId,
-    /// Laws about the first, second, third Bryant angle of the relative rotation A_parentᵀ A_child.
+    /// Laws about the axes x, y, z of the relative rotation A_parentᵀ A_child.
     /// In the plane only the second is used, its angle being φ_child − φ_parent.
     pub about: [JointTorque; 3],
+    /// The order of the turns whose angles these are, in space.
+    pub order: Order,
     /// Flexion and torsion, in space.
     pub bending: Option<Box<Bending>>,
+}
+
+/// The digest of a model is made of this: the usual order is not named.
+impl fmt::Debug for Joint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut text = f.debug_struct("Joint");
+        text.field("child", &self.child).field("about", &self.about);
+        if self.order != Order::default() {
+            text.field("order", &self.order);
+        }
+        text.field("bending", &self.bending).finish()
+    }
+}
+
+/// The axes of three turns one after the other, which make a relative rotation: the first is an axis of the carrier, the third one of the
+/// element. 0 is x, 1 is y, 2 is z; each stands there once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Order(pub [usize; 3]);
+
+/// x, y, z: Bryant angles.
+impl Default for Order {
+    fn default() -> Self {
+        Order([0, 1, 2])
+    }
+}
+
+impl Order {
+    /// 1 where the axes are a right-handed system in this order, −1 where they are not.
+    pub fn hand(self) -> f64 {
+        match (self.0[1] + 3 - self.0[0]) % 3 {
+            1 => 1.0,
+            _ => -1.0,
+        }
+    }
+
+    /// The name of the middle axis.
+    pub fn middle(self) -> &'static str {
+        AXES[self.0[1]]
+    }
 }
 
 /// Torque or force of one freedom of the joint that carries `child`, on its own coordinate.
@@ -291,6 +333,7 @@ pub(crate) fn joint(
     Some(ForceKind::from(Joint {
         child: child?,
         about,
+        order: order(written),
         bending: bending.map(Box::new),
     }))
 }
@@ -339,6 +382,19 @@ fn about_axes(
         }
     }
     about
+}
+
+/// The order of the turns, the usual one where none is written.
+fn order(written: &Written) -> Order {
+    let order = written.about.as_ref().and_then(|about| about.order);
+    Order(match order {
+        None | Some(WrittenOrder::Xyz) => [0, 1, 2],
+        Some(WrittenOrder::Xzy) => [0, 2, 1],
+        Some(WrittenOrder::Yxz) => [1, 0, 2],
+        Some(WrittenOrder::Yzx) => [1, 2, 0],
+        Some(WrittenOrder::Zxy) => [2, 0, 1],
+        Some(WrittenOrder::Zyx) => [2, 1, 0],
+    })
 }
 
 /// The keys of a ball joint in space that are written.

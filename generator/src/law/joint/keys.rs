@@ -75,6 +75,24 @@ words! {
     }
 }
 
+words! {
+    /// In which order the element turns about its axes: the first is an axis of the carrier, the third one of the element.
+    Order {
+        /// x, then y, then z: Bryant angles.
+        Xyz = "xyz",
+        /// x, then z, then y.
+        Xzy = "xzy",
+        /// y, then x, then z.
+        Yxz = "yxz",
+        /// y, then z, then x.
+        Yzx = "yzx",
+        /// z, then x, then y.
+        Zxy = "zxy",
+        /// z, then y, then x.
+        Zyx = "zyx",
+    }
+}
+
 record! {
     /// Laws per relative Bryant angle.
     About as "the rotations of a joint" {
@@ -92,6 +110,8 @@ record! {
         yz: Option<Torque>,
         /// The same about all three.
         xyz: Option<Torque>,
+        /// The order of the three turns; the middle one must stay below 90°.
+        order: Option<Order>,
     }
 }
 

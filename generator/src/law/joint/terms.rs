@@ -1,6 +1,6 @@
 //! The terms of laws in a joint: of each rotation, of flexion and torsion, of a freedom.
 
-use super::check::{Bending, Drive, Freedom, Joint, JointTorque, Lock, Stop};
+use super::check::{Bending, Drive, Freedom, Joint, JointTorque, Lock, Order, Stop};
 use crate::law::Terms;
 use crate::model::part::{AXES, Field, Fresh, Part, Term, as_written};
 use crate::model::requirement::{Curves, List};
@@ -21,6 +21,7 @@ impl Terms for Joint {
         let Joint {
             child,
             about,
+            order: _,
             bending,
         } = self;
         fields.push(Field::Body(Body::Element(*child)));
@@ -86,6 +87,7 @@ impl Terms for Joint {
     fn flatten(&mut self) -> bool {
         self.about[0] = JointTorque::default();
         self.about[2] = JointTorque::default();
+        self.order = Order::default();
         true
     }
 }

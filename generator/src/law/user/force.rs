@@ -21,9 +21,9 @@ use crate::dynamics::time;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, UserCall};
 use crate::law::belt::force as belt;
-use crate::law::joint::JointMeasures;
 use crate::law::joint::force as joint;
 use crate::law::joint::force::Rotation;
+use crate::law::joint::{JointMeasures, Order};
 use crate::law::{Equations, Measures, Setting};
 use crate::model::{Body, Dimension, ElementId, FieldComponent, User, UserFreedom, UserLine};
 
@@ -261,7 +261,9 @@ impl<'g> JointMotion<'g> {
                 direction: Vec3::zero(graph),
                 unit: "rad",
             },
-            Dimension::Space => joint::in_space(graph, motion, element, parent, i),
+            Dimension::Space => {
+                joint::in_space(graph, motion, element, parent, (Order::default(), i))
+            }
         };
         JointMotion {
             parent,

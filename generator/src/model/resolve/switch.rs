@@ -8,6 +8,7 @@ use crate::description::expression::{Kind, parse};
 use crate::description::load::Loaded;
 use crate::description::output::Output as Looked;
 use crate::description::place::At;
+use crate::description::quantity::Quantity;
 use crate::description::short::Each;
 use crate::description::switch::{Switch as Written, Trigger as WrittenTrigger};
 use crate::description::unit::Dimension;
@@ -82,17 +83,23 @@ pub(super) fn active(
 /// The checked form of a switch.
 fn switch(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Switch> {
     let after = resolver.coefficient(written.after.as_ref(), at.key("after"), TIME);
+    let (trigger, shown) = trigger(resolver, &written.when, at.key("when"))?;
     let switch = Switch {
         name: written.switch.clone(),
-        trigger: trigger(resolver, &written.when, at.key("when"))?,
+        trigger,
         after,
+        shown,
     };
     resolver.judge(switch.requirements(), at);
     Some(switch)
 }
 
-/// What makes a switch fire: a time, or a quantity and its threshold.
-fn trigger(resolver: &Resolver<'_>, written: &WrittenTrigger, at: At<'_>) -> Option<Trigger> {
+/// What makes a switch fire: a time, or a quantity and its threshold; and the unit that this is written in, with its SI value.
+fn trigger(
+    resolver: &Resolver<'_>,
+    written: &WrittenTrigger,
+    at: At<'_>,
+) -> Option<(Trigger, (String, f64))> {
     const HELP: &str = "write `{ time: 10 ms }`, or `{ of: man/head, what: displacement, component: x, above: 0.1 }` with a quantity as in an output";
     if let Some(time) = &written.time {
         for key in OF_QUANTITY {
@@ -103,7 +110,8 @@ fn trigger(resolver: &Resolver<'_>, written: &WrittenTrigger, at: At<'_>) -> Opt
                 ));
             }
         }
-        return Some(Trigger::Time(resolver.number(time, at.key("time"), TIME)));
+        let time = Trigger::Time(resolver.number(time, at.key("time"), TIME));
+        return Some((time, ("s".to_owned(), 1.0)));
     }
     let (Some(of), Some(what)) = (&written.of, &written.what) else {
         resolver
@@ -153,11 +161,28 @@ fn trigger(resolver: &Resolver<'_>, written: &WrittenTrigger, at: At<'_>) -> Opt
         name: "a threshold",
         dimension: dimension_of(unit),
     };
+    let shown = written_in(threshold).unwrap_or((unit.to_owned(), 1.0));
     let threshold = resolver.number(threshold, at.key(key), expected);
-    Some(match key {
+    let trigger = match key {
         "above" => Trigger::Above(quantity, threshold),
         _ => Trigger::Below(quantity, threshold),
-    })
+    };
+    Some((trigger, shown))
+}
+
+/// The unit of a number with its unit, and its SI value.
+fn written_in(quantity: &Quantity) -> Option<(String, f64)> {
+    let Quantity::Text(text) = quantity else {
+        return None;
+    };
+    let Ok(Kind::Quantity(_, unit)) = parse(text).map(|expression| expression.kind) else {
+        return None;
+    };
+    let number = |c: char| c.is_ascii_digit() || ".+-eE ".contains(c);
+    Some((
+        text.trim_start_matches(number).trim().to_owned(),
+        unit.factor,
+    ))
 }
 
 /// The dimension of a unit as outputs name it, "" for a pure number.

@@ -350,6 +350,7 @@ pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
             crate::equations::Watched::Curve(_) => quote!(CurveKind::Curve),
             crate::equations::Watched::Bearing => quote!(CurveKind::Bearing),
             crate::equations::Watched::Volume => quote!(CurveKind::Volume),
+            crate::equations::Watched::Edge => quote!(CurveKind::Edge),
             crate::equations::Watched::Direction(i) => {
                 let i = Literal::u8_unsuffixed(*i);
                 quote!(CurveKind::Direction(#i))

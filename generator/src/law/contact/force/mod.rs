@@ -21,7 +21,7 @@ use crate::dynamics::force::switch::Gate;
 use crate::dynamics::force::{Acts, AppliedForces, Motion, Product, choose, point_on};
 use crate::dynamics::numbers::{curve, derivative, number, vector};
 use crate::expression::vector::Vec3;
-use crate::expression::{Expr, Function, Graph};
+use crate::expression::{Expr, Function, Graph, sum};
 use crate::law::{Equations, Measures, Setting};
 use crate::model::{Against, Contact, Dimension, EdgeRule, Plane};
 use friction::{Rubbing, friction};
@@ -116,6 +116,7 @@ fn apply<'g>(
     }
     let Pressed {
         force: mut pressure,
+        elastic,
         mut stored,
         permanent_set,
     } = pressed(graph, applied, &owner, gate, contact, &touch);
@@ -175,6 +176,14 @@ fn apply<'g>(
             first.omega - second.omega,
         ];
         let stored = gate.of(stored);
+        let slopes = weight.slopes.clone();
+        let steep = move || sum(graph, slopes.iter().map(|slope| slope.squared())).sqrt();
+        let surface = gate.of(elastic);
+        applied.edge(
+            &owner,
+            move || stored * steep() / surface.max(graph.constant(f64::MIN_POSITIVE)),
+            surface,
+        );
         let push = push_of_edge(contact, applied, &owner, weight, stored, &touch, relative);
         on_first = force + push;
         resultant = on_first.squared().sqrt();
@@ -249,6 +258,8 @@ pub(crate) fn begins<'g>(
 struct Pressed<'g> {
     /// Normal force \[N\].
     force: Expr<'g>,
+    /// The elastic part of it while the bodies touch \[N\].
+    elastic: Expr<'g>,
     /// Energy that can be had back \[J\], where an edge asks for it.
     stored: Expr<'g>,
     /// Penetration at which unloading would end \[m\].
@@ -317,6 +328,7 @@ fn pressed<'g>(
     };
     Pressed {
         force,
+        elastic: choose(zero, penetration, elastic, zero),
         stored,
         permanent_set,
     }

@@ -9,7 +9,8 @@
 //! M = Σ Q_i n_i,   n₂ = (e₃ × e₁)/c,   n₁ = (e₁ − s e₃)/c²,   n₃ = (e₃ − s e₁)/c²,   s = sin θ₂ = e₁·e₃,   c² = 1 − s²
 //!
 //! and by the same vectors θ̇_i = n_i · (ω_child − ω_parent). At θ₂ = ±90° the angles are undefined; c² is kept ≥ 1e-12, so
-//! that forces stay finite there, and a run that goes through it says so by the [bearing](bryant_bearing). [Flexion and torsion](bending) are two more such coordinates, in space.
+//! that forces stay finite there, and a run that goes through it says so by the [bearing](bryant_bearing). Another [Order] of the turns is
+//! the same in other axes (a, b, ±c), right-handed: the angle about −c is that about c with the opposite sign, and so is its n. [Flexion and torsion](bending) are two more such coordinates, in space.
 //!
 //! At a depth δ > 0 behind a stop, N = max(0, k δ + d min(δ/fade, 1) δ̇) pushes back; a lock pulls with −k (θ − θ_l) − d θ̇ to the
 //! angle θ_l that there was when its switch began to act, which is remembered. [Friction](sticking), [motors and drives](drive), and
@@ -19,7 +20,7 @@ mod bending;
 mod drive;
 mod sticking;
 
-use super::check::{Freedom, Joint};
+use super::check::{Freedom, Joint, Order};
 use super::outputs::{AboutRotations, JointMeasures};
 use crate::dynamics::force::fade::faded;
 use crate::dynamics::force::hysteresis;
@@ -31,6 +32,7 @@ use crate::equations::NO_BEARING;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, sum};
 use crate::law::{Asked, Equations, Measures, Setting};
+use crate::model::part::AXES;
 use crate::model::{
     Body, Dimension, ElementId, JointQuantity, JointTorque, Lock, Model, Quantity, Reference,
     ScaledCurve, Stop,
@@ -104,7 +106,7 @@ fn apply<'g>(
         }
         let rotation = match model.dimension {
             Dimension::Plane => in_plane(graph, motion, child, parent),
-            Dimension::Space => in_space(graph, motion, child, parent, i),
+            Dimension::Space => in_space(graph, motion, child, parent, (joint.order, i)),
         };
         let about = match model.dimension {
             Dimension::Plane => owner.clone(),
@@ -134,11 +136,14 @@ fn apply<'g>(
             measures[4] = Some(measured);
         }
     }
-    if model.dimension == Dimension::Space && needs_angles(&joint.about) {
+    if model.dimension == Dimension::Space && needs_angles(&joint.about, joint.order) {
         let axes = [motion.body(parent), motion.element(child)].map(|body| body.rotation);
-        applied.bearing(&format!("{owner} about x, y and z"), move || {
-            let [inboard, outboard] = &axes;
-            bryant_bearing(graph, [inboard, outboard])
+        let (order, names) = (joint.order, joint.order.0.map(|axis| AXES[axis]));
+        let [first, middle, last] = names;
+        let name = format!("{owner} about {first}, {middle} and {last}");
+        applied.bearing(&name, move || {
+            let [inboard, outboard] = axes.map(|axes| ordered(axes, order));
+            bryant_bearing(graph, [&inboard, &outboard])
         });
     }
     if gate.waits() {
@@ -156,9 +161,10 @@ fn apply<'g>(
     measures
 }
 
-/// Whether laws about x, y and z mean something else behind θ₂ = ±90°. There n₂ turns round, but the moment −d (n₂·ω) n₂ of damping about y, or of
-/// friction that does not hold, is the same for n₂ and −n₂.
-fn needs_angles([x, y, z]: &[JointTorque; 3]) -> bool {
+/// Whether laws about x, y and z mean something else behind θ₂ = ±90°. There n₂ turns round, but the moment −d (n₂·ω) n₂ of damping about the
+/// middle axis, or of friction that does not hold, is the same for n₂ and −n₂.
+fn needs_angles(about: &[JointTorque; 3], order: Order) -> bool {
+    let [x, y, z] = order.0.map(|axis| &about[axis]);
     let none = JointTorque::default();
     let (damping, friction) = (y.damping.clone(), y.friction.clone());
     let resists = JointTorque {
@@ -461,22 +467,34 @@ pub fn in_plane<'g>(
     }
 }
 
-/// θ_i, θ̇_i and n_i.
+/// θ_i, θ̇_i and n_i of the turn about the axis i, of turns in an order.
 pub fn in_space<'g>(
     graph: &'g Graph,
     motion: &Motion<'g>,
     child: ElementId,
     parent: Body,
-    i: usize,
+    (order, i): (Order, usize),
 ) -> Rotation<'g> {
     let (inboard, outboard) = (motion.body(parent), motion.element(child));
-    let (angle, direction) = bryant(graph, [&inboard.rotation, &outboard.rotation], i);
+    let axes = [inboard.rotation, outboard.rotation].map(|axes| ordered(axes, order));
+    let turn = order.0.iter().position(|axis| *axis == i).unwrap_or(i);
+    let (mut angle, mut direction) = bryant(graph, [&axes[0], &axes[1]], turn);
+    if turn == 2 && order.hand() < 0.0 {
+        (angle, direction) = (-angle, -direction);
+    }
     Rotation {
         angle,
         rate: direction.dot(outboard.omega - inboard.omega),
         direction,
         unit: "rad",
     }
+}
+
+/// The axes of a body in the order of the turns, the third one reversed where they would be left-handed.
+fn ordered<'g>(axes: Mat3<'g>, order: Order) -> Mat3<'g> {
+    let [first, middle, last] = order.0.map(|axis| axes.column(axis));
+    let last = if order.hand() < 0.0 { -last } else { last };
+    Mat3::from_columns([first, middle, last])
 }
 
 /// The first angle \[rad\] where the second is beyond ±60°, elsewhere [`NO_BEARING`]. It leaps by half a turn where the second angle goes through ±90°.

@@ -1,0 +1,386 @@
+//! Words about the start of a run that is likely to be a mistake, and about what a model declares in vain.
+//!
+//! Each is something that is so, said with numbers; whether it is meant, the user knows.
+
+use crate::pose::{Numbers, Pose, Vec3, dot};
+use bryant_generator::model::{
+    Active, Against, Body, Contact, Dimension, ElementId, Force, ForceKind, Model, Reference,
+    Scene, Trigger,
+};
+
+/// Where a run starts.
+pub struct Start<'a> {
+    /// The model, as it is run.
+    pub model: &'a Model,
+    /// The values of its parameters.
+    pub parameters: &'a [f64],
+    /// The positions of its bodies.
+    pub pose: Pose,
+    /// The positions of its vehicles a moment [`LATER`] \[s\].
+    pub later: Pose,
+    /// By system, the velocity of its reference joint, where that is free \[m/s\].
+    pub velocities: Vec<Option<Vec3>>,
+    /// Whether these are of a state that was read, and not those of the model.
+    pub is_read: bool,
+}
+
+/// The moment by which the velocities of vehicles are told \[s\].
+pub const LATER: f64 = 1e-6;
+/// A difference of velocities below this is none \[m/s\].
+const SLOW: f64 = 1.0;
+/// A body that touches what moves by less than this may be meant to, such as a parcel on a conveyor \[m/s\].
+const CONVEYED: f64 = 5.0;
+
+/// A centre that is behind a plane by less than this share of its ellipsoid is on it.
+const ROUNDING: f64 = 1e-6;
+
+impl<'a> Start<'a> {
+    /// The start of a model at its own initial state; `None` if it has none with these parameters.
+    pub fn of_model(model: &'a Model, parameters: &'a [f64]) -> Option<Self> {
+        let numbers = Numbers { model, parameters };
+        let velocities = model.systems.iter().map(|system| {
+            matches!(system.reference, Reference::Free).then(|| numbers.vector(&system.velocity))
+        });
+        Some(Start {
+            model,
+            parameters,
+            pose: Pose::at_start(model, parameters, 0.0)?,
+            later: Pose::at_start(model, parameters, LATER)?,
+            velocities: velocities.collect(),
+            is_read: false,
+        })
+    }
+
+    /// All words about it, each a sentence with a remedy. `scene` says what was written.
+    pub fn cautions(&self, scene: &Scene) -> Vec<String> {
+        let mut all = self.left_behind(scene);
+        all.extend(self.behind_planes());
+        all.extend(weightless(self.model));
+        all
+    }
+
+    /// The velocity of a vehicle at the place of a system's root \[m/s\].
+    fn vehicle_velocity(&self, vehicle: usize, at: Vec3) -> Vec3 {
+        let [now, later] = [&self.pose, &self.later].map(|pose| pose.body(Body::Vehicle(vehicle)));
+        let from: Vec3 = std::array::from_fn(|i| at[i] - now.origin[i]);
+        let local = std::array::from_fn(|j| (0..3).map(|i| now.rotation[i][j] * from[i]).sum());
+        let moved = later.point(local);
+        std::array::from_fn(|i| (moved[i] - at[i]) / LATER)
+    }
+
+    /// Systems that rest beside something that moves with a vehicle and that holds them.
+    fn left_behind(&self, scene: &Scene) -> Vec<String> {
+        let mut all = Vec::new();
+        for (index, system) in self.model.systems.iter().enumerate() {
+            let Some(own) = self.velocities[index] else {
+                continue;
+            };
+            let written = scene
+                .places
+                .get(&format!("system {}", system.name), "start.velocity");
+            let rests = length(own) == 0.0 && written.is_none();
+            if !(self.is_read || rests) {
+                continue;
+            }
+            let root = self.pose.frame(ElementId {
+                system: index,
+                element: 0,
+            });
+            let found = self.model.forces.iter().find_map(|force| {
+                let (vehicle, least) = self.held_by(force, index)?;
+                let speed = self.vehicle_velocity(vehicle, root.origin);
+                let apart: Vec3 = std::array::from_fn(|i| speed[i] - own[i]);
+                (length(apart) >= least).then_some((force, vehicle, speed))
+            });
+            if let Some((force, vehicle, speed)) = found {
+                let (name, vehicle) = (&system.name, &self.model.vehicles[vehicle].name);
+                let (kind, tie) = (force.kind.key(), &force.name);
+                let (own, fast) = (rounded(length(own)), rounded(length(speed)));
+                let remedy = match self.is_read {
+                    true => {
+                        "let the state be one of a scene in which the vehicle is as fast".to_owned()
+                    }
+                    false => format!(
+                        "give the system `start: {{ velocity: {} }}`; `velocity: {}` says that it rests",
+                        self.components(speed),
+                        self.components([0.0; 3])
+                    ),
+                };
+                all.push(format!(
+                    "\"{name}\" starts at {own} m/s, but \"{vehicle}\", to which its {kind} \"{tie}\" leads, at {fast} m/s\n  help: {remedy}"
+                ));
+            }
+        }
+        all
+    }
+
+    /// The vehicle to which a force leads from a system, and by how much their velocities must differ to be worth a word \[m/s\].
+    fn held_by(&self, force: &Force, system: usize) -> Option<(usize, f64)> {
+        let least = match &force.kind {
+            ForceKind::Belt(_) | ForceKind::Spring(_) | ForceKind::Bushing(_) => SLOW,
+            ForceKind::Contact(contact) if self.touches(contact, force.active) => CONVEYED,
+            _ => return None,
+        };
+        let mut kind = force.kind.clone();
+        let bodies: Vec<Body> = kind.bodies_mut().into_iter().map(|body| *body).collect();
+        let belongs = |body: &Body| matches!(body, Body::Element(id) if id.system == system);
+        let vehicle = bodies.iter().find_map(|body| match body {
+            Body::Vehicle(vehicle) => Some(*vehicle),
+            _ => None,
+        });
+        bodies.iter().any(belongs).then_some((vehicle?, least))
+    }
+
+    /// Whether an ellipsoid lies on a plane, over it and by less than its semi-axes deep.
+    fn touches(&self, contact: &Contact, active: Active) -> bool {
+        let place = self.place(contact, active);
+        place.is_some_and(|(height, reach)| 0.0 < height && height < reach)
+    }
+
+    /// The height of the centre of an ellipsoid over a plane that acts at the start, and how far the ellipsoid reaches towards it \[m\]; `None` beside
+    /// the plane, and of two ellipsoids.
+    fn place(&self, contact: &Contact, active: Active) -> Option<(f64, f64)> {
+        let Against::Plane(plane) = &contact.against else {
+            return None;
+        };
+        if active.since.is_some() || contact.elastic.is_none() {
+            return None;
+        }
+        let numbers = Numbers {
+            model: self.model,
+            parameters: self.parameters,
+        };
+        let [centre, origin] =
+            [&contact.ellipsoid, &plane.at].map(|place| self.pose.point(&numbers, place));
+        let body = self.pose.body(plane.at.on);
+        let local = numbers.vector(&plane.normal);
+        let normal = body.direction(local);
+        let from: Vec3 = std::array::from_fn(|i| centre[i] - origin[i]);
+        if let Some(extent) = &plane.extent {
+            let tangents = match self.model.dimension {
+                Dimension::Plane => vec![[normal[2], 0.0, -normal[0]]],
+                Dimension::Space => {
+                    let first = body.direction(numbers.vector(&plane.tangent));
+                    vec![first, cross(normal, first)]
+                }
+            };
+            let mut inside = tangents.iter().zip(&extent.half_lengths);
+            if inside.any(|(tangent, half)| dot(*tangent, from).abs() >= numbers.value(half)) {
+                return None;
+            }
+        }
+        let semi_axes = numbers.vector(&contact.semi_axes);
+        let used = match self.model.dimension {
+            Dimension::Plane => &[0, 2][..],
+            Dimension::Space => &[0, 1, 2][..],
+        };
+        let reach = used.iter().fold(0.0f64, |most, i| most.max(semi_axes[*i]));
+        Some((dot(normal, from), reach))
+    }
+
+    /// Ellipsoids whose centre is behind the plane that they meet.
+    fn behind_planes(&self) -> Vec<String> {
+        let found = self.model.forces.iter().filter_map(|force| {
+            let ForceKind::Contact(contact) = &force.kind else {
+                return None;
+            };
+            let (height, reach) = self.place(contact, force.active)?;
+            (height < -ROUNDING * reach).then(|| {
+                let body = name_of(self.model, contact.ellipsoid.on);
+                format!(
+                    "contact \"{}\" begins with {body} on the wrong side: the centre of its ellipsoid is {} m behind the plane, which pushes from there with all its force\n  \
+                     help: the normal points to the side where the body belongs; turn it round, or move the body or the plane",
+                    force.name,
+                    rounded(-height)
+                )
+            })
+        });
+        found.collect()
+    }
+
+    /// The components of a velocity as a model writes them.
+    fn components(&self, [x, y, z]: Vec3) -> String {
+        let [x, y, z] = [x, y, z].map(|v| rounded(v).to_string());
+        match self.model.dimension {
+            Dimension::Plane => format!("[{x}, {z}]"),
+            Dimension::Space => format!("[{x}, {y}, {z}]"),
+        }
+    }
+}
+
+/// A model without any field, in which something lies, hangs or is caught: in most of these scenes gravity was forgotten.
+fn weightless(model: &Model) -> Option<String> {
+    let field = |force: &Force| matches!(force.kind, ForceKind::Field(_) | ForceKind::User(_));
+    let holds = |force: &Force| {
+        matches!(
+            force.kind,
+            ForceKind::Contact(_) | ForceKind::Belt(_) | ForceKind::Airbag(_)
+        )
+    };
+    let any = model.forces.iter().any(field);
+    (!any && model.forces.iter().any(holds)).then(|| {
+        let down = match model.dimension {
+            Dimension::Plane => "[0, -1 gn]",
+            Dimension::Space => "[0, 0, -1 gn]",
+        };
+        format!(
+            "no field acts, so nothing has weight\n  help: gravity is a force of its own: `- {{ field: gravity, acceleration: {down} }}`"
+        )
+    })
+}
+
+/// What the file of a model declares and nothing mentions; what it includes may be a collection.
+pub fn unused(scene: &Scene) -> Vec<String> {
+    let mut written = scene.written.clone();
+    let mut used = vec![false; written.curves.len()];
+    for curve in written.curve_uses_mut() {
+        used[curve.curve] = true;
+    }
+    let curves = written.curves.iter().zip(used);
+    let curves = curves
+        .filter(|(_, used)| !used)
+        .map(|(curve, _)| &curve.name);
+    let mut mentioned = vec![false; written.parameters.len()];
+    let mut written = scene.written.clone();
+    for number in written.numbers_mut() {
+        number.for_each_parameter(&mut |index| mentioned[index] = true);
+    }
+    let parameters = scene.written.parameters.iter().zip(mentioned);
+    let parameters = parameters.filter(|(_, used)| !used).map(|(p, _)| &p.name);
+    let declared = curves
+        .map(|name| ("curve", name))
+        .chain(parameters.map(|name| ("parameter", name)));
+    let own = scene
+        .read
+        .first()
+        .map(|path| bryant_generator::description::load::shown(path));
+    let mut all: Vec<String> = declared
+        .filter_map(|(kind, name)| {
+            let place = scene.places.get(&format!("{kind} {name}"), "")?;
+            let here = own.as_ref().is_none_or(|own| *own == place.file);
+            here.then(|| {
+                format!("the {kind} \"{name}\" ({place}) is used by nothing\n  help: name it where it is meant, or remove it")
+            })
+        })
+        .collect();
+    let switches = scene.written.switches.iter().map(|switch| &switch.name);
+    let waited = scene.written.clone().used_switches();
+    let idle = switches.zip(waited).filter(|(_, used)| !used);
+    all.extend(idle.map(|(name, _)| {
+        format!("nothing waits for the switch \"{name}\"\n  help: name it in `since`, `until` or `lock` of what it is meant for, or remove it")
+    }));
+    all
+}
+
+/// Switches that did not fire in a run: its last state by name, the smallest value of each event function by name, and where it ended \[s\].
+pub fn unfired(
+    model: &Model,
+    parameters: &[f64],
+    memory: impl Fn(&str) -> Option<f64>,
+    nearest: impl Fn(&str) -> Option<f64>,
+    end: f64,
+) -> Vec<String> {
+    let idle = model.switches.iter().filter_map(|switch| {
+        let name = &switch.name;
+        // the time at which it fired, and one that never comes before
+        let fired = memory(&format!("switch {name}: fired"))? <= end;
+        if fired {
+            return None;
+        }
+        let missing = nearest(&format!("switch {name}: fires"))?;
+        let unit = match switch.shown.0.as_str() {
+            "" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        let shown = |value: f64| format!("{}{unit}", rounded(value / switch.shown.1));
+        Some(match &switch.trigger {
+            Trigger::Time(time) => format!(
+                "the switch \"{name}\" did not fire: its time is {} s, and the run ends at {} s",
+                rounded(time.value(parameters)),
+                rounded(end)
+            ),
+            Trigger::Above(_, threshold) => {
+                let threshold = threshold.value(parameters);
+                format!(
+                    "the switch \"{name}\" did not fire: the largest value is {}, the threshold {}",
+                    shown(threshold - missing),
+                    shown(threshold)
+                )
+            }
+            Trigger::Below(_, threshold) => {
+                let threshold = threshold.value(parameters);
+                format!(
+                    "the switch \"{name}\" did not fire: the smallest value is {}, the threshold {}",
+                    shown(threshold + missing),
+                    shown(threshold)
+                )
+            }
+        })
+    });
+    idle.collect()
+}
+
+/// The middle turn of a ball joint with laws about three axes that is close to ±90°, in words, with a remedy.
+pub fn near_right_angle(model: &Model, pose: &Pose) -> Option<[String; 2]> {
+    /// Within this distance of ±90°, 20° \[rad\].
+    const NEAR: f64 = 20.0 * std::f64::consts::PI / 180.0;
+    let joints = model.forces.iter().filter_map(|force| match &force.kind {
+        ForceKind::Joint(law) => Some((force, law)),
+        _ => None,
+    });
+    joints.filter(|_| model.dimension == Dimension::Space).find_map(|(force, law)| {
+        let [first, middle, last] = law.order.0;
+        let axes = ["x", "y", "z"];
+        let none = Default::default();
+        if law.about[first] == none && law.about[last] == none {
+            return None;
+        }
+        let system = &model.systems[law.child.system];
+        let carrier = match (system.elements[law.child.element].parent, &system.reference) {
+            (Some(element), _) => Body::Element(ElementId { element, ..law.child }),
+            (None, Reference::Riding { vehicle, .. }) => Body::Vehicle(*vehicle),
+            (None, _) => Body::Frame,
+        };
+        let [carrier, child] = [carrier, Body::Element(law.child)].map(|body| pose.body(body));
+        let column = |rotation: [Vec3; 3], i: usize| rotation.map(|row| row[i]);
+        let sine = law.order.hand() * dot(column(carrier.rotation, first), column(child.rotation, last));
+        let angle = sine.clamp(-1.0, 1.0).asin();
+        (angle.abs() > std::f64::consts::FRAC_PI_2 - NEAR).then(|| {
+            [
+                format!(
+                    "joint \"{}\" is turned by {:.0}° about {}; near ±90° its laws about {} and {} have no direction, and steps become very small",
+                    force.name,
+                    angle.to_degrees(),
+                    axes[middle],
+                    axes[first],
+                    axes[last]
+                ),
+                "end this rotation by stops within ±80°, or let another rotation be the middle one of the three (`about: { order: yxz, … }`), or use `flexion` and `torsion`".to_owned(),
+            ]
+        })
+    })
+}
+
+fn name_of(model: &Model, body: Body) -> String {
+    match body {
+        Body::Frame => "the frame".to_owned(),
+        Body::Vehicle(index) => format!("\"{}\"", model.vehicles[index].name),
+        Body::Element(id) => {
+            let system = &model.systems[id.system];
+            format!("\"{}/{}\"", system.name, system.elements[id.element].name)
+        }
+    }
+}
+
+fn length(vector: Vec3) -> f64 {
+    dot(vector, vector).sqrt()
+}
+
+fn cross([a, b, c]: Vec3, [x, y, z]: Vec3) -> Vec3 {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
+}
+
+/// To three digits.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.2e}").parse::<f64>().map_or(x, |x| x + 0.0)
+}
