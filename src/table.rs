@@ -68,7 +68,8 @@ impl Table {
         let mut headings = self.columns.iter().map(Column::heading);
         let first = headings.next().unwrap_or_default().replace('"', "\"\"");
         write!(out, "\"{first}\"{}", if headings.len() > 0 { "," } else { "\n" })?;
-        let mut writer = csv::Writer::from_writer(out);
+        // the line of headings has one less, because the first is written
+        let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(out);
         if headings.len() > 0 {
             writer.write_record(headings)?;
         }

@@ -13,6 +13,8 @@ pub struct Slip {
     pub message: String,
     /// What would be right.
     pub help: String,
+    /// Whether it stands in the indentation.
+    pub indents: bool,
 }
 
 /// A parser notices a slip at most this many lines of content later.
@@ -27,8 +29,11 @@ pub fn noticed_at(text: &str, line: usize) -> Option<Slip> {
         }
         before.push(in_line(content, number));
     }
-    let near = before.into_iter().rev().take(NOTICED_AFTER + 1);
-    near.flatten().next()
+    let near = before.iter().rev().take(NOTICED_AFTER + 1);
+    let near = near.flatten().next();
+    // an indentation counts up to the end of its block
+    let indented = || before.iter().rev().flatten().find(|slip| slip.indents);
+    near.or_else(indented).cloned()
 }
 
 /// The first slip in a line.
@@ -42,6 +47,7 @@ fn in_line(line: &str, number: usize) -> Option<Slip> {
         },
         message,
         help,
+        indents: false,
     };
     let begin = code.iter().position(|c| !is_space(*c) && *c != '-');
     let indentation = &code[..begin.unwrap_or(code.len())];
@@ -53,7 +59,8 @@ fn in_line(line: &str, number: usize) -> Option<Slip> {
             ),
             odd => odd_sign(odd)?,
         };
-        return Some(slip(column, 1, said));
+        let indents = true;
+        return Some(Slip { indents, ..slip(column, 1, said) });
     }
     if let Some((column, said)) = code
         .iter()
@@ -65,11 +72,10 @@ fn in_line(line: &str, number: usize) -> Option<Slip> {
     let starts = keys_begin(&code, indentation.len());
     starts.into_iter().find_map(|start| {
         let length = key_with_value(&code[start..])?;
-        let word: String = code[start..]
-            .iter()
-            .take_while(|c| !is_space(**c) && !",]}".contains(**c))
-            .collect();
-        Some(slip(start, word.chars().count(), no_space(&word, length)))
+        let rest = code[start..].iter().take_while(|c| !",]}".contains(**c));
+        let word: String = rest.collect();
+        let word = word.trim_end();
+        Some(slip(start, word.chars().count(), no_space(word, length)))
     })
 }
 
