@@ -7,9 +7,9 @@ use super::parameters::{parse_parameters, values_of};
 use super::prepare::{Prepared, prepare_model};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
+use crate::own::Kind;
 use crate::report::with_forces;
 use crate::settling::{End, Settled, Wanted, settle};
-use crate::own::Kind;
 use crate::{files, interrupt, simulation, state_file};
 use bryant_generator::model::{
     Body, Component, ElementId, Model, Output, PointQuantity, Projection, Quantity,

@@ -38,7 +38,11 @@ fn a_formula_is_what_its_outputs_make_of_it() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
     fs::write(at.join("block.yaml"), BLOCK).unwrap();
-    call(at, &["run", "block.yaml", "--no-files", "--csv", "t.csv"], 0);
+    call(
+        at,
+        &["run", "block.yaml", "--no-files", "--csv", "t.csv"],
+        0,
+    );
     let text = fs::read_to_string(at.join("t.csv")).unwrap();
     let heading = text.lines().next().unwrap();
     for unit in ["seat load [N]", "resultant [N]", "nic [m^2/s^2]", "share"] {
@@ -47,7 +51,19 @@ fn a_formula_is_what_its_outputs_make_of_it() {
     let mut pressed = 0;
     for row in text.lines().skip(1) {
         let row: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
-        let [_, left, right, a, v, load, difference, resultant, nic, share] = row[..] else {
+        let [
+            _,
+            left,
+            right,
+            a,
+            v,
+            load,
+            difference,
+            resultant,
+            nic,
+            share,
+        ] = row[..]
+        else {
             panic!("{row:?}");
         };
         pressed += usize::from(load > 0.0);
@@ -59,7 +75,10 @@ fn a_formula_is_what_its_outputs_make_of_it() {
             (share, 100.0 * left / (load + 1.0)),
         ] {
             // a few roundings of a double
-            assert!((is - should).abs() <= 1e-14 * (is.abs() + left + right), "{row:?}");
+            assert!(
+                (is - should).abs() <= 1e-14 * (is.abs() + left + right),
+                "{row:?}"
+            );
         }
     }
     assert!(pressed > 5, "{text}");
@@ -78,7 +97,9 @@ fn responses_and_gradients_take_a_formula() {
     let (text, _) = call(at, &arguments, 0);
     let told = json(&text);
     let response = |of: &str| {
-        let all = told["responses"].as_array().unwrap_or_else(|| panic!("{told}"));
+        let all = told["responses"]
+            .as_array()
+            .unwrap_or_else(|| panic!("{told}"));
         let one = all.iter().find(|r| r["response"] == of);
         one.unwrap_or_else(|| panic!("{of}: {told}")).clone()
     };
@@ -86,17 +107,28 @@ fn responses_and_gradients_take_a_formula() {
         let one = response(of);
         let all = one["parameters"].as_array().unwrap();
         let of = all.iter().find(|p| p["name"] == by);
-        of.and_then(|p| p["derivative"].as_f64()).unwrap_or_else(|| panic!("{one}"))
+        of.and_then(|p| p["derivative"].as_f64())
+            .unwrap_or_else(|| panic!("{one}"))
     };
     let [left, right, load, nic, acceleration] = &of;
     let sum = derivative(left, "stiffness") + derivative(right, "stiffness");
     let whole = derivative(load, "stiffness");
-    assert!(sum != 0.0 && (whole - sum).abs() <= 1e-12 * sum.abs(), "{told}");
+    assert!(
+        sum != 0.0 && (whole - sum).abs() <= 1e-12 * sum.abs(),
+        "{told}"
+    );
     // ∂(l a + v²)/∂l = a, because nothing else depends on l
     let value = response(acceleration)["value"].as_f64().unwrap();
     let by_lever = derivative(nic, "lever");
-    assert!((by_lever - value).abs() <= 1e-12 * value.abs(), "{by_lever} {told}");
-    let (_, said) = call(at, &["run", "block.yaml", "--no-files", "-r", "peak of seat load"], 0);
+    assert!(
+        (by_lever - value).abs() <= 1e-12 * value.abs(),
+        "{by_lever} {told}"
+    );
+    let (_, said) = call(
+        at,
+        &["run", "block.yaml", "--no-files", "-r", "peak of seat load"],
+        0,
+    );
     assert!(!said.contains("error"), "{said}");
 }
 
@@ -106,20 +138,46 @@ fn formulas_that_are_wrong_are_told() {
     let at = directory.path();
     let sum = "formula: left + right";
     for (formula, needles) in [
-        ("formula: left + rigth", ["no output above is called \"rigth\"", "right"]),
-        ("formula: left + later", ["no output above is called \"later\"", "above"]),
-        ("formula: left + v, with: { v: relative velocity }", ["a sum of", "m/s"]),
-        ("formula: left + r, with: { r: rigth }", ["no output above is called \"rigth\"", "right"]),
-        ("formula: left + m, with: { m: right }", ["is a unit", "\"m\""]),
+        (
+            "formula: left + rigth",
+            ["no output above is called \"rigth\"", "right"],
+        ),
+        (
+            "formula: left + later",
+            ["no output above is called \"later\"", "above"],
+        ),
+        (
+            "formula: left + v, with: { v: relative velocity }",
+            ["a sum of", "m/s"],
+        ),
+        (
+            "formula: left + r, with: { r: rigth }",
+            ["no output above is called \"rigth\"", "right"],
+        ),
+        (
+            "formula: left + m, with: { m: right }",
+            ["is a unit", "\"m\""],
+        ),
         ("formula: lever * 2", ["names no output", "with"]),
         ("formula: left +", ["formula", "help"]),
-        ("formula: left + right, what: force", ["no key \"what\"", "formula"]),
+        (
+            "formula: left + right, what: force",
+            ["no key \"what\"", "formula"],
+        ),
     ] {
-        let text = BLOCK.replace(sum, formula).replace("load: seat load", "load: left");
-        let text = text.replace("run:", "  - { name: later, of: man/head, what: angle }\nrun:");
+        let text = BLOCK
+            .replace(sum, formula)
+            .replace("load: seat load", "load: left");
+        let text = text.replace(
+            "run:",
+            "  - { name: later, of: man/head, what: angle }\nrun:",
+        );
         fs::write(at.join("block.yaml"), text).unwrap();
         let (_, said) = call(at, &["check", "block.yaml"], 2);
-        assert!(needles.iter().all(|needle| said.contains(needle)), "{formula}: {said}");
+        assert!(
+            needles.iter().all(|needle| said.contains(needle)),
+            "{formula}: {said}"
+        );
         assert!(said.contains("block.yaml:"), "{said}");
     }
 }
@@ -152,9 +210,17 @@ run: { duration: 1 ms, every: 1 ms }
     let (text, _) = call(at, &["run", "two.yaml", "--no-files", "--csv", "-"], 0);
     let mut lines = text.lines();
     let heading: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let row: Vec<f64> = lines.next().unwrap().split(',').map(|c| c.parse().unwrap()).collect();
+    let row: Vec<f64> = lines
+        .next()
+        .unwrap()
+        .split(',')
+        .map(|c| c.parse().unwrap())
+        .collect();
     for (name, value) in [("one sum [m]", 3.0), ("two sum [m]", 30.0)] {
-        let column = heading.iter().position(|h| *h == name).unwrap_or_else(|| panic!("{heading:?}"));
+        let column = heading
+            .iter()
+            .position(|h| *h == name)
+            .unwrap_or_else(|| panic!("{heading:?}"));
         assert_eq!(row[column], value);
     }
 }

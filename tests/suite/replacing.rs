@@ -56,7 +56,8 @@ fn a_file_of_someone_else_is_not_replaced() {
         "<!DOCTYPE html><html></html>\n",
         "{\"model\": \"clock\"}\n",
         "\u{89}PNG\r\n",
-        "glTF", "PAR1",
+        "glTF",
+        "PAR1",
     ];
     for (option, file) in FILES.into_iter().filter(|(option, _)| *option != "--mme") {
         for text in tables {
@@ -74,7 +75,10 @@ fn a_file_of_someone_else_is_not_replaced() {
     fs::write(at.join("clock.csv"), "a measurement\n").unwrap();
     let (_, said) = call(at, &["run", "clock.yaml"], 2);
     assert!(said.contains("clock.csv"), "{said}");
-    assert!(!at.join("clock.svg").exists(), "refused before anything is written");
+    assert!(
+        !at.join("clock.svg").exists(),
+        "refused before anything is written"
+    );
     for file in ["clock.mme", "Channel/clock.chn"] {
         let foreign = at.join("foreign").join(file);
         fs::create_dir_all(foreign.parent().unwrap()).unwrap();
@@ -93,7 +97,10 @@ fn no_command_writes_to_what_it_reads() {
     run(at, "--csv", "measured.csv", &[], 0);
     for (option, more) in [
         ("--report", &["--measured", "measured.csv"][..]),
-        ("--csv", &["--report", "r.html", "--measured", "measured.csv"]),
+        (
+            "--csv",
+            &["--report", "r.html", "--measured", "measured.csv"],
+        ),
     ] {
         let mut arguments = vec!["run", "clock.yaml", "--no-files", "--force"];
         arguments.extend(more);
@@ -127,7 +134,10 @@ fn a_person_that_was_changed_is_not_replaced() {
     let text = fs::read_to_string(&path).unwrap();
     fs::write(&path, text.replacen("mass:", "mass:  ", 1)).unwrap();
     let said = person("1.7 m", &[], 2);
-    assert!(said.contains("changed") && said.contains("--force"), "{said}");
+    assert!(
+        said.contains("changed") && said.contains("--force"),
+        "{said}"
+    );
     person("1.7 m", &["--force"], 0);
     person("1.7 m", &[], 0);
 }
@@ -144,7 +154,10 @@ fn an_ending_says_what_a_file_is() {
         ("--final-state", "x.yaml"),
     ] {
         let said = run(at, option, file, &[], 2);
-        assert!(said.contains("says otherwise") && said.contains("help"), "{said}");
+        assert!(
+            said.contains("says otherwise") && said.contains("help"),
+            "{said}"
+        );
         assert!(!at.join(file).exists());
     }
     run(at, "--report", "run.htm", &[], 0);
@@ -159,7 +172,14 @@ fn a_file_that_is_something_else_is_told_so() {
     let study = "model: clock.yaml\ndesign: grid\nparameters: { gravity: { from: 9, to: 10, steps: 2 } }\nresponses: [{ of: swing, what: peak }]\n";
     fs::write(at.join("study.yaml"), study).unwrap();
     let files = [
-        "--csv", "t.csv", "--final-state", "s.json", "--picture", "p.png", "--report", "r.html",
+        "--csv",
+        "t.csv",
+        "--final-state",
+        "s.json",
+        "--picture",
+        "p.png",
+        "--report",
+        "r.html",
     ];
     call(at, &[&["run", "clock.yaml"], &files[..]].concat(), 0);
     call(at, &["human", "--like", "male-50", "-o", "man.yaml"], 0);
@@ -173,10 +193,16 @@ fn a_file_that_is_something_else_is_told_so() {
     ] {
         for command in ["run", "check"] {
             let (_, said) = call(at, &[command, file], 2);
-            assert!(needles.iter().all(|needle| said.contains(needle)), "{file}: {said}");
+            assert!(
+                needles.iter().all(|needle| said.contains(needle)),
+                "{file}: {said}"
+            );
             assert_eq!(said.matches("error").count(), 1, "{said}");
         }
     }
     let (_, said) = call(at, &["sweep", "clock.yaml"], 2);
-    assert!(said.contains("a model, not a study") && said.contains("bryant run"), "{said}");
+    assert!(
+        said.contains("a model, not a study") && said.contains("bryant run"),
+        "{said}"
+    );
 }

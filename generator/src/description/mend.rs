@@ -61,9 +61,9 @@ impl Lost {
                 Kind::Scalar { .. } => None,
                 Kind::List(items) => items.iter().find(contains),
                 Kind::Map(entries) => {
-                    let found = entries
-                        .iter()
-                        .find(|e| begin(e.span) <= place && place <= end(&e.value).max(begin(e.span)));
+                    let found = entries.iter().find(|e| {
+                        begin(e.span) <= place && place <= end(&e.value).max(begin(e.span))
+                    });
                     if let Some(entry) = found {
                         self.names.insert(entry.key.clone());
                     }
@@ -114,8 +114,13 @@ fn own_names(record: &Node) -> Vec<String> {
     let names = [record.get("name"), first].into_iter().flatten();
     let names = names.filter_map(Node::text);
     // `belt:chest` for `belt: chest`
-    let joined = entries.iter().filter_map(|e| Some(e.key.split_once(':')?.1));
-    names.chain(joined).map(|name| name.trim().to_owned()).collect()
+    let joined = entries
+        .iter()
+        .filter_map(|e| Some(e.key.split_once(':')?.1));
+    names
+        .chain(joined)
+        .map(|name| name.trim().to_owned())
+        .collect()
 }
 
 /// The names of a node and of all below it.
@@ -151,7 +156,10 @@ pub fn mend(source: &Source, check: fn(At<'_>, &Problems), lost: &mut Lost) -> O
         }
         let mut surgeon = Surgeon {
             wrong: wrong.iter().map(|p| (p.line, p.column, p.length)).collect(),
-            corrections: corrections.into_iter().map(|(span, c)| (begin(span), c)).collect(),
+            corrections: corrections
+                .into_iter()
+                .map(|(span, c)| (begin(span), c))
+                .collect(),
             source,
             lost,
             changed: false,
@@ -179,7 +187,9 @@ impl Surgeon<'_> {
 
     /// Takes out what is wrong below a node; whether the node itself has to go.
     fn operate(&mut self, node: &mut Node, depth: usize) -> bool {
-        if self.is_wrong(node.span) && !is_first_key(node, |span| self.corrections.contains_key(&begin(span))) {
+        if self.is_wrong(node.span)
+            && !is_first_key(node, |span| self.corrections.contains_key(&begin(span)))
+        {
             return true;
         }
         match &mut node.kind {

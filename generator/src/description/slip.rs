@@ -60,7 +60,10 @@ fn in_line(line: &str, number: usize) -> Option<Slip> {
             odd => odd_sign(odd)?,
         };
         let indents = true;
-        return Some(Slip { indents, ..slip(column, 1, said) });
+        return Some(Slip {
+            indents,
+            ..slip(column, 1, said)
+        });
     }
     if let Some((column, said)) = code
         .iter()
@@ -141,7 +144,9 @@ fn is_space(c: char) -> bool {
 /// What is wrong with a sign that looks like another one.
 fn odd_sign(c: char) -> Option<(String, String)> {
     let (name, usual) = match c {
-        '“' | '”' | '„' | '‟' | '«' | '»' | '＂' => ("a typographic quotation mark", "\""),
+        '“' | '”' | '„' | '‟' | '«' | '»' | '＂' => {
+            ("a typographic quotation mark", "\"")
+        }
         '‘' | '’' | '‚' | '‛' | '＇' => ("a typographic quotation mark", "'"),
         '：' | '﹕' | '∶' => ("a wide colon", ": "),
         '，' | '、' | '﹐' => ("a wide comma", ", "),
@@ -227,7 +232,10 @@ pub fn in_list(at: At<'_>) -> Option<String> {
         }
         let numbers: Vec<&str> = word.split_whitespace().collect();
         if numbers.len() > 1 && numbers.iter().all(|n| n.parse::<f64>().is_ok()) {
-            return Some(format!("write a comma between two numbers: `{}`", numbers.join(", ")));
+            return Some(format!(
+                "write a comma between two numbers: `{}`",
+                numbers.join(", ")
+            ));
         }
         let (Some(next), Some(behind)) = (items.get(index + 1), text(index + 1)) else {
             continue;
@@ -284,7 +292,10 @@ mod tests {
     fn keys_are_meant() {
         let meant = |written| key_meant(written, &["mass", "cg"]).map(|m| (m.key, m.value));
         let mass = Some("mass".to_owned());
-        assert_eq!(meant("mass:4 kg"), mass.clone().map(|m| (m, Some("4 kg".into()))));
+        assert_eq!(
+            meant("mass:4 kg"),
+            mass.clone().map(|m| (m, Some("4 kg".into())))
+        );
         assert_eq!(meant("\u{a0}mass"), mass.map(|m| (m, None)));
         assert_eq!(meant("weight:4"), None);
     }

@@ -115,9 +115,11 @@ impl Resolver<'_> {
                     return None;
                 }
                 match expression::parse(text) {
-                    Ok(expression) => self.expression(&expression, at, &|name, offset, length| {
-                        self.parameter(name, at, offset, length)
-                    })?,
+                    Ok(expression) => {
+                        self.expression(&expression, at, &|name, offset, length| {
+                            self.parameter(name, at, offset, length)
+                        })?
+                    }
                     Err(m) => {
                         self.problems
                             .add(at.text_problem(m.offset, m.length, m.message, m.help));
@@ -409,7 +411,10 @@ impl Resolver<'_> {
                 (Number::negative(a), measure)
             }
             Kind::Binary(operator, left, right) => {
-                let (a, b) = (self.expression(left, at, names), self.expression(right, at, names));
+                let (a, b) = (
+                    self.expression(left, at, names),
+                    self.expression(right, at, names),
+                );
                 let ((a, of_a), (b, of_b)) = (a?, b?);
                 let measure = self.measure_of(*operator, of_a, of_b, e, at)?;
                 let number = match operator {
