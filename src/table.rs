@@ -67,8 +67,13 @@ impl Table {
     pub fn write_csv(&self, mut out: impl io::Write) -> io::Result<()> {
         let mut headings = self.columns.iter().map(Column::heading);
         let first = headings.next().unwrap_or_default().replace('"', "\"\"");
-        write!(out, "\"{first}\"{}", if headings.len() > 0 { "," } else { "\n" })?;
-        let mut writer = csv::Writer::from_writer(out);
+        write!(
+            out,
+            "\"{first}\"{}",
+            if headings.len() > 0 { "," } else { "\n" }
+        )?;
+        // the line of headings has one less, because the first is written
+        let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(out);
         if headings.len() > 0 {
             writer.write_record(headings)?;
         }

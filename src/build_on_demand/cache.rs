@@ -201,7 +201,11 @@ fn checksum(file: &Path) -> io::Result<String> {
         hasher.update(&piece[..read]);
         length += read;
     }
-    let hexadecimal: Vec<String> = hasher.finalize().iter().map(|b| format!("{b:02x}")).collect();
+    let hexadecimal: Vec<String> = hasher
+        .finalize()
+        .iter()
+        .map(|b| format!("{b:02x}"))
+        .collect();
     Ok(format!("{length} {}\n", hexadecimal.concat()))
 }
 
@@ -221,7 +225,10 @@ fn create_private(path: &Path) -> io::Result<()> {
 
 /// Refuses a file or directory, behind all links, that belongs to someone other than this user and root, or that others may write.
 #[cfg(unix)]
-#[expect(unsafe_code, reason = "the user of this process is known to the C library alone")]
+#[expect(
+    unsafe_code,
+    reason = "the user of this process is known to the C library alone"
+)]
 fn trusted(path: &Path) -> Result<(), BuildError> {
     use std::os::unix::fs::MetadataExt;
     let about = std::fs::metadata(path).map_err(|source| BuildError::Cache {
@@ -324,7 +331,11 @@ mod tests {
         for damage in ["", "prog", "Program", "program and more"] {
             std::fs::write(&path, damage).unwrap();
             let again = cache.entry("a", "model", fill).unwrap();
-            assert_eq!(std::fs::read_to_string(again).unwrap(), "program", "{damage}");
+            assert_eq!(
+                std::fs::read_to_string(again).unwrap(),
+                "program",
+                "{damage}"
+            );
         }
         std::fs::remove_file(seal_of(&path)).unwrap();
         let mut built = false;

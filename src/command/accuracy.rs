@@ -17,8 +17,8 @@ use crate::accuracy::reference::ReferenceError;
 use crate::accuracy::report::{csv, diagram, json, markdown, text};
 use crate::accuracy::setting::time;
 use crate::accuracy::study::{Effort, Stage, Study, StudyError, Subject, study};
-use crate::picture::Format;
 use crate::own::Kind;
+use crate::picture::Format;
 use crate::{files, interrupt, quantity};
 use bryant_generator::model::Model;
 use bryant_runtime::Formula;
@@ -364,7 +364,11 @@ impl Arguments {
             named => named.to_vec(),
         };
         let named = csv.iter().map(|path| ("--csv", path, Kind::Table));
-        let named = named.chain(pictures.iter().map(|path| ("--picture", path, Kind::Picture)));
+        let named = named.chain(
+            pictures
+                .iter()
+                .map(|path| ("--picture", path, Kind::Picture)),
+        );
         let page = self.markdown.iter();
         let page = page.map(|path| ("--markdown", path, Kind::Markdown));
         for (option, path, kind) in named.chain(page) {

@@ -1,8 +1,8 @@
 //! `bryant equations`: S, r_s and r_k as text, as source code, or as numbers at one state.
 
 use super::Error;
-use super::outputs::{Outputs, Replacing};
 use super::model_argument::find;
+use super::outputs::{Outputs, Replacing};
 use super::parameters::{parse_parameters, values_of};
 use super::prepare::users_of;
 use super::progress::Progress;
@@ -10,8 +10,8 @@ use super::terminal::Terminal;
 use crate::build_on_demand::UserForces;
 use crate::evaluation::{self, Evaluation, State};
 use crate::files;
-use crate::own::Kind;
 use crate::notation::Notation;
+use crate::own::Kind;
 use bryant_engine::UserFunctions;
 use bryant_generator::Config;
 use bryant_generator::description::load::read_file;

@@ -82,8 +82,9 @@ impl Outputs {
         if self.replacing.force || is_standard(path) {
             return Ok(());
         }
-        let may = own::may_replace(path, kind)
-            .map_err(|error| Error::System(format!("cannot look at {}: {error}", path.display())))?;
+        let may = own::may_replace(path, kind).map_err(|error| {
+            Error::System(format!("cannot look at {}: {error}", path.display()))
+        })?;
         match may {
             true => Ok(()),
             false => Err(Error::Input(format!(
@@ -130,11 +131,12 @@ mod tests {
     #[test]
     fn places_are_taken_once() {
         let mut outputs = Outputs::of(&[PathBuf::from("model.yaml")], Replacing::default());
-        let mut told = |option: &str, path: &str| match outputs.take(option, Path::new(path), Kind::Table) {
-            Ok(()) => String::new(),
-            Err(Error::Input(message)) => message,
-            Err(error) => panic!("{error:?}"),
-        };
+        let mut told =
+            |option: &str, path: &str| match outputs.take(option, Path::new(path), Kind::Table) {
+                Ok(()) => String::new(),
+                Err(Error::Input(message)) => message,
+                Err(error) => panic!("{error:?}"),
+            };
         assert_eq!(told("--csv", "a.csv"), "");
         let message = told("--picture", "./a.csv");
         assert!(message.starts_with("--csv and --picture both write to ./a.csv"));

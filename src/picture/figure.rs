@@ -23,6 +23,8 @@ pub struct Figure {
     pub masses: Vec<(usize, Point)>,
     /// Ellipsoids.
     pub ellipses: Vec<Ellipse>,
+    /// Whether some of them are in no contact.
+    pub some_meet_nothing: bool,
     /// Contact planes that are seen edge-on.
     pub planes: Vec<Plane>,
     /// Contact planes that are not seen edge-on: their corners.
@@ -84,6 +86,7 @@ pub fn figures(
     let figure = |(time, pose): &(f64, Pose)| {
         let mut figure = Figure {
             time: *time,
+            some_meet_nothing: !model.shown.is_empty(),
             ..Figure::default()
         };
         for (index, system) in model.systems.iter().enumerate() {

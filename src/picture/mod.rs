@@ -1,7 +1,7 @@
 //! Stick figures of a motion as a self-contained SVG or as PNG, like figure 6 of the paper.
 //!
 //! A model in space is seen from the side unless another [`View`] is requested: x to the right, z upwards, y into the page. An element is a
-//! line from its joint to the joints that it carries, a belt a line between its attachments, a contact ellipsoid its outline, a plane its
+//! line from its joint to the joints that it carries, a belt a line between its attachments, an ellipsoid its outline, a plane its
 //! edge or its corners within its extent; a plane without end is drawn where it is needed. All figures have the same scale.
 
 pub mod corridor;

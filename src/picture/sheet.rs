@@ -263,7 +263,11 @@ impl Sheet {
             entries.push(Entry::new("mass", "centre of gravity"));
         }
         if any(&|f| !f.ellipses.is_empty()) {
-            entries.push(Entry::new("ellipse", "contact ellipsoid"));
+            let name = match any(&|f| f.some_meet_nothing) {
+                true => "ellipsoid",
+                false => "contact ellipsoid",
+            };
+            entries.push(Entry::new("ellipse", name));
         }
         if any(&|f| !f.planes.is_empty()) {
             entries.push(Entry::new("plane", "contact plane (hatched behind)"));

@@ -128,10 +128,44 @@ pub const NAMES: [(&str, What); 16] = [
 
 /// Other words for the kinds, and the names that are used here.
 const MEANT: [(&str, &[&str]); 12] = [
-    ("peak", &["max", "maximum", "largest", "highest", "peak value", "maximal"]),
-    ("minimum", &["min", "least", "lowest", "smallest", "minimal"]),
-    ("magnitude", &["abs", "absolute", "absolute maximum", "absolute peak", "abs max", "max abs", "maximum absolute", "absmax", "modulus"]),
-    ("time of peak", &["time of maximum", "time of max", "time of the peak", "argmax"]),
+    (
+        "peak",
+        &[
+            "max",
+            "maximum",
+            "largest",
+            "highest",
+            "peak value",
+            "maximal",
+        ],
+    ),
+    (
+        "minimum",
+        &["min", "least", "lowest", "smallest", "minimal"],
+    ),
+    (
+        "magnitude",
+        &[
+            "abs",
+            "absolute",
+            "absolute maximum",
+            "absolute peak",
+            "abs max",
+            "max abs",
+            "maximum absolute",
+            "absmax",
+            "modulus",
+        ],
+    ),
+    (
+        "time of peak",
+        &[
+            "time of maximum",
+            "time of max",
+            "time of the peak",
+            "argmax",
+        ],
+    ),
     ("time of minimum", &["time of min", "argmin"]),
     ("range", &["span", "peak to peak", "amplitude", "spread"]),
     ("mean", &["average", "avg", "mean value"]),
@@ -145,7 +179,9 @@ const MEANT: [(&str, &[&str]); 12] = [
 /// The name of the kind that another word stands for.
 pub fn meant(word: &str) -> Option<&'static str> {
     let word = word.trim().to_lowercase().replace(['_', '-'], " ");
-    let of = MEANT.iter().find(|(_, words)| words.contains(&word.as_str()));
+    let of = MEANT
+        .iter()
+        .find(|(_, words)| words.contains(&word.as_str()));
     of.map(|(name, _)| *name)
 }
 

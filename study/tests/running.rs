@@ -467,3 +467,24 @@ fn progress_grows_to_all_rows() {
     );
     assert_eq!((told[0], told[told.len() - 1]), ((0, 3000), (3000, 3000)));
 }
+
+/// The lock ends with the process, however it ends, because it is the system's; here it ends when it is dropped.
+#[test]
+fn two_commands_do_not_run_the_same_rows() {
+    let study = study(TABLES);
+    let directory = tempfile::tempdir().unwrap();
+    let folder = open(directory.path(), &study);
+    let shard = |index| Shard::new(index, 2).unwrap();
+    let busy = |shard| match folder.lock(shard) {
+        Ok(_) => false,
+        Err(FolderError::Busy(path)) => path == directory.path(),
+        Err(error) => panic!("{error}"),
+    };
+    let whole = folder.lock(Shard::WHOLE).unwrap();
+    assert!(busy(Shard::WHOLE) && busy(shard(0)));
+    drop(whole);
+    let first = folder.lock(shard(0)).unwrap();
+    assert!(busy(Shard::WHOLE) && busy(shard(0)) && !busy(shard(1)));
+    drop(first);
+    assert!(!busy(Shard::WHOLE));
+}

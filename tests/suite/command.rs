@@ -7,6 +7,7 @@ mod certification;
 mod checked;
 mod comparing;
 mod continued;
+mod formulas;
 mod grazing;
 mod judged;
 #[cfg(unix)]
@@ -15,6 +16,7 @@ mod people;
 mod pictures;
 mod polarity;
 mod remarks;
+mod replacing;
 mod reports;
 mod responses;
 mod resting;
@@ -110,7 +112,7 @@ fn a_run_prints_a_table_and_writes_files() {
 
     let csv = std::fs::read_to_string(directory.path().join("clock.csv")).unwrap();
     assert!(
-        csv.starts_with("time [s],swing [rad],bob height [m]\n"),
+        csv.starts_with("\"time [s]\",swing [rad],bob height [m]\n"),
         "{csv}"
     );
     assert_eq!(csv.lines().count(), 1 + 11);

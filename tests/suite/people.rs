@@ -544,3 +544,47 @@ run: {{ duration: 150 ms, every: 1 ms }}
     let evaluations = told["report"]["evaluations"].as_u64().unwrap();
     assert!(evaluations < 20_000, "{evaluations}");
 }
+
+/// A person whose head, arms and shanks meet nothing has a head, arms and shanks in pictures, on the page and in the animation.
+#[test]
+fn all_ellipsoids_of_a_person_are_drawn() {
+    let directory = directory();
+    let path = directory.path();
+    let scene = |contact: &str| {
+        format!(
+            "model: sits
+dimension: 3
+include: [{{ human: {{ like: male-50, posture: seated }}, system: man }}]
+surfaces: {{ seat: {{ on: frame, at: [0.15, 0, 0.36], normal: [0, 0, 1] }} }}
+forces:
+  - {{ field: gravity, acceleration: [0, 0, -1 gn] }}
+{contact}
+run: {{ duration: 1 ms, every: 1 ms }}
+"
+        )
+    };
+    let contact = "  - { contact: seat, ellipsoid: [man-pelvis, man-thorax], plane: seat, stiffness: 40 kN/m }";
+    for contact in ["", contact] {
+        fs::write(path.join("sits.yaml"), scene(contact)).unwrap();
+        let arguments = ["run", "sits.yaml", "--no-files", "--figures", "1"];
+        let files = [
+            "--report",
+            "r.html",
+            "--picture",
+            "p.svg",
+            "--animation",
+            "a.glb",
+        ];
+        call(path, &[&arguments[..], &files].concat(), 0);
+        // pelvis, abdomen, thorax, head, two arms of two, two legs of three: 4 + 2 · 5
+        let page = fs::read_to_string(path.join("r.html")).unwrap();
+        let (_, ellipsoids) = page.split_once("\"ellipsoids\":").unwrap();
+        let mut values = serde_json::Deserializer::from_str(ellipsoids).into_iter::<Value>();
+        let ellipsoids = values.next().unwrap().unwrap();
+        assert_eq!(ellipsoids.as_array().unwrap().len(), 14, "{ellipsoids}");
+        let picture = fs::read_to_string(path.join("p.svg")).unwrap();
+        // one more is in the legend; those of both sides are behind each other and the same
+        let drawn = picture.matches("<ellipse ").count() - 1;
+        assert!(drawn >= 9, "{drawn}");
+    }
+}

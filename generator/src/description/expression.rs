@@ -439,7 +439,10 @@ const SPELLINGS: [(&[&str], &str); 24] = [
     (&["minute", "minutes"], "min"),
     (&["hour", "hours", "hr"], "h"),
     (&["metre", "metres", "meter", "meters"], "m"),
-    (&["millimetre", "millimetres", "millimeter", "millimeters"], "mm"),
+    (
+        &["millimetre", "millimetres", "millimeter", "millimeters"],
+        "mm",
+    ),
     (&["degree", "degrees", "grad"], "deg"),
     (&["radian", "radians", "rads"], "rad"),
     (&["newton", "newtons"], "N"),
@@ -460,7 +463,9 @@ const SPELLINGS: [(&[&str], &str); 24] = [
 /// How a unit that is none would be written, if it is seen to be meant as one.
 pub fn spelling(name: &str) -> Option<String> {
     let small = name.to_lowercase();
-    let known = SPELLINGS.iter().find(|(others, _)| others.contains(&small.as_str()));
+    let known = SPELLINGS
+        .iter()
+        .find(|(others, _)| others.contains(&small.as_str()));
     match known {
         Some((_, right)) if right.starts_with(|c: char| c.is_ascii_digit()) => {
             Some(format!("one `{name}` is `{right}`"))

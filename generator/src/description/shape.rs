@@ -221,7 +221,10 @@ fn check_keys(title: &str, all: &'static [Key], at: At<'_>, problems: &Problems)
             false => keys,
         };
         let names: Vec<&str> = all.iter().map(|k| k.name).collect();
-        let meant = at.node.text().and_then(|text| slip::key_meant(text, &names));
+        let meant = at
+            .node
+            .text()
+            .and_then(|text| slip::key_meant(text, &names));
         let (message, help) = meant.map_or_else(
             || {
                 (
@@ -281,14 +284,25 @@ fn unknown_key(
     {
         problems.add(at.problem_at(
             entry.span,
-            format!("a comma divides `{number},{}`, which is no entry", entry.key),
-            format!("the decimal sign is a point: write `{key}: {number}.{}`", entry.key),
+            format!(
+                "a comma divides `{number},{}`, which is no entry",
+                entry.key
+            ),
+            format!(
+                "the decimal sign is a point: write `{key}: {number}.{}`",
+                entry.key
+            ),
         ));
         return Correction::default();
     }
-    if let Some(meant) = slip::key_meant(&entry.key, &names).filter(|m| m.value.is_none() || entry.value.is_null()) {
+    if let Some(meant) =
+        slip::key_meant(&entry.key, &names).filter(|m| m.value.is_none() || entry.value.is_null())
+    {
         problems.add(at.problem_at(entry.span, meant.said.0, meant.said.1));
-        return Correction { key: Some(meant.key), value: meant.value };
+        return Correction {
+            key: Some(meant.key),
+            value: meant.value,
+        };
     }
     let near = nearest(&entry.key, names.iter().copied());
     let help = match near {
@@ -300,7 +314,10 @@ fn unknown_key(
         format!("{title} has no key {}", quoted(&entry.key)),
         help,
     ));
-    Correction { key: near.map(str::to_owned), value: None }
+    Correction {
+        key: near.map(str::to_owned),
+        value: None,
+    }
 }
 
 /// Reports anything but one of some words.

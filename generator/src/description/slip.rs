@@ -13,6 +13,8 @@ pub struct Slip {
     pub message: String,
     /// What would be right.
     pub help: String,
+    /// Whether it stands in the indentation.
+    pub indents: bool,
 }
 
 /// A parser notices a slip at most this many lines of content later.
@@ -27,8 +29,11 @@ pub fn noticed_at(text: &str, line: usize) -> Option<Slip> {
         }
         before.push(in_line(content, number));
     }
-    let near = before.into_iter().rev().take(NOTICED_AFTER + 1);
-    near.flatten().next()
+    let near = before.iter().rev().take(NOTICED_AFTER + 1);
+    let near = near.flatten().next();
+    // an indentation counts up to the end of its block
+    let indented = || before.iter().rev().flatten().find(|slip| slip.indents);
+    near.or_else(indented).cloned()
 }
 
 /// The first slip in a line.
@@ -42,6 +47,7 @@ fn in_line(line: &str, number: usize) -> Option<Slip> {
         },
         message,
         help,
+        indents: false,
     };
     let begin = code.iter().position(|c| !is_space(*c) && *c != '-');
     let indentation = &code[..begin.unwrap_or(code.len())];
@@ -53,7 +59,11 @@ fn in_line(line: &str, number: usize) -> Option<Slip> {
             ),
             odd => odd_sign(odd)?,
         };
-        return Some(slip(column, 1, said));
+        let indents = true;
+        return Some(Slip {
+            indents,
+            ..slip(column, 1, said)
+        });
     }
     if let Some((column, said)) = code
         .iter()
@@ -65,11 +75,10 @@ fn in_line(line: &str, number: usize) -> Option<Slip> {
     let starts = keys_begin(&code, indentation.len());
     starts.into_iter().find_map(|start| {
         let length = key_with_value(&code[start..])?;
-        let word: String = code[start..]
-            .iter()
-            .take_while(|c| !is_space(**c) && !",]}".contains(**c))
-            .collect();
-        Some(slip(start, word.chars().count(), no_space(&word, length)))
+        let rest = code[start..].iter().take_while(|c| !",]}".contains(**c));
+        let word: String = rest.collect();
+        let word = word.trim_end();
+        Some(slip(start, word.chars().count(), no_space(word, length)))
     })
 }
 
@@ -135,7 +144,9 @@ fn is_space(c: char) -> bool {
 /// What is wrong with a sign that looks like another one.
 fn odd_sign(c: char) -> Option<(String, String)> {
     let (name, usual) = match c {
-        '“' | '”' | '„' | '‟' | '«' | '»' | '＂' => ("a typographic quotation mark", "\""),
+        '“' | '”' | '„' | '‟' | '«' | '»' | '＂' => {
+            ("a typographic quotation mark", "\"")
+        }
         '‘' | '’' | '‚' | '‛' | '＇' => ("a typographic quotation mark", "'"),
         '：' | '﹕' | '∶' => ("a wide colon", ": "),
         '，' | '、' | '﹐' => ("a wide comma", ", "),
@@ -221,7 +232,10 @@ pub fn in_list(at: At<'_>) -> Option<String> {
         }
         let numbers: Vec<&str> = word.split_whitespace().collect();
         if numbers.len() > 1 && numbers.iter().all(|n| n.parse::<f64>().is_ok()) {
-            return Some(format!("write a comma between two numbers: `{}`", numbers.join(", ")));
+            return Some(format!(
+                "write a comma between two numbers: `{}`",
+                numbers.join(", ")
+            ));
         }
         let (Some(next), Some(behind)) = (items.get(index + 1), text(index + 1)) else {
             continue;
@@ -278,7 +292,10 @@ mod tests {
     fn keys_are_meant() {
         let meant = |written| key_meant(written, &["mass", "cg"]).map(|m| (m.key, m.value));
         let mass = Some("mass".to_owned());
-        assert_eq!(meant("mass:4 kg"), mass.clone().map(|m| (m, Some("4 kg".into()))));
+        assert_eq!(
+            meant("mass:4 kg"),
+            mass.clone().map(|m| (m, Some("4 kg".into())))
+        );
         assert_eq!(meant("\u{a0}mass"), mass.map(|m| (m, None)));
         assert_eq!(meant("weight:4"), None);
     }

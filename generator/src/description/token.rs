@@ -98,8 +98,12 @@ fn no_token(characters: &[char], at: usize) -> Mistake {
             "the decimal sign is a point, as in `0.5`; thousands are not divided".to_owned(),
         ),
         None => (
-            format!("the character {} has no meaning in a quantity", quoted(&c.to_string())),
-            "a quantity is made of numbers, units, parameters, + - * / ( ) sqrt sin cos pi".to_owned(),
+            format!(
+                "the character {} has no meaning in a quantity",
+                quoted(&c.to_string())
+            ),
+            "a quantity is made of numbers, units, parameters, + - * / ( ) sqrt sin cos pi"
+                .to_owned(),
         ),
     };
     Mistake {

@@ -23,7 +23,10 @@ const BEGINS: [(&[u8], &str); 16] = [
     (b"<!DOCTYPE html", "a page of HTML"),
     (b"<!doctype html", "a page of HTML"),
     (b"<html", "a page of HTML"),
-    (b"Data format edition number", "the header of a test in ISO-MME"),
+    (
+        b"Data format edition number",
+        "the header of a test in ISO-MME",
+    ),
 ];
 
 /// What `bryant human` writes, and the data of models.
@@ -32,7 +35,15 @@ const PART: &str = "a part that models include";
 const OF_STUDY: [&str; 5] = ["design", "runs", "responses", "rows", "fixed"];
 /// Keys that only models and what they include have.
 const OF_MODEL: [&str; 9] = [
-    "dimension", "systems", "forces", "outputs", "curves", "surfaces", "vehicles", "switches", "include",
+    "dimension",
+    "systems",
+    "forces",
+    "outputs",
+    "curves",
+    "surfaces",
+    "vehicles",
+    "switches",
+    "include",
 ];
 
 /// What begins so, if that is known and no YAML.
@@ -45,7 +56,8 @@ pub fn of_bytes(bytes: &[u8]) -> Option<&'static str> {
 
 /// What a text is, if it is known and no YAML of this program.
 pub fn of_text(text: &str) -> Option<What> {
-    let help = "name a model: a YAML file with `model:`, `dimension:` and `systems:`, or a URDF file";
+    let help =
+        "name a model: a YAML file with `model:`, `dimension:` and `systems:`, or a URDF file";
     if let Some(what) = of_bytes(text.trim_start_matches('\u{feff}').as_bytes()) {
         return Some((what, help.to_owned()));
     }
@@ -57,7 +69,9 @@ pub fn of_text(text: &str) -> Option<What> {
 
 /// Whether the first lines are a heading and a line of numbers, separated alike.
 fn is_table(text: &str) -> bool {
-    let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let mut lines = text
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let (Some(heading), Some(first)) = (lines.next(), lines.next()) else {
         return false;
     };
@@ -100,7 +114,12 @@ pub fn instead_of_model(root: &Node, name: &str) -> Option<What> {
         return Some(("a study", format!("`bryant sweep {name}` runs it{of}")));
     }
     let of_model = OF_MODEL.iter().any(|key| has(key));
-    if entries.iter().any(|e| ["sex", "stature", "like", "percentile"].contains(&e.key.as_str())) && !of_model && !has("model") {
+    if entries
+        .iter()
+        .any(|e| ["sex", "stature", "like", "percentile"].contains(&e.key.as_str()))
+        && !of_model
+        && !has("model")
+    {
         return Some((
             "the description of a person",
             "a model includes a person as `include: [{ human: male-50, system: man }]`; `bryant human` writes one as a file".to_owned(),
@@ -132,7 +151,9 @@ pub fn instead_of_study(root: &Node, name: &str) -> Option<What> {
         let name = name.trim_matches('"');
         return Some((
             "a model",
-            format!("`bryant run {name}` runs it; a study names it as `model: {name}` and says `design:`, `runs:`, `parameters:` and `responses:`"),
+            format!(
+                "`bryant run {name}` runs it; a study names it as `model: {name}` and says `design:`, `runs:`, `parameters:` and `responses:`"
+            ),
         ));
     }
     instead_of_model(root, name).filter(|(what, _)| *what != "a study")
@@ -151,8 +172,14 @@ mod tests {
     #[test]
     fn files_are_told_by_what_they_are() {
         assert_eq!(of("{ model: a, design: sobol, runs: 8 }"), Some("a study"));
-        assert_eq!(of("{ model: a, time: 0, coordinates: {}, velocities: {} }"), Some("a state of a run"));
-        assert_eq!(of("systems: [{ name: man }]"), Some("a part that models include"));
+        assert_eq!(
+            of("{ model: a, time: 0, coordinates: {}, velocities: {} }"),
+            Some("a state of a run")
+        );
+        assert_eq!(
+            of("systems: [{ name: man }]"),
+            Some("a part that models include")
+        );
         assert_eq!(of("{ model: a, dimension: 2, systems: [] }"), None);
         assert_eq!(of("{ model: a, dimension: 2, runs: 8 }"), Some("a study"));
         assert_eq!(of("model: a"), None);

@@ -54,9 +54,8 @@ pub fn flattened(model: &Model) -> Option<Model> {
     }
     model.outputs.retain_mut(|output| {
         let mut leaves = output.quantity.leaves_mut().into_iter();
-        leaves.all(|leaf| {
-            flatten_quantity(leaf) && leaf.force_mut().is_none_or(|force| keep[*force])
-        })
+        leaves
+            .all(|leaf| flatten_quantity(leaf) && leaf.force_mut().is_none_or(|force| keep[*force]))
     });
     model.keep_forces(&keep);
     model.is_regular().then_some(model)

@@ -110,7 +110,10 @@ impl Renaming {
     fn words_of_formula(&self, item: &Node) -> Vec<String> {
         let formula = item.word("formula").unwrap_or_default();
         let words = formula.split(|c: char| !c.is_alphanumeric() && c != '_');
-        let with = |word: &str| item.get("with").is_some_and(|with| with.get(word).is_some());
+        let with = |word: &str| {
+            item.get("with")
+                .is_some_and(|with| with.get(word).is_some())
+        };
         let changes = |word: &&str| self.names.contains(&format!("output {word}")) && !with(word);
         let mut words: Vec<String> = words.filter(changes).map(str::to_owned).collect();
         words.sort();

@@ -226,10 +226,13 @@ impl Resolver<'_> {
         for (index, point) in listed.iter().enumerate() {
             let here = place.item(index);
             let [x, y] = point.as_slice() else {
-                self.problems.add(here.problem(
-                    format!("a point has two numbers, but this list has {}", point.len()),
-                    slip::in_list(here).unwrap_or_else(|| "write `[abscissa, ordinate]`".to_owned()),
-                ));
+                self.problems.add(
+                    here.problem(
+                        format!("a point has two numbers, but this list has {}", point.len()),
+                        slip::in_list(here)
+                            .unwrap_or_else(|| "write `[abscissa, ordinate]`".to_owned()),
+                    ),
+                );
                 return None;
             };
             let mut entry = [0.0; 2];

@@ -122,17 +122,23 @@ fn output_above(
     };
     if output.filter.is_some() {
         report(
-            format!("the output {} is filtered, and a formula takes what is not", quoted(name)),
-            "name an output without `filter`, which may be a second one of the same quantity".to_owned(),
+            format!(
+                "the output {} is filtered, and a formula takes what is not",
+                quoted(name)
+            ),
+            "name an output without `filter`, which may be a second one of the same quantity"
+                .to_owned(),
         );
         return None;
     }
     let none = |_: &str, _, _| None;
     let dimension = match expression::parse(&output.unit) {
-        Ok(unit) => match resolver.expression(&unit, At::root(&resolver.loaded.files[0].source), &none) {
-            Some((_, Measure::Known(dimension))) => dimension,
-            _ => Dimension::ONE,
-        },
+        Ok(unit) => {
+            match resolver.expression(&unit, At::root(&resolver.loaded.files[0].source), &none) {
+                Some((_, Measure::Known(dimension))) => dimension,
+                _ => Dimension::ONE,
+            }
+        }
         Err(_) => Dimension::ONE,
     };
     Some((output.quantity.clone(), dimension))

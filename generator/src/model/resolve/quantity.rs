@@ -8,6 +8,7 @@ use crate::description::expression::{self, Expression, Function, Kind, Operator}
 use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
 use crate::description::slip;
+use crate::description::tree::{Kind as NodeKind, Node};
 use crate::description::unit::Dimension;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Number, Requirement};
@@ -114,9 +115,11 @@ impl Resolver<'_> {
                     return None;
                 }
                 match expression::parse(text) {
-                    Ok(expression) => self.expression(&expression, at, &|name, offset, length| {
-                        self.parameter(name, at, offset, length)
-                    })?,
+                    Ok(expression) => {
+                        self.expression(&expression, at, &|name, offset, length| {
+                            self.parameter(name, at, offset, length)
+                        })?
+                    }
                     Err(m) => {
                         self.problems
                             .add(at.text_problem(m.offset, m.length, m.message, m.help));
@@ -213,6 +216,10 @@ impl Resolver<'_> {
                 continue;
             }
             let place = at.path(&path);
+            // 0 stands for a parameter whose declaration is wrong
+            if self.mentions_failed(place.node) {
+                continue;
+            }
             let but = match written {
                 true => format!(", but is {found}"),
                 false => String::new(),
@@ -223,6 +230,19 @@ impl Resolver<'_> {
                 self.problems.add(problem);
             }
             reported.push(path);
+        }
+    }
+
+    /// Whether a parameter whose declaration is wrong stands in a value.
+    fn mentions_failed(&self, node: &Node) -> bool {
+        match &node.kind {
+            _ if self.failed_parameters.is_empty() => false,
+            NodeKind::Scalar { text, .. } => {
+                let mut words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+                words.any(|word| self.failed_parameters.iter().any(|p| p == word))
+            }
+            NodeKind::List(items) => items.iter().any(|item| self.mentions_failed(item)),
+            NodeKind::Map(entries) => entries.iter().any(|e| self.mentions_failed(&e.value)),
         }
     }
 
@@ -391,7 +411,10 @@ impl Resolver<'_> {
                 (Number::negative(a), measure)
             }
             Kind::Binary(operator, left, right) => {
-                let (a, b) = (self.expression(left, at, names), self.expression(right, at, names));
+                let (a, b) = (
+                    self.expression(left, at, names),
+                    self.expression(right, at, names),
+                );
                 let ((a, of_a), (b, of_b)) = (a?, b?);
                 let measure = self.measure_of(*operator, of_a, of_b, e, at)?;
                 let number = match operator {
