@@ -23,7 +23,7 @@
 //! | `within` | the block is a part of a model, which takes the place of the same keys of this bundled model, or of a `new` one |
 //! | `slow` | only run if `PAGES_ALL` is set; the value is the reason |
 //! | `not run` | never run; the value is the reason |
-//! | `other` | the block is no output of a command; the value says what it is |
+//! | `other` | the block is no output of a command, or the table no table of runs; the value says what it is, or what tests it |
 
 /// The values of a mark, by key, in their order.
 #[derive(Clone, Debug, Default)]

@@ -74,6 +74,18 @@ fn command(base: &str, label: &str, mark: &Mark) -> String {
     command
 }
 
+/// Whether a table consists of numbers for the most part: two or more, and a third of the cells beside the first column.
+pub fn has_numbers(lines: &[&str]) -> bool {
+    let rows = lines.iter().skip(2).map(|line| cells(line));
+    let all: Vec<String> = rows.flat_map(|row| row[1..].iter().map(|cell| cell.trim_matches('*').replace(' ', "")).collect::<Vec<_>>()).collect();
+    let with_unit = |cell: &str| {
+        let number = cell.trim_end_matches(|c: char| c.is_alphabetic() || matches!(c, '%' | '°' | '/' | '²'));
+        Number::of(number).is_some()
+    };
+    let count = all.iter().filter(|cell| with_unit(cell)).count();
+    count >= 2 && 3 * count >= all.len()
+}
+
 /// A number as it is written in a cell: with as many digits behind the point.
 fn like(cell: &str, value: f64) -> Option<String> {
     let plain = cell.trim_matches('*').replace([' ', '\u{202f}'], "");
