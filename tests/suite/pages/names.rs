@@ -22,6 +22,7 @@ pub fn trials() -> Vec<Trial> {
         one("commands, options and models exist", commands),
         one("files in code exist", files),
         one("targets of cargo exist", targets),
+        one("keys of laws are in the reference", keys),
     ]
 }
 
@@ -313,6 +314,59 @@ fn files() -> Found {
                 }
             }
         }
+    }
+    found
+}
+
+/// Each key in the column `key` of a table of a law is one that the reference describes, which a test of the generator holds to be all.
+fn keys() -> Found {
+    let cells = |line: &str| -> Vec<String> {
+        line.split('|').map(|cell| cell.trim().to_owned()).collect()
+    };
+    let reference = std::fs::read_to_string(root().join("docs/reference.md")).unwrap();
+    let known: BTreeSet<String> = reference
+        .lines()
+        .filter(|line| line.starts_with("| `"))
+        .map(|line| cells(line)[1].trim_matches('`').to_owned())
+        .collect();
+    let mut found = Found::new();
+    let mut count = 0;
+    for (path, text) in texts() {
+        if !path.starts_with("docs/forces") {
+            continue;
+        }
+        let mut column = None;
+        for (i, line) in prose(&text) {
+            if !line.starts_with('|') {
+                column = None;
+                continue;
+            }
+            let cells = cells(line);
+            column = column.or_else(|| {
+                cells
+                    .iter()
+                    .position(|cell| cell == "key" || cell == "keys")
+            });
+            let Some(cell) = column.and_then(|column| cells.get(column)) else {
+                continue;
+            };
+            for span in cell.split('`').skip(1).step_by(2) {
+                let words = span.split(|c: char| !c.is_ascii_lowercase() && c != '_');
+                for word in words.filter(|word| word.len() > 1) {
+                    count += 1;
+                    if !known.contains(word) {
+                        found.push(format!(
+                            "{}:{}: the reference has no key {word}",
+                            path.display(),
+                            i + 1
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    if count < 50 {
+        found.push(format!("only {count} keys were found"));
     }
     found
 }

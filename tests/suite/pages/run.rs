@@ -46,7 +46,10 @@ pub fn page(path: &Path) -> Told {
     if path == Path::new("docs/stability.md") {
         let reason = "`bryant stability --markdown` writes this page; `cargo test --test hard` runs its cases";
         let left_out = vec![format!("{}: {reason}", path.display())];
-        return Told { left_out, ..Told::default() };
+        return Told {
+            left_out,
+            ..Told::default()
+        };
     }
     let directory = tempfile::tempdir().unwrap();
     let mut page = Page {
@@ -287,6 +290,20 @@ impl Page<'_> {
         let lines = self.lines.clone();
         let shown = &lines[part.lines.clone()];
         let folder = self.folder.clone();
+        let columns = part.mark.get("columns").unwrap_or_default();
+        if columns.split(';').any(|column| column.trim() == "-") {
+            let place = self.place(part.lines.start);
+            match part.mark.get("other") {
+                Some(reason) => self
+                    .told
+                    .left_out
+                    .push(format!("{place}, some columns: {reason}")),
+                None => self.problem(
+                    part.lines.start,
+                    "what are the columns `-`? (a mark `other`)",
+                ),
+            }
+        }
         match table::renewed(shown, &part.mark, |command, wanted| {
             responses(&folder, command, wanted)
         }) {
@@ -298,7 +315,10 @@ impl Page<'_> {
     /// A table of numbers says by a mark how they are known.
     fn unmarked(&mut self, part: &Part) {
         let keys = self.path == Path::new("docs/reference.md");
-        let known = keys || ["says", "other"].iter().any(|key| part.mark.get(key).is_some());
+        let known = keys
+            || ["says", "other"]
+                .iter()
+                .any(|key| part.mark.get(key).is_some());
         if !known && table::has_numbers(&self.lines[part.lines.clone()]) {
             let text = "how are the numbers of this table known? (a mark `rows`, `says`, `not run`, or `other` with what tests them)";
             self.problem(part.lines.start, text);

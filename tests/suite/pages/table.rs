@@ -4,7 +4,7 @@
 //!
 //! - `rows`: the command of all lines. What stands in code in the first cell of a line is added as `--set`. `{1}` is the last word of that cell.
 //! - `columns`: for each further column the response that it shows, as behind `-r`, with the unit of the column in brackets; `-` is not
-//!   compared. Columns are separated by `;`.
+//!   compared, and a mark `other` says why. Columns are separated by `;`.
 //! - `with`: `LABEL: OPTIONS` are further options of the line whose first cell is or begins with this label.
 
 use super::compare::Number;
@@ -77,9 +77,17 @@ fn command(base: &str, label: &str, mark: &Mark) -> String {
 /// Whether a table consists of numbers for the most part: two or more, and a third of the cells beside the first column.
 pub fn has_numbers(lines: &[&str]) -> bool {
     let rows = lines.iter().skip(2).map(|line| cells(line));
-    let all: Vec<String> = rows.flat_map(|row| row[1..].iter().map(|cell| cell.trim_matches('*').replace(' ', "")).collect::<Vec<_>>()).collect();
+    let all: Vec<String> = rows
+        .flat_map(|row| {
+            row[1..]
+                .iter()
+                .map(|cell| cell.trim_matches('*').replace(' ', ""))
+                .collect::<Vec<_>>()
+        })
+        .collect();
     let with_unit = |cell: &str| {
-        let number = cell.trim_end_matches(|c: char| c.is_alphabetic() || matches!(c, '%' | '°' | '/' | '²'));
+        let number = cell
+            .trim_end_matches(|c: char| c.is_alphabetic() || matches!(c, '%' | '°' | '/' | '²'));
         Number::of(number).is_some()
     };
     let count = all.iter().filter(|cell| with_unit(cell)).count();
