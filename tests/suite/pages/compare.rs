@@ -41,9 +41,14 @@ impl Number {
         }
         let value: f64 = plain.parse().ok()?;
         let (digits, exponent) = plain.split_once(['e', 'E']).unwrap_or((&plain, "0"));
-        let behind = digits.split_once('.').map_or(0, |(_, behind)| behind.len() as i32);
+        let behind = digits
+            .split_once('.')
+            .map_or(0, |(_, behind)| behind.len() as i32);
         let exponent: i32 = exponent.parse().ok()?;
-        Some(Number { value, unit: 10f64.powi(exponent - behind) })
+        Some(Number {
+            value,
+            unit: 10f64.powi(exponent - behind),
+        })
     }
 
     /// Whether two numbers are the same within what machines differ by; `next` is the word behind.
@@ -93,7 +98,8 @@ pub fn same_line(shown: &str, is: &str) -> bool {
             }
             match (Number::of(a[i]), Number::of(b[i])) {
                 (Some(x), Some(y)) => {
-                    x.same(y, a.get(i + 1).copied()) && a[i].ends_with(MARKS) == b[i].ends_with(MARKS)
+                    x.same(y, a.get(i + 1).copied())
+                        && a[i].ends_with(MARKS) == b[i].ends_with(MARKS)
                 }
                 _ => a[i] == b[i],
             }
@@ -105,7 +111,9 @@ pub fn same_line(shown: &str, is: &str) -> bool {
 pub fn alike(a: &str, b: &str) -> f64 {
     let words = |line: &str| -> Vec<String> {
         let all = tokens(line).into_iter();
-        all.filter(|word| Number::of(word).is_none()).map(str::to_owned).collect()
+        all.filter(|word| Number::of(word).is_none())
+            .map(str::to_owned)
+            .collect()
     };
     let (one, mut other) = (words(a), words(b));
     if one.is_empty() && other.is_empty() {
@@ -162,17 +170,35 @@ pub fn rules_hold() -> Result<(), String> {
         ("differs by 1.3e-7 of", "differs by 2.1e-7 of", true),
         ("differs by 1.3e-7 of", "differs by 2.9e-7 of", false),
         ("not accounted for 4e-5", "not accounted for -4e-5", false),
-        ("100 ms simulated in 1.14 ms, 87 × real time", "100 ms simulated in 3 s, 0.1 × real time", true),
-        ("100 ms simulated in 1.14 ms, 87 × real time", "200 ms simulated in 3 s, 0.1 × real time", false),
+        (
+            "100 ms simulated in 1.14 ms, 87 × real time",
+            "100 ms simulated in 3 s, 0.1 × real time",
+            true,
+        ),
+        (
+            "100 ms simulated in 1.14 ms, 87 × real time",
+            "200 ms simulated in 3 s, 0.1 × real time",
+            false,
+        ),
         ("10X001000000FO00 1", "10X002000000FO00 1", false),
     ] {
         if same_line(shown, is) != expected {
-            return Err(format!("{shown:?} and {is:?}: the same should be {expected}"));
+            return Err(format!(
+                "{shown:?} and {is:?}: the same should be {expected}"
+            ));
         }
     }
     for (shown, is, expected) in [
-        ("5 steps; 1 ms simulated in 2 s, 9 × real time", "9 steps; 1 ms simulated in 7 s, 4 × real time", "9 steps; 1 ms simulated in 2 s, 9 × real time"),
-        ("5 steps; 1 ms simulated in …", "9 steps; 1 ms simulated in 7 s, 4 × real time", "9 steps; 1 ms simulated in …"),
+        (
+            "5 steps; 1 ms simulated in 2 s, 9 × real time",
+            "9 steps; 1 ms simulated in 7 s, 4 × real time",
+            "9 steps; 1 ms simulated in 2 s, 9 × real time",
+        ),
+        (
+            "5 steps; 1 ms simulated in …",
+            "9 steps; 1 ms simulated in 7 s, 4 × real time",
+            "9 steps; 1 ms simulated in …",
+        ),
         ("belt 5  N", "belt 9 N", "belt 9 N"),
     ] {
         let now = as_shown(shown, is);

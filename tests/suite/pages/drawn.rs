@@ -26,11 +26,18 @@ pub fn differs(drawn: &str, shown: &str) -> Option<String> {
     }
     let (drawn, shown) = (numbers(drawn), numbers(shown));
     if drawn.len() != shown.len() {
-        return Some(format!("it has {} numbers, and the command draws {}", shown.len(), drawn.len()));
+        return Some(format!(
+            "it has {} numbers, and the command draws {}",
+            shown.len(),
+            drawn.len()
+        ));
     }
     let mut pairs = drawn.iter().zip(&shown);
     let far = pairs.find(|(a, b)| (*a - *b).abs() > 2.0)?;
-    Some(format!("it has {} where the command draws {}", far.1, far.0))
+    Some(format!(
+        "it has {} where the command draws {}",
+        far.1, far.0
+    ))
 }
 
 /// The paths of the pictures in lines of a page.
@@ -38,7 +45,9 @@ pub fn pictures(lines: &[&str]) -> Vec<String> {
     let mut found = Vec::new();
     for line in lines {
         for piece in line.split("![").skip(1) {
-            let path = piece.split_once("](").and_then(|(_, rest)| rest.split(')').next());
+            let path = piece
+                .split_once("](")
+                .and_then(|(_, rest)| rest.split(')').next());
             found.extend(path.map(str::to_owned));
         }
     }
@@ -48,7 +57,10 @@ pub fn pictures(lines: &[&str]) -> Vec<String> {
 /// Compares a picture with the file that was drawn, and writes it anew if asked.
 pub fn compare(shown: &Path, drawn: &Path, update: bool) -> Option<String> {
     let Ok(now) = std::fs::read_to_string(drawn) else {
-        return Some(format!("no command of the page draws {}", drawn.file_name()?.display()));
+        return Some(format!(
+            "no command of the page draws {}",
+            drawn.file_name()?.display()
+        ));
     };
     let was = std::fs::read_to_string(shown).unwrap_or_default();
     let found = differs(&now, &was)?;
@@ -62,13 +74,31 @@ pub fn compare(shown: &Path, drawn: &Path, update: bool) -> Option<String> {
 /// The rules themselves, which the test of all pages begins with.
 pub fn rules_hold() -> Result<(), String> {
     for (drawn, shown, expected) in [
-        ("<text>0 ms</text><a x=\"10\"/>", "<text>0 ms</text><a x=\"11.5\"/>", true),
-        ("<text>0 ms</text><a x=\"10\"/>", "<text>0 ms</text><a x=\"13\"/>", false),
-        ("<text>0 ms</text><a x=\"10\"/>", "<text>1 ms</text><a x=\"10\"/>", false),
-        ("<text>0 ms</text><a x=\"10\"/>", "<text>0 ms</text><a x=\"10 11\"/>", false),
+        (
+            "<text>0 ms</text><a x=\"10\"/>",
+            "<text>0 ms</text><a x=\"11.5\"/>",
+            true,
+        ),
+        (
+            "<text>0 ms</text><a x=\"10\"/>",
+            "<text>0 ms</text><a x=\"13\"/>",
+            false,
+        ),
+        (
+            "<text>0 ms</text><a x=\"10\"/>",
+            "<text>1 ms</text><a x=\"10\"/>",
+            false,
+        ),
+        (
+            "<text>0 ms</text><a x=\"10\"/>",
+            "<text>0 ms</text><a x=\"10 11\"/>",
+            false,
+        ),
     ] {
         if differs(drawn, shown).is_none() != expected {
-            return Err(format!("{drawn} and {shown}: the same should be {expected}"));
+            return Err(format!(
+                "{drawn} and {shown}: the same should be {expected}"
+            ));
         }
     }
     Ok(())

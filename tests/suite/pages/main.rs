@@ -72,7 +72,10 @@ fn main() {
     let mut left_out = left_out.lock().unwrap().clone();
     left_out.sort();
     if !left_out.is_empty() {
-        println!("{} blocks, tables and pictures were not run:", left_out.len());
+        println!(
+            "{} blocks, tables and pictures were not run:",
+            left_out.len()
+        );
     }
     for line in left_out {
         println!("  {line}");

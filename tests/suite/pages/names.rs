@@ -22,17 +22,27 @@ pub fn trials() -> Vec<Trial> {
         one("commands, options and models exist", commands),
         one("files in code exist", files),
         one("targets of cargo exist", targets),
+        one("keys of laws are in the reference", keys),
     ]
 }
 
 fn rules() -> Found {
-    let all = [compare::rules_hold, output::rules_hold, drawn::rules_hold, table::rules_hold];
+    let all = [
+        compare::rules_hold,
+        output::rules_hold,
+        drawn::rules_hold,
+        table::rules_hold,
+    ];
     all.iter().filter_map(|rule| rule().err()).collect()
 }
 
 /// The pages, and others whose commands are not run.
 fn texts() -> Vec<(PathBuf, String)> {
-    let others = ["ARCHITECTURE.md", "benches/peers/README.md", "tests/reference/README.md"];
+    let others = [
+        "ARCHITECTURE.md",
+        "benches/peers/README.md",
+        "tests/reference/README.md",
+    ];
     let all = pages().into_iter().chain(others.map(PathBuf::from));
     all.map(|path| {
         let text = std::fs::read_to_string(root().join(&path)).unwrap();
@@ -55,7 +65,14 @@ fn code(text: &str) -> Vec<(usize, Vec<String>)> {
             let command = line.split(" #").next().unwrap_or_default();
             found.push((i, vec![command.trim().to_owned()]));
         } else if block.is_none() && !line.starts_with("    ") {
-            found.push((i, line.split('`').skip(1).step_by(2).map(str::to_owned).collect()));
+            found.push((
+                i,
+                line.split('`')
+                    .skip(1)
+                    .step_by(2)
+                    .map(str::to_owned)
+                    .collect(),
+            ));
         }
     }
     found
@@ -77,7 +94,9 @@ fn anchors(text: &str) -> BTreeSet<String> {
     let mut anchors = BTreeSet::new();
     for (_, line) in prose(text).filter(|(_, line)| line.starts_with('#')) {
         let title = line.trim_start_matches('#').trim().to_lowercase();
-        let kept = title.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+        let kept = title
+            .chars()
+            .filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
         let anchor: String = kept.map(|c| if c == ' ' { '-' } else { c }).collect();
         let count = found.entry(anchor.clone()).or_default();
         anchors.insert(match *count {
@@ -120,19 +139,39 @@ fn links() -> Found {
 }
 
 /// Options of other programs that pages name in code of their own.
-const OF_OTHERS: [&str; 5] = ["--cpus-per-task", "--requeue", "--from-file", "--states", "--seed"];
+const OF_OTHERS: [&str; 5] = [
+    "--cpus-per-task",
+    "--requeue",
+    "--from-file",
+    "--states",
+    "--seed",
+];
 
 /// The options of each subcommand, from its help, and the words of its help.
 fn helps() -> BTreeMap<String, BTreeSet<String>> {
     let options = |text: &str| -> BTreeSet<String> {
         let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '-');
-        words.filter(|word| word.starts_with('-') && word.len() > 1).map(str::to_owned).collect()
+        words
+            .filter(|word| word.starts_with('-') && word.len() > 1)
+            .map(str::to_owned)
+            .collect()
     };
     let (_, all) = call(root(), "bryant --help");
-    let lines = all.out.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let lines = all
+        .out
+        .lines()
+        .skip_while(|line| *line != "Commands:")
+        .skip(1);
     let lines = lines.take_while(|line| !line.is_empty());
     let names = lines.filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next());
-    names.map(|name| (name.to_owned(), options(&call(root(), &format!("bryant {name} --help")).1.out))).collect()
+    names
+        .map(|name| {
+            (
+                name.to_owned(),
+                options(&call(root(), &format!("bryant {name} --help")).1.out),
+            )
+        })
+        .collect()
 }
 
 /// The options that a command line gives.
@@ -142,26 +181,38 @@ fn given(line: &str) -> Vec<String> {
     for (k, piece) in line.split(['\'', '"']).enumerate() {
         plain.push_str(if k % 2 == 0 { piece } else { "x" });
     }
-    let words = plain.split_whitespace().filter(|word| word.starts_with('-') && word.len() > 1);
+    let words = plain
+        .split_whitespace()
+        .filter(|word| word.starts_with('-') && word.len() > 1);
     let words = words.map(|word| word.split('=').next().unwrap_or(word));
-    words.filter(|word| word[1..].starts_with(|c: char| c == '-' || c.is_ascii_alphabetic())).map(str::to_owned).collect()
+    words
+        .filter(|word| word[1..].starts_with(|c: char| c == '-' || c.is_ascii_alphabetic()))
+        .map(str::to_owned)
+        .collect()
 }
 
 fn commands() -> Found {
     let helps = helps();
     let (_, listed) = call(root(), "bryant models");
-    let models: BTreeSet<&str> = listed.out.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    let models: BTreeSet<&str> = listed
+        .out
+        .lines()
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
     let any: BTreeSet<&String> = helps.values().flatten().collect();
     let mut found = Found::new();
     if helps.len() < 10 || models.len() < 20 {
-        found.push(format!("read too little of the help: {helps:?}, {models:?}"));
+        found.push(format!(
+            "read too little of the help: {helps:?}, {models:?}"
+        ));
     }
     for (path, text) in texts() {
         for (i, spans) in code(&text) {
-            let mut wrong = |what: String| found.push(format!("{}:{}: {what}", path.display(), i + 1));
+            let mut wrong =
+                |what: String| found.push(format!("{}:{}: {what}", path.display(), i + 1));
             for span in spans {
                 let whole = span.trim();
-                if whole.starts_with("--") {
+                if whole.starts_with("--") && whole != "--" {
                     let option = whole.split([' ', '=']).next().unwrap_or_default();
                     if !any.contains(&option.to_owned()) && !OF_OTHERS.contains(&option) {
                         wrong(format!("no command has {option}"));
@@ -179,13 +230,33 @@ fn commands() -> Found {
                         }
                         continue;
                     };
-                    for option in given(rest).iter().filter(|option| !options.contains(*option)) {
+                    for option in given(rest)
+                        .iter()
+                        .filter(|option| !options.contains(*option))
+                    {
                         wrong(format!("`bryant {name}` has no {option}"));
                     }
                     let model = words.next().unwrap_or_default();
-                    let of_models = matches!(name, "run" | "check" | "settle" | "gradient" | "accuracy" | "effects" | "equations" | "models");
-                    let plain = model.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
-                    if of_models && plain && !model.is_empty() && !model.starts_with('-') && !models.contains(model) {
+                    let of_models = matches!(
+                        name,
+                        "run"
+                            | "check"
+                            | "settle"
+                            | "gradient"
+                            | "accuracy"
+                            | "effects"
+                            | "equations"
+                            | "models"
+                    );
+                    let plain = model
+                        .chars()
+                        .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
+                    if of_models
+                        && plain
+                        && !model.is_empty()
+                        && !model.starts_with('-')
+                        && !models.contains(model)
+                    {
                         wrong(format!("there is no model {model}"));
                     }
                 }
@@ -217,16 +288,23 @@ fn tree() -> Vec<String> {
 
 fn files() -> Found {
     const ENDINGS: [&str; 15] = [
-        "rs", "md", "yaml", "json", "svg", "png", "py", "sh", "toml", "csv", "js", "html", "sbatch", "parquet", "txt",
+        "rs", "md", "yaml", "json", "svg", "png", "py", "sh", "toml", "csv", "js", "html",
+        "sbatch", "parquet", "txt",
     ];
     let tree = tree();
     let mut found = Found::new();
     for (path, text) in texts() {
         for (i, spans) in code(&text) {
             for span in spans.iter().flat_map(|span| span.split_whitespace()) {
-                let plain = span.chars().all(|c| c.is_ascii_alphanumeric() || "_.-/".contains(c));
+                let plain = span
+                    .chars()
+                    .all(|c| c.is_ascii_alphanumeric() || "_.-/".contains(c));
                 let ending = span.rsplit_once('.').map_or("", |(_, ending)| ending);
-                if !plain || !span.contains('/') || span.starts_with(['/', '-']) || !ENDINGS.contains(&ending) {
+                if !plain
+                    || !span.contains('/')
+                    || span.starts_with(['/', '-'])
+                    || !ENDINGS.contains(&ending)
+                {
                     continue;
                 }
                 // the first folders of a path are left out where the text says in which part of the program it is
@@ -240,11 +318,84 @@ fn files() -> Found {
     found
 }
 
+/// Each key in the column `key` of a table of a law is one that the reference describes, which a test of the generator holds to be all.
+fn keys() -> Found {
+    let cells = |line: &str| -> Vec<String> {
+        line.split('|').map(|cell| cell.trim().to_owned()).collect()
+    };
+    let reference = std::fs::read_to_string(root().join("docs/reference.md")).unwrap();
+    let known: BTreeSet<String> = reference
+        .lines()
+        .filter(|line| line.starts_with("| `"))
+        .map(|line| cells(line)[1].trim_matches('`').to_owned())
+        .collect();
+    let mut found = Found::new();
+    let mut count = 0;
+    for (path, text) in texts() {
+        if !path.starts_with("docs/forces") {
+            continue;
+        }
+        let mut column = None;
+        for (i, line) in prose(&text) {
+            if !line.starts_with('|') {
+                column = None;
+                continue;
+            }
+            let cells = cells(line);
+            column = column.or_else(|| {
+                cells
+                    .iter()
+                    .position(|cell| cell == "key" || cell == "keys")
+            });
+            let Some(cell) = column.and_then(|column| cells.get(column)) else {
+                continue;
+            };
+            for span in cell.split('`').skip(1).step_by(2) {
+                let words = span.split(|c: char| !c.is_ascii_lowercase() && c != '_');
+                for word in words.filter(|word| word.len() > 1) {
+                    count += 1;
+                    if !known.contains(word) {
+                        found.push(format!(
+                            "{}:{}: the reference has no key {word}",
+                            path.display(),
+                            i + 1
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    if count < 50 {
+        found.push(format!("only {count} keys were found"));
+    }
+    found
+}
+
 /// The manifests that pages may speak of.
 fn manifests() -> Vec<(PathBuf, String)> {
-    let crates = ["", "generator", "runtime", "engine", "study", "signal", "picture", "generated", "tests", "tests/hard", "examples/stranger"];
+    let crates = [
+        "",
+        "generator",
+        "runtime",
+        "engine",
+        "study",
+        "signal",
+        "picture",
+        "generated",
+        "tests",
+        "tests/hard",
+        "examples/stranger",
+    ];
     let paths = crates.map(|name| root().join(name));
-    paths.into_iter().map(|path| (path.clone(), std::fs::read_to_string(path.join("Cargo.toml")).unwrap())).collect()
+    paths
+        .into_iter()
+        .map(|path| {
+            (
+                path.clone(),
+                std::fs::read_to_string(path.join("Cargo.toml")).unwrap(),
+            )
+        })
+        .collect()
 }
 
 fn targets() -> Found {
@@ -253,16 +404,28 @@ fn targets() -> Found {
     for (path, text) in texts() {
         for (i, spans) in code(&text) {
             for span in spans.iter().filter(|span| span.contains("cargo ")) {
-                let words: Vec<&str> = span.split_whitespace().take_while(|word| *word != "--").collect();
-                let of = words.windows(2).find(|pair| pair[0] == "-p").map(|pair| pair[1]);
+                let words: Vec<&str> = span
+                    .split_whitespace()
+                    .take_while(|word| *word != "--")
+                    .collect();
+                let of = words
+                    .windows(2)
+                    .find(|pair| pair[0] == "-p")
+                    .map(|pair| pair[1]);
                 let named = |text: &str, name: &str| text.contains(&format!("name = \"{name}\""));
                 let here: Vec<_> = match of {
-                    Some(name) => manifests.iter().filter(|(_, text)| named(text, name)).collect(),
+                    Some(name) => manifests
+                        .iter()
+                        .filter(|(_, text)| named(text, name))
+                        .collect(),
                     None => manifests.iter().take(1).collect(),
                 };
                 let place = format!("{}:{}", path.display(), i + 1);
                 if here.is_empty() {
-                    found.push(format!("{place}: there is no package {}", of.unwrap_or_default()));
+                    found.push(format!(
+                        "{place}: there is no package {}",
+                        of.unwrap_or_default()
+                    ));
                 }
                 for pair in words.windows(2) {
                     let folder = match pair[0] {
@@ -272,7 +435,8 @@ fn targets() -> Found {
                         _ => continue,
                     };
                     let exists = |(path, text): &&&(PathBuf, String)| {
-                        named(text, pair[1]) || path.join(folder).join(format!("{}.rs", pair[1])).exists()
+                        named(text, pair[1])
+                            || path.join(folder).join(format!("{}.rs", pair[1])).exists()
                     };
                     if here.iter().find(exists).is_none() {
                         found.push(format!("{place}: there is no {} {}", pair[0], pair[1]));

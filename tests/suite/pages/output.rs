@@ -22,7 +22,8 @@ impl Printed {
     }
 
     fn versions(&self) -> [Vec<&str>; 3] {
-        let [out, err] = [&self.out, &self.err].map(|text| text.trim_end().lines().collect::<Vec<&str>>());
+        let [out, err] =
+            [&self.out, &self.err].map(|text| text.trim_end().lines().collect::<Vec<&str>>());
         let both = out.iter().chain(&err).copied().collect();
         [both, out, err]
     }
@@ -36,15 +37,26 @@ struct Chunk<'a> {
 }
 
 fn chunks<'a>(shown: &[&'a str]) -> (Vec<Chunk<'a>>, Option<&'a str>) {
-    let mut found: Vec<Chunk> = vec![Chunk { lines: Vec::new(), before: None }];
+    let mut found: Vec<Chunk> = vec![Chunk {
+        lines: Vec::new(),
+        before: None,
+    }];
     let mut open = None;
     for line in shown {
         if elides(line) {
             open = Some(*line);
         } else if let Some(before) = open.take() {
             match found.last_mut() {
-                Some(first) if first.lines.is_empty() => *first = Chunk { lines: vec![line], before: Some(before) },
-                _ => found.push(Chunk { lines: vec![line], before: Some(before) }),
+                Some(first) if first.lines.is_empty() => {
+                    *first = Chunk {
+                        lines: vec![line],
+                        before: Some(before),
+                    }
+                }
+                _ => found.push(Chunk {
+                    lines: vec![line],
+                    before: Some(before),
+                }),
             }
         } else if let Some(chunk) = found.last_mut() {
             chunk.lines.push(line);
@@ -54,7 +66,13 @@ fn chunks<'a>(shown: &[&'a str]) -> (Vec<Chunk<'a>>, Option<&'a str>) {
 }
 
 /// Where a chunk may begin.
-fn places(chunk: &Chunk, last: bool, open: bool, from: usize, length: usize) -> std::ops::Range<usize> {
+fn places(
+    chunk: &Chunk,
+    last: bool,
+    open: bool,
+    from: usize,
+    length: usize,
+) -> std::ops::Range<usize> {
     let latest = match length.checked_sub(chunk.lines.len()) {
         Some(latest) if latest >= from => latest,
         _ => return 0..0,
@@ -83,7 +101,13 @@ fn missing<'a>(shown: &[&'a str], is: &[&str]) -> Option<(&'a str, String)> {
     let mut from = 0;
     for (k, chunk) in chunks.iter().enumerate() {
         let places = places(chunk, k + 1 == chunks.len(), open.is_some(), from, is.len());
-        let fits = |at: &usize| chunk.lines.iter().zip(&is[*at..]).all(|(a, b)| same_line(a, b));
+        let fits = |at: &usize| {
+            chunk
+                .lines
+                .iter()
+                .zip(&is[*at..])
+                .all(|(a, b)| same_line(a, b))
+        };
         match places.clone().find(fits) {
             Some(at) => from = at + chunk.lines.len(),
             None => {
@@ -105,7 +129,9 @@ pub fn differs(shown: &[&str], printed: &Printed) -> Option<String> {
     let versions = printed.versions();
     let found: Option<Vec<_>> = versions.iter().map(|is| missing(shown, is)).collect();
     let (shown, is) = found?.into_iter().next()?;
-    Some(format!("the page shows\n    {shown}\nand the command prints\n    {is}"))
+    Some(format!(
+        "the page shows\n    {shown}\nand the command prints\n    {is}"
+    ))
 }
 
 /// The lines of a block as they are now, with as much left out as before; nothing if the block cannot be recognised in what was printed.
@@ -122,8 +148,16 @@ pub fn renewed(shown: &[&str], printed: &Printed) -> Option<Vec<String>> {
     let is = versions.iter().max_by_key(|is| shows(is))?;
     if whole {
         // the most alike of the shown lines says how times are shown
-        let like = |is: &&str| shown.iter().max_by(|a, b| alike(a, is).total_cmp(&alike(b, is)));
-        return Some(is.iter().map(|is| like(is).map_or(is.to_string(), |shown| as_shown(shown, is))).collect());
+        let like = |is: &&str| {
+            shown
+                .iter()
+                .max_by(|a, b| alike(a, is).total_cmp(&alike(b, is)))
+        };
+        return Some(
+            is.iter()
+                .map(|is| like(is).map_or(is.to_string(), |shown| as_shown(shown, is)))
+                .collect(),
+        );
     }
     let (mut from, mut lines) = (0, Vec::new());
     for (k, chunk) in chunks.iter().enumerate() {
@@ -166,7 +200,8 @@ pub fn rules_hold() -> Result<(), String> {
         }
     }
     let now = renewed(&["…", "b 7", "…", "d 8", "…"], &printed).ok_or("not renewed")?;
-    match now.join("\n") == "…\nb 2\n…\nd 4\n…" && renewed(&["…", "e 7", "…"], &printed).is_none() {
+    match now.join("\n") == "…\nb 2\n…\nd 4\n…" && renewed(&["…", "e 7", "…"], &printed).is_none()
+    {
         true => Ok(()),
         false => Err(format!("renewed as {now:?}")),
     }

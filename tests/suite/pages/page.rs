@@ -23,7 +23,7 @@
 //! | `within` | the block is a part of a model, which takes the place of the same keys of this bundled model, or of a `new` one |
 //! | `slow` | only run if `PAGES_ALL` is set; the value is the reason |
 //! | `not run` | never run; the value is the reason |
-//! | `other` | the block is no output of a command; the value says what it is |
+//! | `other` | the block is no output of a command, or the table no table of runs; the value says what it is, or what tests it |
 
 /// The values of a mark, by key, in their order.
 #[derive(Clone, Debug, Default)]
@@ -31,8 +31,8 @@ pub struct Mark(pub Vec<(String, String)>);
 
 /// All keys of marks.
 const KEYS: [&str; 17] = [
-    "file", "prints", "part of", "exit", "run", "replace", "rows", "columns", "with", "picture", "within", "slow",
-    "not run", "other", "each", "take", "says",
+    "file", "prints", "part of", "exit", "run", "replace", "rows", "columns", "with", "picture",
+    "within", "slow", "not run", "other", "each", "take", "says",
 ];
 
 impl Mark {
@@ -80,7 +80,8 @@ fn mark(text: &str, line: usize) -> Result<Mark, String> {
     let mut found: Vec<(String, String)> = Vec::new();
     for row in text.lines().map(str::trim).filter(|row| !row.is_empty()) {
         let key = KEYS.iter().find(|key| {
-            row.strip_prefix(**key).is_some_and(|rest| rest.starts_with(':'))
+            row.strip_prefix(**key)
+                .is_some_and(|rest| rest.starts_with(':'))
         });
         match (key, found.last_mut()) {
             (Some(key), _) => {
@@ -140,18 +141,33 @@ impl Reader<'_> {
                 false => until(&|line| line.contains("-->")) + 1,
             };
             let text = self.lines[begin..end.min(self.lines.len())].join("\n");
-            let text = text.trim_end().strip_suffix("-->").map(|text| text.trim_start_matches("<!--").to_owned());
-            let text = text.ok_or(format!("{}: this comment does not end with its line", begin + 1))?;
+            let text = text
+                .trim_end()
+                .strip_suffix("-->")
+                .map(|text| text.trim_start_matches("<!--").to_owned());
+            let text = text.ok_or(format!(
+                "{}: this comment does not end with its line",
+                begin + 1
+            ))?;
             self.lone(begin);
             self.waiting = mark(&text, begin)?;
             self.behind = if follows { end } else { self.behind };
             return Ok(end);
         }
-        let rule = self.lines.get(next).is_some_and(|next| next.starts_with("|---") || next.starts_with("|:"));
+        let rule = self
+            .lines
+            .get(next)
+            .is_some_and(|next| next.starts_with("|---") || next.starts_with("|:"));
         if line.starts_with('|') && rule {
             let end = until(&|line| !line.starts_with('|'));
-            let pictures = self.lines[begin..end].iter().any(|line| line.contains("!["));
-            let kind = if pictures { Kind::Pictures } else { Kind::Table };
+            let pictures = self.lines[begin..end]
+                .iter()
+                .any(|line| line.contains("!["));
+            let kind = if pictures {
+                Kind::Pictures
+            } else {
+                Kind::Table
+            };
             self.push(kind, "", begin..end, false);
             return Ok(end);
         }

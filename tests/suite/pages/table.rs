@@ -4,7 +4,7 @@
 //!
 //! - `rows`: the command of all lines. What stands in code in the first cell of a line is added as `--set`. `{1}` is the last word of that cell.
 //! - `columns`: for each further column the response that it shows, as behind `-r`, with the unit of the column in brackets; `-` is not
-//!   compared. Columns are separated by `;`.
+//!   compared, and a mark `other` says why. Columns are separated by `;`.
 //! - `with`: `LABEL: OPTIONS` are further options of the line whose first cell is or begins with this label.
 
 use super::compare::Number;
@@ -33,7 +33,10 @@ fn columns(text: &str) -> Result<Vec<Column>, String> {
         if text == "-" {
             return Ok(None);
         }
-        let (response, name) = match text.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
+        let (response, name) = match text
+            .strip_suffix(']')
+            .and_then(|text| text.rsplit_once('['))
+        {
             Some((response, name)) => (response.trim(), name),
             None => (text, ""),
         };
@@ -44,13 +47,22 @@ fn columns(text: &str) -> Result<Vec<Column>, String> {
 }
 
 fn cells(line: &str) -> Vec<&str> {
-    line.trim().trim_matches('|').split('|').map(str::trim).collect()
+    line.trim()
+        .trim_matches('|')
+        .split('|')
+        .map(str::trim)
+        .collect()
 }
 
 /// The command of a line, without what it reads.
 fn command(base: &str, label: &str, mark: &Mark) -> String {
     let mut command = base.to_owned();
-    for setting in label.split('`').skip(1).step_by(2).filter(|code| code.contains('=')) {
+    for setting in label
+        .split('`')
+        .skip(1)
+        .step_by(2)
+        .filter(|code| code.contains('='))
+    {
         command = format!("{command} --set {setting}");
     }
     let with = mark.all("with").filter_map(|with| with.split_once(": "));
@@ -62,14 +74,42 @@ fn command(base: &str, label: &str, mark: &Mark) -> String {
     command
 }
 
+/// Whether a table consists of numbers for the most part: two or more, and a third of the cells beside the first column.
+pub fn has_numbers(lines: &[&str]) -> bool {
+    let rows = lines.iter().skip(2).map(|line| cells(line));
+    let all: Vec<String> = rows
+        .flat_map(|row| {
+            row[1..]
+                .iter()
+                .map(|cell| cell.trim_matches('*').replace(' ', ""))
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    let with_unit = |cell: &str| {
+        let number = cell
+            .trim_end_matches(|c: char| c.is_alphabetic() || matches!(c, '%' | '°' | '/' | '²'));
+        Number::of(number).is_some()
+    };
+    let count = all.iter().filter(|cell| with_unit(cell)).count();
+    count >= 2 && 3 * count >= all.len()
+}
+
 /// A number as it is written in a cell: with as many digits behind the point.
 fn like(cell: &str, value: f64) -> Option<String> {
     let plain = cell.trim_matches('*').replace([' ', '\u{202f}'], "");
     Number::of(&plain)?;
     let digits = plain.split_once('.').map_or(0, |(_, behind)| behind.len());
     let now = format!("{value:.digits$}").replacen('-', "−", usize::from(plain.contains('−')));
-    let now = if plain.starts_with('.') { now.trim_start_matches('0').to_owned() } else { now };
-    Some(if cell.starts_with("**") { format!("**{now}**") } else { now })
+    let now = if plain.starts_with('.') {
+        now.trim_start_matches('0').to_owned()
+    } else {
+        now
+    };
+    Some(if cell.starts_with("**") {
+        format!("**{now}**")
+    } else {
+        now
+    })
 }
 
 /// The lines of a table as they are now. `read` runs a command and returns the values of responses in SI, by their order.
@@ -86,7 +126,11 @@ pub fn renewed(
         let cells = cells(line);
         let label = cells[0];
         if cells.len() != columns.len() + 1 {
-            return Err(format!("{} columns are described, and a line has {}", columns.len() + 1, cells.len()));
+            return Err(format!(
+                "{} columns are described, and a line has {}",
+                columns.len() + 1,
+                cells.len()
+            ));
         }
         if label.starts_with("limit") {
             now.push(line.to_string());
@@ -95,16 +139,26 @@ pub fn renewed(
         let last = label.split_whitespace().last().unwrap_or_default();
         let place = |text: &str| text.replace("{1}", last);
         let command = place(&command(base, label, mark));
-        let wanted: Vec<String> = columns.iter().flatten().map(|(response, _)| place(response)).collect();
+        let wanted: Vec<String> = columns
+            .iter()
+            .flatten()
+            .map(|(response, _)| place(response))
+            .collect();
         let mut values = read(&command, &wanted)?.into_iter();
         let mut row = format!("| {label} |");
         for (cell, column) in cells[1..].iter().zip(&columns) {
-            let value = column.as_ref().and_then(|(_, size)| Some(values.next()?? / size));
+            let value = column
+                .as_ref()
+                .and_then(|(_, size)| Some(values.next()?? / size));
             let text = match (value, Number::of(&cell.trim_matches('*').replace(' ', ""))) {
                 (Some(value), Some(shown)) => {
                     used += 1;
                     let near = (value - shown.value).abs() <= shown.unit;
-                    if near { cell.to_string() } else { like(cell, value).unwrap_or_default() }
+                    if near {
+                        cell.to_string()
+                    } else {
+                        like(cell, value).unwrap_or_default()
+                    }
                 }
                 _ => cell.to_string(),
             };
@@ -126,17 +180,28 @@ struct Printed {
 
 impl Printed {
     fn name(&self) -> String {
-        let words: Vec<&str> = self.heading.iter().flat_map(|line| line.split_whitespace()).collect();
+        let words: Vec<&str> = self
+            .heading
+            .iter()
+            .flat_map(|line| line.split_whitespace())
+            .collect();
         words.join(" ")
     }
 }
 
 /// The columns of a printed table, whose cells are aligned at the right.
 fn printed(text: &str) -> Option<Vec<Printed>> {
-    let numbers = |line: &str| line.split_whitespace().next().is_some_and(|word| Number::of(word).is_some());
+    let numbers = |line: &str| {
+        line.split_whitespace()
+            .next()
+            .is_some_and(|word| Number::of(word).is_some())
+    };
     let lines: Vec<&str> = text.lines().collect();
     let first = lines.iter().position(|line| numbers(line))?;
-    let count = lines[first..].iter().take_while(|line| numbers(line)).count();
+    let count = lines[first..]
+        .iter()
+        .take_while(|line| numbers(line))
+        .count();
     let letters = |line: &str| line.chars().collect::<Vec<char>>();
     let row = letters(lines[first]);
     let mut found: Vec<Printed> = Vec::new();
@@ -148,7 +213,11 @@ fn printed(text: &str) -> Option<Vec<Printed>> {
         }
         let piece = |line: &&str| {
             let line = letters(line);
-            let piece: String = line.get(begin.min(line.len())..end.min(line.len())).unwrap_or_default().iter().collect();
+            let piece: String = line
+                .get(begin.min(line.len())..end.min(line.len()))
+                .unwrap_or_default()
+                .iter()
+                .collect();
             piece.trim().to_owned()
         };
         found.push(Printed {
@@ -168,24 +237,43 @@ pub fn part(shown: &[&str], out: &str) -> Result<Vec<String>, String> {
     for column in &shown {
         let name = column.name();
         let mut fits = is.iter().filter(|is| is.name() == name);
-        columns.push(fits.next().ok_or(format!("the command prints no column {name:?}"))?);
+        columns.push(
+            fits.next()
+                .ok_or(format!("the command prints no column {name:?}"))?,
+        );
     }
     let mut rows = Vec::new();
     for cell in &shown[0].cells {
         let row = columns[0].cells.iter().position(|is| is == cell);
         rows.push(row.ok_or(format!("the command prints no row {cell}"))?);
     }
-    let headings = columns.iter().map(|column| column.heading.len()).max().unwrap_or(0);
+    let headings = columns
+        .iter()
+        .map(|column| column.heading.len())
+        .max()
+        .unwrap_or(0);
     let mut lines = vec![String::new(); headings + rows.len()];
     for (k, column) in columns.iter().enumerate() {
-        let pieces: Vec<&String> = column.heading.iter().chain(rows.iter().map(|row| &column.cells[*row])).collect();
-        let width = pieces.iter().map(|piece| piece.chars().count()).max().unwrap_or(0);
+        let pieces: Vec<&String> = column
+            .heading
+            .iter()
+            .chain(rows.iter().map(|row| &column.cells[*row]))
+            .collect();
+        let width = pieces
+            .iter()
+            .map(|piece| piece.chars().count())
+            .max()
+            .unwrap_or(0);
         let gap = if k == 0 { "" } else { "  " };
         for (line, piece) in lines.iter_mut().zip(pieces) {
             *line = format!("{line}{gap}{piece:>width$}");
         }
     }
-    Ok(lines.into_iter().filter(|line| !line.trim().is_empty()).map(|line| line.trim_end().to_owned()).collect())
+    Ok(lines
+        .into_iter()
+        .filter(|line| !line.trim().is_empty())
+        .map(|line| line.trim_end().to_owned())
+        .collect())
 }
 
 /// The rules themselves, which the test of all pages begins with.
@@ -199,13 +287,21 @@ pub fn rules_hold() -> Result<(), String> {
         .map(|(key, value)| (key.to_owned(), value.to_owned()))
         .to_vec(),
     );
-    let table = ["| | a | b | c |", "|---|---|---|---|", "| free: `k='2 N'` 3 | **4.20** | 1 | 20 |", "| all 3 | 4.00 | 1 | – |"];
+    let table = [
+        "| | a | b | c |",
+        "|---|---|---|---|",
+        "| free: `k='2 N'` 3 | **4.20** | 1 | 20 |",
+        "| all 3 | 4.00 | 1 | – |",
+    ];
     let mut asked = Vec::new();
     let now = renewed(&table, &mark, |command, wanted| {
         asked.push(format!("{command}: {}", wanted.join(", ")));
         Ok(vec![Some(4006.0), Some(0.0204)])
     })?;
-    let expected = ["| free: `k='2 N'` 3 | **4.01** | 1 | 20 |", "| all 3 | 4.00 | 1 | – |"];
+    let expected = [
+        "| free: `k='2 N'` 3 | **4.01** | 1 | 20 |",
+        "| all 3 | 4.00 | 1 | – |",
+    ];
     let wanted = [
         "run it --set k='2 N': peak of belt, value at 3 of x",
         "run it --set a=1: peak of belt, value at 3 of x",
@@ -214,15 +310,33 @@ pub fn rules_hold() -> Result<(), String> {
         return Err(format!("{now:?}, asked as {asked:?}"));
     }
     let out = "       lap  cushion\n time  force    force\n  [s]    [N]      [N]\n0.000      0        1\n0.010     12        3\n";
-    let out = out.replace("       lap  cushion", "        lap  cushion").replace(" time  force", " time  force");
-    let now = part(&["cushion", "time  force", " [s]  [N]", "0.010  7"].map(|line| line), &out);
+    let out = out
+        .replace("       lap  cushion", "        lap  cushion")
+        .replace(" time  force", " time  force");
+    let now = part(
+        &["cushion", "time  force", " [s]  [N]", "0.010  7"].map(|line| line),
+        &out,
+    );
     match now {
         Ok(_) => Err("a table whose heading is not above its cells is read".to_owned()),
         Err(_) => {
-            let shown = [" time  cushion", "         force", "  [s]      [N]", "0.010        7"];
+            let shown = [
+                " time  cushion",
+                "         force",
+                "  [s]      [N]",
+                "0.010        7",
+            ];
             let now = part(&shown, &out)?;
-            match now == [" time    cushion", "           force", "  [s]      [N]", "0.010        3"]
-                || now.last().is_some_and(|row| row.split_whitespace().eq(["0.010", "3"]))
+            match now
+                == [
+                    " time    cushion",
+                    "           force",
+                    "  [s]      [N]",
+                    "0.010        3",
+                ]
+                || now
+                    .last()
+                    .is_some_and(|row| row.split_whitespace().eq(["0.010", "3"]))
             {
                 true => Ok(()),
                 false => Err(format!("{now:?}")),
