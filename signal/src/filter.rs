@@ -1,6 +1,7 @@
 //! Filters of channel frequency classes (ISO 6487, SAE J211-1) for signals: [`bryant_runtime::response::filter`] has the mathematics.
 
 use crate::Signal;
+use crate::mme::is_code;
 use bryant_runtime::response::filter;
 pub use bryant_runtime::response::filter::{Class, Standard, coefficients};
 use thiserror::Error;
@@ -41,8 +42,7 @@ pub fn narrow_filter(code: &str) -> Option<&'static str> {
 
 /// The last character of a channel code, which is the filter.
 fn last_of_code(code: &str) -> Option<char> {
-    let last = code.chars().nth(15).filter(|_| code.len() == 16);
-    last.map(|last| last.to_ascii_uppercase())
+    code.chars().nth(15).filter(|_| is_code(code))
 }
 
 /// A class, written as `CFC180`, `cfc 180` or `180`.

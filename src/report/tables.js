@@ -18,8 +18,8 @@ function criteria() {
   const judged = all.filter((one) => one.value !== null), missing = all.filter((one) => one.missing);
   const share = (one) => 100 * (one.value / one.limit - 1);
   const verdict = (one) => one.limit === null ? "no limit" : element("span", one.met ? `met by ${Math.round(-share(one))} %` : `missed by ${Math.round(share(one))} %`, { class: one.met ? "met" : "missed" });
-  const rows = judged.map((one) => [one.criterion, readable(one.value), one.limit === null ? "–" : readable(one.limit), one.unit, verdict(one), one.filter || "none", one.detail]);
-  const made = [table([["criterion", false], ["value", true], ["limit", true], ["unit", false], ["verdict", false], ["filter", false], ["", false]], rows)];
+  const rows = judged.map((one) => [one.criterion, readable(one.value), one.limit === null ? "–" : readable(one.limit), one.unit, verdict(one), one.filter || "none", Object.values(one.channels).join(", "), one.detail]);
+  const made = [table([["criterion", false], ["value", true], ["limit", true], ["unit", false], ["verdict", false], ["filter", false], ["read from", false], ["", false]], rows)];
   if (missing.length) made.push(element("p", `Not judged, because there is no channel of: ${missing.map((one) => `${one.criterion} (${one.missing})`).join(", ")}.`));
   made.push(element("p", `Limits: ${source}.`));
   return made;

@@ -16,7 +16,7 @@ mod read;
 mod write;
 
 pub use read::read;
-pub use write::{About, write};
+pub use write::{About, is_code, write};
 
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,6 @@
 //! Reads ISO-MME.
 
+use super::is_code;
 use super::lines::{Lines, NOVALUE};
 use crate::{Channel, ReadError, Recording, Signal, unit};
 use std::path::{Path, PathBuf};
@@ -201,6 +202,8 @@ impl Written {
         let file = self.path.file_name().unwrap_or_default().to_string_lossy();
         let name = match self.code() {
             "" => title.map_or(file.into_owned(), str::to_owned),
+            // some programs write codes in small letters
+            code if is_code(&code.to_ascii_uppercase()) => code.to_ascii_uppercase(),
             code => code.to_owned(),
         };
         Ok(Channel {

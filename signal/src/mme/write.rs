@@ -56,9 +56,10 @@ pub fn write(folder: &Path, name: &str, recording: &Recording, about: &About) ->
     std::fs::write(folder.join(format!("{name}.mme")), test(about))
 }
 
-/// Whether the name of a channel is a code.
-fn is_code(name: &str) -> bool {
-    name.len() == 16 && name.bytes().all(|byte| byte.is_ascii_alphanumeric())
+/// Whether the name of a channel is a code: 16 capital letters and digits.
+pub fn is_code(name: &str) -> bool {
+    let fits = |byte: u8| byte.is_ascii_uppercase() || byte.is_ascii_digit();
+    name.len() == 16 && name.bytes().all(fits)
 }
 
 /// The code of a channel. A channel without a code gets its number as an unknown place, `X001`, and the quantity of its unit.

@@ -51,6 +51,11 @@ impl Criteria {
                 ..own.clone()
             },
             (None, _) => {
+                if arguments.occupant.is_some() {
+                    return Err(Error::Input(
+                        "--occupant: an occupant belongs to criteria, and there are none\n  help: add --criteria 'REGULATION, DUMMY'; `bryant criteria --list` has them".to_owned(),
+                    ));
+                }
                 return match named.first() {
                     Some((place, _)) => Err(Error::Input(format!(
                         "--place {place}: a place belongs to criteria, and there are none\n  help: add --criteria 'REGULATION, DUMMY'; `bryant criteria --list` has them"

@@ -164,7 +164,7 @@ fn occupant(
     asked: &Asked,
     at: &[(&'static Place, Vec<usize>)],
 ) -> Result<Option<String>, String> {
-    let of = |index: &usize| occupant_of(candidates[*index].code);
+    let of = |index: &usize| occupant_of(candidates[*index].code).to_owned();
     let mut there: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for (place, all) in at {
         for index in all {
@@ -226,9 +226,15 @@ fn occupant(
 }
 
 /// Test object and position of a code; "" of what is no code.
-fn occupant_of(code: &str) -> String {
-    let two = code.get(..2).filter(|_| code.len() == 16);
-    two.unwrap_or_default().to_ascii_uppercase()
+fn occupant_of(code: &str) -> &str {
+    let is_code = code.len() == 16
+        && code
+            .bytes()
+            .all(|byte| byte.is_ascii_uppercase() || byte.is_ascii_digit());
+    match is_code {
+        true => &code[..2],
+        false => "",
+    }
 }
 
 /// Whether this is a place, or a part if `of` is a pattern of codes.
@@ -263,13 +269,8 @@ pub fn part(place: &str) -> &str {
 
 /// Number of different sensors.
 fn sensors(candidates: &[Candidate<'_>], all: &[usize]) -> usize {
-    let sensor = |index: &usize| {
-        candidates[*index]
-            .code
-            .get(..12)
-            .map(str::to_ascii_uppercase)
-    };
-    let mut sensors: Vec<Option<String>> = all.iter().map(sensor).collect();
+    let sensor = |index: &usize| candidates[*index].code.get(..12);
+    let mut sensors: Vec<Option<&str>> = all.iter().map(sensor).collect();
     sensors.sort();
     sensors.dedup();
     sensors.len()
@@ -278,20 +279,13 @@ fn sensors(candidates: &[Candidate<'_>], all: &[usize]) -> usize {
 /// Whether two have the same code.
 fn has_twins(candidates: &[Candidate<'_>], all: &[usize]) -> bool {
     let code = |index: &usize| candidates[*index].code;
-    let twin = |(i, index)| {
-        all[..i]
-            .iter()
-            .any(|other| code(other).eq_ignore_ascii_case(code(index)))
-    };
+    let twin = |(i, index)| all[..i].iter().any(|other| code(other) == code(index));
     all.iter().enumerate().any(twin)
 }
 
 /// Whether a code matches a pattern.
 fn matches(code: &str, pattern: &str) -> bool {
-    let (code, pattern) = (
-        code.to_ascii_uppercase(),
-        pattern.trim().to_ascii_uppercase(),
-    );
+    let pattern = pattern.trim().to_ascii_uppercase();
     let (begin, is_long_enough) = match pattern.split_once('*') {
         Some((begin, _)) => (begin, code.len() >= begin.len()),
         None => (pattern.as_str(), code.len() == pattern.len()),

@@ -54,15 +54,14 @@ const LOCATIONS: [&str; 28] = [
 
 /// Whether a channel code is that of a time history that matches a pattern with wild cards, or one of several with `|` between them.
 pub fn fits(code: &str, pattern: &str) -> bool {
-    let code = code.to_ascii_uppercase();
     let matches = |pattern: &str| {
         let pairs = || code.chars().zip(pattern.chars());
         code.len() == pattern.len() && pairs().all(|(a, b)| b == '?' || a == b)
     };
-    !code.is_empty() && pattern.split('|').any(matches) && is_time_history(&code)
+    !code.is_empty() && pattern.split('|').any(matches) && is_time_history(code)
 }
 
-/// Whether a code in capital letters is that of a sensor's signal, and not of a number that was computed of it.
+/// Whether a code is that of a sensor's signal, and not of a number that was computed of it.
 fn is_time_history(code: &str) -> bool {
     let is_location = |at: std::ops::Range<usize>| {
         code.get(at).is_some_and(|two| {
@@ -111,7 +110,7 @@ mod tests {
         for (place, code) in [
             ("head-x", "11HEAD0000H3ACXA"),
             ("head-x", "11HEADCGRDH3ACXP"),
-            ("head-x", "13headcg00hfacx0"),
+            ("head-x", "13HEADCG00HFACX0"),
             ("head", "11HEAD0000H3ACRA"),
             ("head-wy", "11HEAD0000THAVYD"),
             ("chest-x", "11CHSTUP00H3ACXC"),
