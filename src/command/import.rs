@@ -46,6 +46,10 @@ pub struct Arguments {
     /// Let joints that follow others (<mimic>) move by themselves
     #[arg(long)]
     uncouple: bool,
+
+    /// Replace masses and inertias that no mechanism can have, and list each change
+    #[arg(long)]
+    repair_inertias: bool,
 }
 
 /// What the root link does.
@@ -80,6 +84,7 @@ impl Arguments {
             right_angles: self.right_angles,
             stops: self.stops,
             uncouple: self.uncouple,
+            repair_inertias: self.repair_inertias,
         };
         let imported = ModelText::of_urdf(name, text, &options).map_err(Error::Model)?;
         // the written model can be run: a body that no model can have is found here

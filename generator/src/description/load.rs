@@ -272,7 +272,7 @@ impl ModelText {
     }
 }
 
-/// The text of a model: a YAML file, or what a URDF file (`.urdf`) is as YAML.
+/// The text of a model: a YAML file, or what a URDF file is as YAML. A file is URDF by its content, XML, or by its name, `.urdf`.
 ///
 /// # Errors
 /// A file that cannot be read; every problem of a URDF file.
@@ -282,7 +282,10 @@ pub fn read_model(path: &Path) -> Result<ModelText, Diagnostics> {
         let (message, help) = unreadable(&name, &error);
         Diagnostic::of_file(&name, message, help)
     })?;
-    match path.extension().is_some_and(|e| e == "urdf") {
+    let is_named_urdf = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("urdf"));
+    match is_named_urdf || urdf::is_xml(&text) {
         true => ModelText::of_urdf(name, text, &urdf::Options::default()),
         false => Ok(ModelText {
             name,
