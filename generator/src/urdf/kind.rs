@@ -75,9 +75,32 @@ const FORMATS: &[Format] = &[
     },
 ];
 
-/// Whether a text is XML by its beginning: its first character beside blanks and a byte order mark is `<`.
+/// Whether a text is XML by its beginning: behind blanks and a byte order mark a `<`, and no second one, which YAML may have.
 pub fn is_xml(text: &str) -> bool {
-    text[before(text)..].starts_with('<')
+    let begins = text[before(text)..].strip_prefix('<');
+    begins.is_some_and(|rest| rest.starts_with(|c: char| c.is_alphabetic() || "?!_".contains(c)))
+}
+
+/// The text of XML in UTF-16, which its first character tells, or in ISO 8859-1, which its declaration says; `None` for anything else.
+pub fn decoded(bytes: &[u8]) -> Option<String> {
+    let words = |of: fn([u8; 2]) -> u16| {
+        let words: Vec<u16> = bytes.chunks_exact(2).map(|b| of([b[0], b[1]])).collect();
+        String::from_utf16(&words).ok()
+    };
+    let text = match bytes {
+        [0xff, 0xfe, ..] => words(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => words(u16::from_be_bytes),
+        _ => {
+            let declaration = bytes.split(|b| *b == b'>').next().unwrap_or_default();
+            let declaration = String::from_utf8_lossy(declaration).to_lowercase();
+            let known = ["iso-8859-1", "latin1", "windows-1252", "us-ascii"];
+            let latin =
+                declaration.contains("<?xml") && known.iter().any(|k| declaration.contains(k));
+            // each byte is the character of its number
+            latin.then(|| bytes.iter().map(|b| char::from(*b)).collect())
+        }
+    };
+    text.filter(|text| is_xml(text))
 }
 
 /// The length of what stands before the content: blanks, and the byte order mark.

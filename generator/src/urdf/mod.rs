@@ -23,7 +23,7 @@ mod tree;
 mod write;
 mod xml;
 
-pub use kind::is_xml;
+pub use kind::{decoded, is_xml};
 
 pub use robot::Place;
 pub use tree::Base;

@@ -19,6 +19,11 @@ pub fn ball(mass: f64) -> Matrix {
     IDENTITY.map(|row| scale(row, 0.4 * mass * radius * radius))
 }
 
+/// A number with three digits: a stand-in means no more.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
 /// Makes a change; returns what to say about it.
 pub fn apply(robot: &mut Robot, repair: &Repair) -> Vec<String> {
     match repair {
@@ -29,7 +34,10 @@ pub fn apply(robot: &mut Robot, repair: &Repair) -> Vec<String> {
         Repair::Mass(link) => {
             let masses = robot.links.iter().filter_map(|l| l.inertial.as_ref());
             let total: f64 = masses.map(|i| i.mass).sum();
-            let mass = if total > 0.0 { PART * total } else { MASS };
+            let mass = match total > 0.0 {
+                true => rounded(PART * total),
+                false => MASS,
+            };
             vec![give_mass(robot, *link, mass)]
         }
         Repair::Tensor(links) => links
@@ -62,7 +70,7 @@ fn give_mass(robot: &mut Robot, link: usize, mass: f64) -> String {
     match &mut own.inertial {
         Some(inertial) if inertial.tensor != [[0.0; 3]; 3] => {
             inertial.mass = mass;
-            format!("{name} has the mass {mass:.3e} kg instead of none")
+            format!("{name} has the mass {mass} kg instead of none")
         }
         inertial => {
             let place = own.place;
@@ -73,9 +81,9 @@ fn give_mass(robot: &mut Robot, link: usize, mass: f64) -> String {
                 tensor: ball(mass),
                 tensor_place: place,
             });
-            let [x, y, z] = at;
+            let [x, y, z] = at.map(|x| (x * 1e4).round() / 1e4);
             format!(
-                "{name} has the mass {mass:.3e} kg at [{x:.4}, {y:.4}, {z:.4}] of its frame, with the moments of a ball of water, instead of none"
+                "{name} has the mass {mass} kg at [{x}, {y}, {z}] of its frame, with the moments of a ball of water, instead of none"
             )
         }
     }

@@ -122,9 +122,11 @@ impl<'a> Xml<'a> {
         let line_start = self
             .text
             .split_inclusive('\n')
-            .take(position.row as usize - 1);
+            .take((position.row as usize).saturating_sub(1));
         let start: usize = line_start.map(str::len).sum();
-        let rest = self.text[start..].chars().take(position.col as usize - 1);
+        let rest = self.text[start..]
+            .chars()
+            .take((position.col as usize).saturating_sub(1));
         let at = start + rest.map(char::len_utf8).sum::<usize>();
         let mut place = self.place_at(at, 1);
         const END: &str = "the text ends before </robot>: give the whole file";
@@ -187,7 +189,8 @@ impl<'a> Xml<'a> {
         let at = (self.skipped + at).min(self.given.len());
         let line = self.lines.partition_point(|&start| start <= at);
         let start = self.lines[line.saturating_sub(1)];
-        let column = self.given[start..at].chars().count() + 1;
+        let before = self.given.get(start..at).unwrap_or_default();
+        let column = before.chars().count() + 1;
         (line, column, length.max(1))
     }
 

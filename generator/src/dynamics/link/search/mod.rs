@@ -58,17 +58,7 @@ pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
     {
         return choice.clone();
     }
-    for _ in 0..SWEEPS {
-        let before = search.best.clone();
-        search.bases();
-        for k in (0..tree.links.len()).rev() {
-            search.link(k);
-        }
-        search.units();
-        if search.best == before {
-            break;
-        }
-    }
+    search.sweep();
     if let Ok(mut known) = KNOWN.lock() {
         if known.len() >= KEPT {
             known.remove(0);
@@ -76,6 +66,16 @@ pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
         known.push((signature, search.best.clone()));
     }
     search.best
+}
+
+/// The number of links whose equations a search derives, trial by trial.
+#[cfg(test)]
+pub fn derived(tree: &Tree<'_>, aim: Aim) -> usize {
+    let mut search = Search::new(tree, aim);
+    search.sweep();
+    let counted = search.counted.borrow();
+    // four words for each link, after five of the whole
+    counted.keys().map(|key| (key.len() - 5) / 4).sum()
 }
 
 /// Frames of links drawn at random from those that a search tries. `draw` returns a number below its argument.
@@ -151,6 +151,21 @@ impl<'t, 'g> Search<'t, 'g> {
             columns,
             counted: RefCell::default(),
             graph: Graph::new(),
+        }
+    }
+
+    /// Tries the choices for all links, several times.
+    fn sweep(&mut self) {
+        for _ in 0..SWEEPS {
+            let before = self.best.clone();
+            self.bases();
+            for k in (0..self.tree.links.len()).rev() {
+                self.link(k);
+            }
+            self.units();
+            if self.best == before {
+                break;
+            }
         }
     }
 
