@@ -5,8 +5,7 @@ use super::outputs::{Outputs, Replacing};
 use super::terminal::Terminal;
 use crate::files;
 use crate::own::{self, Kind};
-use bryant_generator::Diagnostic;
-use bryant_generator::description::load::{ModelText, read_file, shown, unreadable};
+use bryant_generator::description::load::{ModelText, read_file, read_text, shown};
 use bryant_generator::model;
 use bryant_generator::urdf::{Base, Options};
 use clap::{Args, ValueEnum};
@@ -16,15 +15,19 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Links become elements and keep their names, with full inertia tensors; joints become joints with their axes; damping and friction
-become joint forces, <mimic> becomes `follows`. Links without mass that a fixed joint holds become points. What is not taken over, such as shapes,
-transmissions and sensors, is listed with its lines. Gravity of 9.81 m/s2 along -z is added.
+become joint forces, <mimic> becomes `follows`, rotors of transmissions become `armature`. Links without mass that a fixed joint holds become points. What is
+not taken over, such as shapes and sensors, is listed with its lines. Gravity of 9.81 m/s2 along -z is added.
+
+With --repair-inertias a file without masses can be tried out: links get stand-in masses, joints that move no mass become fixed, tensors of no body become
+the nearest ones. Each change is listed, here and in the model: it is then another robot.
 
 Other commands read a URDF file, too: as this one makes it without options.
 
 Examples:
   bryant import panda.urdf -o panda.yaml
   bryant import anymal.urdf --base free --right-angles -o anymal.yaml
-  bryant import arm.urdf --stops 1e4 -o arm.yaml")]
+  bryant import arm.urdf --stops 1e4 -o arm.yaml
+  bryant import industrial-arm.urdf --repair-inertias -o arm.yaml")]
 pub struct Arguments {
     /// Path of a URDF file
     file: PathBuf,
@@ -48,6 +51,10 @@ pub struct Arguments {
     /// Let joints that follow others (<mimic>) move by themselves
     #[arg(long)]
     uncouple: bool,
+
+    /// Replace masses and inertias that no mechanism can have, and list each change
+    #[arg(long)]
+    repair_inertias: bool,
 
     #[command(flatten)]
     replacing: Replacing,
@@ -73,10 +80,7 @@ impl Arguments {
     /// Reads the robot and writes the model.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let name = shown(&self.file);
-        let text = read_file(&self.file).map_err(|error| {
-            let (message, help) = unreadable(&name, &error);
-            Error::Model(Diagnostic::of_file(&name, message, help).into())
-        })?;
+        let text = read_text(&self.file).map_err(Error::Model)?;
         let options = Options {
             base: match self.base {
                 RootLink::Fixed => Base::Fixed,
@@ -85,6 +89,7 @@ impl Arguments {
             right_angles: self.right_angles,
             stops: self.stops,
             uncouple: self.uncouple,
+            repair_inertias: self.repair_inertias,
         };
         let imported = ModelText::of_urdf(name, text, &options).map_err(Error::Model)?;
         // the written model can be run: a body that no model can have is found here

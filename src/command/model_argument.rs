@@ -100,7 +100,11 @@ pub fn find_bundled(name: &str) -> Result<&'static Bundled, Error> {
 fn looks_like_path(argument: &str) -> bool {
     let extension = Path::new(argument).extension();
     argument.contains(['/', '\\'])
-        || extension.is_some_and(|e| e == "yaml" || e == "yml" || e == "urdf")
+        || extension.is_some_and(|e| {
+            ["yaml", "yml", "urdf", "xml"]
+                .iter()
+                .any(|known| e.eq_ignore_ascii_case(known))
+        })
 }
 
 fn unknown(name: &str) -> String {

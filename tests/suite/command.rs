@@ -508,6 +508,65 @@ fn a_robot_is_imported_and_runs() {
 }
 
 #[test]
+fn a_robot_is_known_by_the_content_of_its_file() {
+    let directory = directory();
+    let write = |name: &str, text: &str| std::fs::write(directory.path().join(name), text).unwrap();
+    for name in ["arm.urdf", "ARM.URDF", "arm.xml", "arm.txt"] {
+        write(name, ARM);
+    }
+    write("blank.urdf", &format!("\n {ARM}"));
+    for command in [&["run", "--no-files"][..], &["equations"]] {
+        let of = |name: &str| call(directory.path(), &[command, &[name]].concat(), 0).0;
+        for name in ["ARM.URDF", "arm.xml", "arm.txt", "blank.urdf"] {
+            assert_eq!(of(name), of("arm.urdf"), "{command:?} {name}");
+        }
+    }
+    call(directory.path(), &["check", "ARM.URDF"], 0);
+    // other encodings of XML: UTF-16 as PowerShell writes it, and ISO 8859-1 where the file says so
+    let utf16 = format!("\u{feff}{ARM}")
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes);
+    let latin = format!("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><!-- \u{fc} -->\n{ARM}");
+    let latin = latin.chars().map(|c| c as u8);
+    for (name, bytes) in [
+        ("utf16.urdf", utf16.collect::<Vec<u8>>()),
+        ("latin.urdf", latin.collect()),
+    ] {
+        std::fs::write(directory.path().join(name), bytes).unwrap();
+        let run = |name| call(directory.path(), &["run", "--no-files", name], 0).0;
+        assert_eq!(run(name), run("arm.urdf"), "{name}");
+    }
+    // what is no robot is named by what it is, in every command that takes a model
+    write("pendulum.xml", "<mujoco model=\"pendulum\"/>");
+    write("world.sdf", "<sdf version=\"1.7\"/>");
+    for command in ["check", "run", "equations", "effects", "settle", "import"] {
+        for (name, what) in [("pendulum.xml", "MJCF"), ("world.sdf", "SDF")] {
+            let (_, wrong) = call(directory.path(), &[command, name], 2);
+            assert!(
+                wrong.contains(what) && wrong.contains("help:"),
+                "{command}: {wrong}"
+            );
+        }
+    }
+    // a file of shapes alone is refused, and repaired on demand
+    let start = ARM.find("  <inertial>").unwrap();
+    let end = ARM.find("</inertial>").unwrap() + "</inertial>".len();
+    write("shape.urdf", &[&ARM[..start], &ARM[end..]].concat());
+    let (_, wrong) = call(directory.path(), &["check", "shape.urdf"], 2);
+    assert!(wrong.contains("--repair-inertias"), "{wrong}");
+    let import = [
+        "import",
+        "shape.urdf",
+        "--repair-inertias",
+        "-o",
+        "shape.yaml",
+    ];
+    let (_, told) = call(directory.path(), &import, 0);
+    assert_eq!(told.matches("repaired: ").count(), 2, "{told}");
+    call(directory.path(), &["check", "shape.yaml"], 0);
+}
+
+#[test]
 fn a_missing_compiler_is_named_with_the_remedy() {
     let directory = ball();
     let (_, stderr) = without_a_toolchain(directory.path(), &["run", "ball.yaml"], 1);

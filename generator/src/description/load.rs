@@ -299,17 +299,16 @@ impl ModelText {
     }
 }
 
-/// The text of a model: a YAML file, or what a URDF file (`.urdf`) is as YAML.
+/// The text of a model: a YAML file, or what a URDF file is as YAML. A file is URDF by its content, XML, or by its name, `.urdf`.
 ///
 /// # Errors
 /// A file that cannot be read; every problem of a URDF file.
 pub fn read_model(path: &Path) -> Result<ModelText, Diagnostics> {
-    let name = shown(path);
-    let text = read_file(path).map_err(|error| {
-        let (message, help) = unreadable(&name, &error);
-        Diagnostic::of_file(&name, message, help)
-    })?;
-    match path.extension().is_some_and(|e| e == "urdf") {
+    let (name, text) = (shown(path), read_text(path)?);
+    let is_named_urdf = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("urdf"));
+    match is_named_urdf || urdf::is_xml(&text) {
         true => ModelText::of_urdf(name, text, &urdf::Options::default()),
         false => Ok(ModelText {
             name,
@@ -317,6 +316,24 @@ pub fn read_model(path: &Path) -> Result<ModelText, Diagnostics> {
             urdf: None,
         }),
     }
+}
+
+/// The text of a file: UTF-8, or, of XML, what it says itself.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn read_text(path: &Path) -> Result<String, Diagnostics> {
+    let text = read_file(path).or_else(|error| {
+        let bytes = match error.kind() {
+            io::ErrorKind::InvalidData => read_bytes(path, MAX_BYTES as u64)?,
+            _ => return Err(error),
+        };
+        urdf::decoded(&bytes).ok_or(error)
+    });
+    text.map_err(|error| {
+        let (message, help) = unreadable(&shown(path), &error);
+        Diagnostic::of_file(shown(path), message, help).into()
+    })
 }
 
 /// Reads a file of at most so many bytes; a longer one is an error.

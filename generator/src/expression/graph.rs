@@ -135,6 +135,15 @@ impl Graph {
         self.inner.borrow().nodes.len()
     }
 
+    /// Removes all nodes and their names, and keeps the memory. Expressions made before must not be used any more.
+    pub(crate) fn clear(&self) {
+        let mut inner = self.inner.borrow_mut();
+        inner.nodes.clear();
+        inner.index.clear();
+        inner.section_of.clear();
+        inner.names.clear();
+    }
+
     /// True if there is no node.
     pub fn is_empty(&self) -> bool {
         self.len() == 0

@@ -13,7 +13,7 @@ use super::{
 };
 
 /// Relative excess of a moment over the sum of the others that is rounding: a flat body has equality.
-const ROUNDING: f64 = 1e-9;
+pub(crate) const ROUNDING: f64 = 1e-9;
 
 /// What a number, or several, must keep.
 #[derive(Clone, Debug, PartialEq)]

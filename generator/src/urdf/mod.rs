@@ -4,16 +4,35 @@
 //! damping, friction and limits become joint forces. A URDF file has no forces, no initial state and no gravity. So gravity of
 //! 9.81 m/s² along −z is added, and all joints start at 0.
 //!
-//! `robot.rs` reads the file, `tree.rs` turns it into systems, and `write.rs` writes these.
+//! `xml.rs` makes XML of the text, `reader.rs`, `joint.rs` and `rotor.rs` read it into the links and joints of `robot.rs`, and `inspect.rs` lists what they do not read, by the table in
+//! `known.rs`. `tree.rs` turns links and joints into systems, `repair.rs` changes their inertia on demand, and `write.rs` writes the systems.
 
+mod coupling;
+mod inertia;
+mod inspect;
+mod joint;
+mod kind;
+mod known;
+mod massless;
+mod reader;
+mod repair;
 mod robot;
+mod root;
+mod rotor;
 mod tree;
 mod write;
+mod xml;
+
+pub use kind::{decoded, is_xml};
 
 pub use robot::Place;
 pub use tree::Base;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
+use robot::{Joint, Kind, LeftOut, Limits, Robot, Why};
+use std::collections::BTreeMap;
+use std::path::Path;
+use tree::Forest;
 
 /// The options of an import.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,6 +45,8 @@ pub struct Options {
     pub stops: Option<f64>,
     /// Whether joints that follow others (`<mimic>`) move independently.
     pub uncouple: bool,
+    /// Whether masses and tensors that no mechanism can have are replaced; each change is a note.
+    pub repair_inertias: bool,
 }
 
 /// The model of a robot.
@@ -54,14 +75,77 @@ impl Imported {
 /// # Errors
 /// All problems of the text, with their places, and everything in it that a model cannot have.
 pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Diagnostics> {
-    let robot = robot::read(name, text, options.right_angles)?;
-    let forest = tree::forest(&robot, options.base, options.uncouple).map_err(|problems| {
-        let at = |(place, message, help)| Diagnostic::at(name, text, place, message, help);
-        let mut problems: Vec<Diagnostic> = problems.into_iter().map(at).collect();
-        problems.sort_by_key(|p| (p.line, p.column));
-        Diagnostics { problems }
-    })?;
-    let mut notes = Vec::new();
+    let mut robot = robot::read(name, text, options.right_angles)?;
+    let mut changes = Vec::new();
+    // each round repairs a link or a joint, which then needs no repair of this kind again
+    for _ in 0..=3 * (robot.links.len() + robot.joints.len()) {
+        let forest = match tree::forest(&robot, options.base, options.uncouple) {
+            Ok(forest) => forest,
+            Err(problems) => {
+                let none = problems.iter().any(|p| p.repairs.is_empty());
+                if none || !options.repair_inertias {
+                    return Err(refused(name, text, problems));
+                }
+                for repair in problems.iter().flat_map(|p| &p.repairs) {
+                    changes.extend(repair::apply(&mut robot, repair));
+                }
+                continue;
+            }
+        };
+        let (yaml, origins) = write::yaml(name, &robot, &forest, options, &changes);
+        let imported = Imported {
+            yaml,
+            notes: notes(&robot, &forest, options, &changes),
+            origins,
+        };
+        let more = match options.repair_inertias {
+            true => without_inertia(&mut robot, &imported),
+            false => Vec::new(),
+        };
+        if more.is_empty() {
+            return Ok(imported);
+        }
+        changes.extend(more);
+    }
+    Err(Diagnostic::of_file(
+        name,
+        "the inertia of this robot cannot be repaired",
+        "mend it in the file: import it without `--repair-inertias` for a list of what is wrong",
+    )
+    .into())
+}
+
+/// Problems as messages, in the order of the text.
+fn refused(name: &str, text: &str, problems: Vec<tree::Problem>) -> Diagnostics {
+    let at = |p: tree::Problem| Diagnostic::at(name, text, p.place, p.message, p.help);
+    let mut problems: Vec<Diagnostic> = problems.into_iter().map(at).collect();
+    problems.sort_by_key(|p| (p.line, p.column));
+    Diagnostics { problems }
+}
+
+/// Gives moments to the links that the model refuses because they turn without inertia.
+fn without_inertia(robot: &mut Robot, imported: &Imported) -> Vec<String> {
+    let nothing = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
+    let Err(found) = crate::model::read_str("model.yaml", &imported.yaml, &nothing) else {
+        return Vec::new();
+    };
+    let places = found
+        .problems
+        .iter()
+        .filter_map(|p| imported.origin(p.line));
+    let links: Vec<usize> = places
+        .filter_map(|place| robot.links.iter().position(|l| l.place == place))
+        .collect();
+    let changes = links.into_iter();
+    changes
+        .filter_map(|link| repair::give_moments(robot, link))
+        .collect()
+}
+
+/// What the user should know, a sentence each.
+fn notes(robot: &Robot, forest: &Forest, options: &Options, changes: &[String]) -> Vec<String> {
+    let mut notes: Vec<String> = changes.iter().map(|c| format!("repaired: {c}")).collect();
+    notes.extend(robot.rounded.iter().cloned());
     let name_of = |link: usize| quoted(&robot.links[link].name);
     for (main, others) in &forest.merged {
         let others: Vec<String> = others.iter().map(|&l| name_of(l)).collect();
@@ -77,28 +161,18 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
             quoted(&robot.joints[joint].name)
         ));
     }
-    let uncoupled = robot
+    for joint in robot
         .joints
         .iter()
-        .filter(|j| options.uncouple && j.mimic.is_some());
-    for joint in uncoupled {
+        .filter(|j| options.uncouple && j.mimic.is_some())
+    {
         notes.push(format!(
             "the joint {} does not follow another: it moves by itself",
             quoted(&joint.name)
         ));
     }
-    for (what, lines) in &robot.left_out {
-        notes.push(format!(
-            "not taken over: {what} ({}), {}",
-            lines.len(),
-            in_lines(lines)
-        ));
-    }
-    if options.stops.is_none() && robot.joints.iter().any(|j| j.limits.is_some()) {
-        notes.push(
-            "the limits of joints do not act; `bryant import --stops STIFFNESS` makes stops of them".to_owned(),
-        );
-    }
+    notes.extend(left_out(robot));
+    notes.extend(of_limits(robot, options));
     if !robot.almost_right.is_empty() {
         notes.push(format!(
             "almost right angles, {}; `bryant import --right-angles` makes them exact, which saves operations",
@@ -110,12 +184,78 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
             "the root link stands still; `bryant import --base free` lets it move".to_owned(),
         );
     }
-    let (yaml, origins) = write::yaml(name, &robot, &forest, options);
-    Ok(Imported {
-        yaml,
-        notes,
-        origins,
-    })
+    notes
+}
+
+/// What is not taken over, by kind, with lines and names.
+fn left_out(robot: &Robot) -> Vec<String> {
+    let mut kinds: BTreeMap<(Why, &str), Vec<&LeftOut>> = BTreeMap::new();
+    for item in &robot.left_out {
+        kinds.entry((item.why, &item.what)).or_default().push(item);
+    }
+    let note = |((why, what), items): (&(Why, &str), &Vec<&LeftOut>)| {
+        let lines: Vec<usize> = items.iter().map(|item| item.line).collect();
+        let lines = in_lines(&lines);
+        let count = items.len();
+        match why {
+            Why::Idle => format!("not taken over: {what} ({count}), {lines}"),
+            Why::Unknown => {
+                format!("not taken over, because URDF does not know it: {what} ({count}), {lines}")
+            }
+            Why::Missing => {
+                let names: Vec<String> = items
+                    .iter()
+                    .filter_map(|i| Some(quoted(i.name.as_ref()?)))
+                    .take(8)
+                    .collect();
+                let names = match names.is_empty() {
+                    true => String::new(),
+                    false => format!(": {}", names.join(", ")),
+                };
+                format!(
+                    "not taken over, although the motion depends on it: {what} ({count}), {lines}{names}"
+                )
+            }
+        }
+    };
+    kinds.iter().map(note).collect()
+}
+
+/// What becomes of the limits of joints.
+fn of_limits(robot: &Robot, options: &Options) -> Vec<String> {
+    let mut notes = Vec::new();
+    let limited: Vec<(&Joint, Limits)> = robot
+        .joints
+        .iter()
+        .filter_map(|joint| Some((joint, joint.limits?)))
+        .filter(|(joint, _)| joint.kind != Kind::Fixed)
+        .collect();
+    let ends = limited
+        .iter()
+        .any(|(_, l)| l.range.iter().any(|end| end.is_finite()));
+    if options.stops.is_none() && ends {
+        notes.push(
+            "the limits of joints do not act; `bryant import --stops STIFFNESS` makes stops of them".to_owned(),
+        );
+    }
+    for (joint, limits) in limited
+        .iter()
+        .filter(|(_, l)| options.stops.is_some() && l.are_empty())
+    {
+        notes.push(format!(
+            "the limits of the joint {}, line {}, are both {}, as exporters write where nobody entered any: it gets no stop; make it `fixed` if it is held there",
+            quoted(&joint.name),
+            joint.place.0,
+            limits.range[0]
+        ));
+    }
+    if limited
+        .iter()
+        .any(|(_, l)| l.effort > 0.0 || l.velocity > 0.0)
+    {
+        notes.push("the limits of effort and speed of joints do not act; they stand in the model as comments".to_owned());
+    }
+    notes
 }
 
 /// "line 3" or "lines 3, 5 and 7", with at most eight line numbers.

@@ -5,18 +5,18 @@
 //! without mass are frames. A body without mass between two moving joints is no element; its joints become a list. For that their
 //! axes must meet in one point.
 
+use super::coupling;
+use super::inertia::{Part, together, wrong_tensor, wrong_with};
+use super::massless::{self, Massless, shape_only};
 use super::robot::{Frame, Joint, Kind, Link, Place, Robot};
+use super::root::root;
 use crate::diagnostic::quoted;
 use crate::rotation::{
-    IDENTITY, Matrix, Vector, add, apply, cross, dot, length, principal, product, scale, subtract,
-    turned,
+    IDENTITY, Matrix, Vector, add, apply, cross, dot, length, product, scale, subtract, turned,
 };
 
 /// The largest distance by which the axes of a list may miss each other \[m\].
 const MEET_TO: f64 = 1e-9;
-
-/// The relative excess of a principal moment over the sum of the others that counts as rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// The motion of the root link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,71 +84,56 @@ pub struct Forest {
     pub merged: Vec<(usize, Vec<usize>)>,
 }
 
-/// A problem: its place, the error, and the remedy.
-pub type Problem = (Place, String, String);
+/// Why a robot cannot be a model.
+pub struct Problem {
+    pub place: Place,
+    pub message: String,
+    pub help: String,
+    /// The changes of the inertia of the robot that remove the problem; none if there are none.
+    pub repairs: Vec<Repair>,
+}
+
+/// A change of the inertia of a robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Repair {
+    /// Every link gets a mass.
+    All,
+    /// This link, which moves and has no mass, gets one.
+    Mass(usize),
+    /// These links get a tensor that a body can have.
+    Tensor(Vec<usize>),
+    /// These joints, which move no mass, become fixed.
+    Fixed(Vec<usize>),
+}
+
+impl Problem {
+    /// A problem that no change of the inertia removes.
+    pub fn new(place: Place, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Problem {
+            place,
+            message: message.into(),
+            help: help.into(),
+            repairs: Vec::new(),
+        }
+    }
+
+    pub fn with(self, repairs: Vec<Repair>) -> Self {
+        Problem {
+            help: format!(
+                "{}; `bryant import --repair-inertias` puts something in its place",
+                self.help
+            ),
+            repairs,
+            ..self
+        }
+    }
+}
 
 /// What carries an element.
 #[derive(Clone, Copy)]
 enum Carrier {
     Frame,
     Element(usize, usize),
-}
-
-/// Inertia of a link, in the axes of the root link.
-struct Part {
-    link: usize,
-    mass: f64,
-    center: Vector,
-    /// Inertia tensor about the centre of mass.
-    tensor: Matrix,
-}
-
-/// The reason why no body can have this inertia, if there is one.
-fn wrong_with(part: &Part) -> Option<String> {
-    let (moments, _) = principal(&part.tensor);
-    let sum: f64 = moments.iter().sum();
-    let largest = moments.iter().copied().fold(f64::MIN, f64::max);
-    let smallest = moments.iter().copied().fold(f64::MAX, f64::min);
-    let shown = moments.map(|m| format!("{m:.4e}")).join(", ");
-    if part.mass <= 0.0 {
-        Some("has no mass".to_owned())
-    } else if smallest < -ROUNDING * largest.abs() {
-        Some(format!("has a negative principal moment: {shown} kg·m²"))
-    } else if 2.0 * largest > sum * (1.0 + ROUNDING) {
-        Some(format!(
-            "is that of no body: of its principal moments {shown} kg·m² one is above the sum of the other two"
-        ))
-    } else {
-        None
-    }
-}
-
-/// The inertia of all parts together (parallel axis theorem).
-fn together(link: usize, parts: &[Part]) -> Part {
-    let mass: f64 = parts.iter().map(|p| p.mass).sum();
-    let moment = parts
-        .iter()
-        .fold([0.0; 3], |sum, p| add(sum, scale(p.center, p.mass)));
-    let center = match mass > 0.0 {
-        true => scale(moment, 1.0 / mass),
-        false => [0.0; 3],
-    };
-    let mut tensor = [[0.0; 3]; 3];
-    for part in parts {
-        let d = subtract(part.center, center);
-        for (i, row) in tensor.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                let square = if i == j { dot(d, d) } else { 0.0 };
-                *entry += part.tensor[i][j] + part.mass * (square - d[i] * d[j]);
-            }
-        }
-    }
-    Part {
-        link,
-        mass,
-        center,
-        tensor,
-    }
 }
 
 struct Builder<'a> {
@@ -160,12 +145,17 @@ struct Builder<'a> {
     forest: Forest,
     /// Whether joints that follow others move independently.
     uncouple: bool,
+    /// Bodies that move and have no mass, in the order in which they are met.
+    massless: Vec<Massless>,
     problems: Vec<Problem>,
 }
 
 /// The systems of a robot, or all problems that prevent them.
 pub fn forest(robot: &Robot, base: Base, uncouple: bool) -> Result<Forest, Vec<Problem>> {
     let root = root(robot)?;
+    if let Some(problem) = shape_only(robot) {
+        return Err(vec![problem]);
+    }
     let mut outboard = vec![Vec::new(); robot.links.len()];
     for (index, joint) in robot.joints.iter().enumerate() {
         outboard[joint.parent].push(index);
@@ -186,90 +176,32 @@ pub fn forest(robot: &Robot, base: Base, uncouple: bool) -> Result<Forest, Vec<P
             idle: Vec::new(),
         },
         uncouple,
+        massless: Vec::new(),
         problems: Vec::new(),
     };
     builder.place(root);
     match base {
         Base::Fixed => builder.body(root, Carrier::Frame, Vec::new()),
-        Base::Free => builder.free(root, robot.links[root].place),
+        Base::Free => builder.free(root, None),
     }
-    if !uncouple {
-        builder.follow();
+    builder
+        .problems
+        .extend(massless::problem(robot, &builder.massless));
+    if !uncouple && builder.problems.is_empty() {
+        let part = builder.part(root).filter(|part| wrong_with(part).is_none());
+        coupling::join(robot, &mut builder.forest, root, part);
+        builder.problems = coupling::problems(robot, &builder.forest);
     }
     if builder.problems.is_empty() && builder.forest.systems.is_empty() {
-        let help =
-            "a robot that stands still has no motion; with `--base free` its root link moves";
-        let message = "nothing moves in this robot: its root link is fixed, and so are all joints";
-        builder
-            .problems
-            .push((robot.links[root].place, message.to_owned(), help.to_owned()));
+        builder.problems.push(Problem::new(
+            robot.links[root].place,
+            "nothing moves in this robot: its root link is fixed, and so are all joints",
+            "a robot that stands still has no motion; with `bryant import --base free` its root link moves",
+        ));
     }
     match builder.problems.is_empty() {
         true => Ok(builder.forest),
         false => Err(builder.problems),
-    }
-}
-
-/// The only link that is not a child.
-fn root(robot: &Robot) -> Result<usize, Vec<Problem>> {
-    let mut problems: Vec<Problem> = Vec::new();
-    let mut inboard: Vec<Option<usize>> = vec![None; robot.links.len()];
-    for (index, joint) in robot.joints.iter().enumerate() {
-        match inboard[joint.child] {
-            None => inboard[joint.child] = Some(index),
-            Some(first) => problems.push((
-                joint.place,
-                format!(
-                    "the link {} is a child twice, of {} and of {}",
-                    quoted(&robot.links[joint.child].name),
-                    quoted(&robot.joints[first].name),
-                    quoted(&joint.name)
-                ),
-                "URDF describes trees: one joint carries a link".to_owned(),
-            )),
-        }
-    }
-    let roots: Vec<usize> = (0..robot.links.len())
-        .filter(|&l| inboard[l].is_none())
-        .collect();
-    if let [first, others @ ..] = &roots[..] {
-        for &other in others {
-            problems.push((
-                robot.links[other].place,
-                format!(
-                    "there are two root links, {} and {}",
-                    quoted(&robot.links[*first].name),
-                    quoted(&robot.links[other].name)
-                ),
-                "add the joint that carries one of them".to_owned(),
-            ));
-        }
-    }
-    // a walk inwards that is longer than the number of links goes in a circle
-    for link in 0..robot.links.len() {
-        let mut at = link;
-        for _ in 0..robot.links.len() {
-            match inboard[at] {
-                Some(joint) => at = robot.joints[joint].parent,
-                None => break,
-            }
-            if at == link {
-                let joint = &robot.joints[inboard[link].unwrap_or(0)];
-                problems.push((
-                    joint.place,
-                    format!(
-                        "the link {} carries itself",
-                        quoted(&robot.links[link].name)
-                    ),
-                    "URDF describes trees: remove a joint of the circle".to_owned(),
-                ));
-                return Err(problems);
-            }
-        }
-    }
-    match (problems.is_empty(), roots.first()) {
-        (true, Some(&root)) => Ok(root),
-        _ => Err(problems),
     }
 }
 
@@ -294,70 +226,6 @@ impl Builder<'_> {
         }
     }
 
-    /// Checks joints that follow others: the leader must be in the same system, and there must be no circle.
-    fn follow(&mut self) {
-        let joints = &self.robot.joints;
-        // for each joint, its system and number of degrees of freedom
-        let mut freedoms: Vec<Option<(usize, usize)>> = vec![None; joints.len()];
-        for (s, system) in self.forest.systems.iter().enumerate() {
-            for element in &system.elements {
-                if let Carried::Joint(list) = &element.carried {
-                    for freedom in list {
-                        let count = freedoms[freedom.joint].map_or(0, |(_, count)| count);
-                        freedoms[freedom.joint] = Some((s, count + 1));
-                    }
-                }
-            }
-        }
-        for (index, joint) in joints.iter().enumerate() {
-            let (Some(mimic), Some((system, own))) = (&joint.mimic, freedoms[index]) else {
-                continue;
-            };
-            let name = quoted(&joint.name);
-            let leader = quoted(&mimic.leader);
-            let wrong = match self.leader(joint).map(|leader| freedoms[leader]) {
-                _ if own > 1 => Some("has several freedoms, and only one can follow".to_owned()),
-                None | Some(None) => Some(format!("follows {leader}, which does not move")),
-                Some(Some((_, 2..))) => {
-                    Some(format!("follows {leader}, which has several freedoms"))
-                }
-                Some(Some((other, _))) if other != system => Some(format!(
-                    "follows {leader}, which nothing that moves joins to it: they are systems of their own"
-                )),
-                Some(Some(_)) if self.is_in_circle(index) => {
-                    Some(format!("follows {leader}, and so itself"))
-                }
-                Some(Some(_)) => None,
-            };
-            if let Some(wrong) = wrong {
-                self.problems.push((
-                    mimic.place,
-                    format!("the joint {name} {wrong}"),
-                    "with `--uncouple` it moves by itself; or make its type `fixed`".to_owned(),
-                ));
-            }
-        }
-    }
-
-    fn leader(&self, joint: &Joint) -> Option<usize> {
-        let name = &joint.mimic.as_ref()?.leader;
-        self.robot.joints.iter().position(|j| j.name == *name)
-    }
-
-    /// Whether going from leader to leader leads back to a joint.
-    fn is_in_circle(&self, joint: usize) -> bool {
-        let joints = &self.robot.joints;
-        let mut at = joint;
-        for _ in 0..joints.len() {
-            match self.leader(&joints[at]) {
-                Some(leader) if leader == joint => return true,
-                Some(leader) => at = leader,
-                None => return false,
-            }
-        }
-        false
-    }
-
     fn mass(&self, link: usize) -> f64 {
         self.link(link).inertial.as_ref().map_or(0.0, |i| i.mass)
     }
@@ -378,16 +246,16 @@ impl Builder<'_> {
         held
     }
 
-    /// Adds a system of its own, starting with the body of a link.
-    fn free(&mut self, link: usize, place: Place) {
+    /// Adds a system of its own, starting with the body of a link; `joint` is the floating one, if there is one.
+    fn free(&mut self, link: usize, joint: Option<usize>) {
         if self.held(link).iter().all(|&l| self.mass(l) == 0.0) {
-            let message = format!(
-                "{} moves freely and has no mass",
-                quoted(&self.link(link).name)
-            );
-            self.problems
-                .push((place, message, "give it a mass".to_owned()));
-            return;
+            let outboard = self.moving(&self.held(link)).len();
+            let joints = joint.into_iter().collect();
+            self.massless.push(Massless {
+                link,
+                joints,
+                outboard,
+            });
         }
         self.forest.systems.push(System {
             free: true,
@@ -411,66 +279,62 @@ impl Builder<'_> {
                 }
                 self.outwards(&held, Carrier::Frame);
             }
-            (false, true) => {
-                let Some(origin) = self.meeting_point(&joints) else {
-                    return;
-                };
-                let freedoms = joints.iter().flat_map(|&j| self.freedoms(j)).collect();
-                let parent = match on {
-                    Carrier::Element(system, element) => {
-                        debug_assert_eq!(system + 1, self.forest.systems.len());
-                        Some(element)
-                    }
-                    Carrier::Frame => {
-                        self.forest.systems.push(System {
-                            free: false,
-                            elements: Vec::new(),
-                        });
-                        None
-                    }
-                };
-                self.elements(link, parent, Carried::Joint(freedoms), Some(origin));
-            }
-            (false, false) => self.without_mass(&held, on, joints),
+            (false, true) => self.moved(link, on, &joints),
+            (false, false) => self.without_mass(link, &held, on, joints),
         }
     }
 
+    /// Adds a body that moves on joints against its carrier.
+    fn moved(&mut self, link: usize, on: Carrier, joints: &[usize]) {
+        let origin = self.meeting_point(joints);
+        let freedoms = joints.iter().flat_map(|&j| self.freedoms(j)).collect();
+        let parent = match on {
+            Carrier::Element(system, element) => {
+                debug_assert_eq!(system + 1, self.forest.systems.len());
+                Some(element)
+            }
+            Carrier::Frame => {
+                self.forest.systems.push(System {
+                    free: false,
+                    elements: Vec::new(),
+                });
+                None
+            }
+        };
+        self.elements(link, parent, Carried::Joint(freedoms), Some(origin));
+    }
+
     /// Adds a body without mass between moving joints.
-    fn without_mass(&mut self, held: &[usize], on: Carrier, joints: Vec<usize>) {
+    fn without_mass(&mut self, link: usize, held: &[usize], on: Carrier, mut joints: Vec<usize>) {
         let outboard: Vec<usize> = self.moving(held);
-        let last = &self.robot.joints[joints[joints.len() - 1]];
-        let name = quoted(&self.link(last.child).name);
         if let Some(part) = held.iter().find_map(|&l| self.part(l)) {
-            let link = self.link(part.link);
-            let place = link.inertial.as_ref().map_or(link.place, |i| i.place);
-            let message = format!("{} has an inertia and no mass", quoted(&link.name));
-            self.problems.push((
+            let own = self.link(part.link);
+            let place = own.inertial.as_ref().map_or(own.place, |i| i.place);
+            let problem = Problem::new(
                 place,
-                message,
-                "give it the mass that the inertia is of, or make both 0".to_owned(),
-            ));
-            return;
+                format!("{} has an inertia and no mass", quoted(&own.name)),
+                "give it the mass that the inertia is of, or make both 0",
+            );
+            self.problems
+                .push(problem.with(vec![Repair::Mass(part.link)]));
+            return self.moved(link, on, &joints);
         }
+        let all_follow = joints.iter().all(|&j| self.robot.joints[j].mimic.is_some());
         match outboard[..] {
             [only] if self.robot.joints[only].kind != Kind::Floating => {
-                let child = self.robot.joints[only].child;
-                let mut joints = joints;
                 joints.push(only);
-                self.body(child, on, joints);
+                self.body(self.robot.joints[only].child, on, joints);
             }
-            [] if !self.uncouple && joints.iter().all(|&j| self.robot.joints[j].mimic.is_some()) => {
-                self.forest.idle.extend(joints);
+            [] if !self.uncouple && all_follow => self.forest.idle.extend(joints),
+            // said with all others; what it carries is looked at as if it had a mass
+            _ => {
+                self.moved(link, on, &joints);
+                self.massless.push(Massless {
+                    link,
+                    joints,
+                    outboard: outboard.len(),
+                });
             }
-            [] => self.problems.push((
-                last.place,
-                format!("{name} moves on the joint {} and has no mass: nothing says how fast", quoted(&last.name)),
-                "give the link a mass and an inertia, or make the joint fixed".to_owned(),
-            )),
-            _ => self.problems.push((
-                last.place,
-                format!("{name} has no mass, and carries {} joints that move", outboard.len()),
-                "give the link a mass and an inertia; without, it can stand between two joints only".to_owned(),
-            )),
         }
     }
 
@@ -486,8 +350,8 @@ impl Builder<'_> {
         for index in self.moving(held) {
             let joint = &self.robot.joints[index];
             match (joint.kind, on) {
-                (Kind::Floating, Carrier::Frame) => self.free(joint.child, joint.place),
-                (Kind::Floating, Carrier::Element(..)) => self.problems.push((
+                (Kind::Floating, Carrier::Frame) => self.free(joint.child, Some(index)),
+                (Kind::Floating, Carrier::Element(..)) => self.problems.push(Problem::new(
                     joint.place,
                     format!("the joint {} floats, and {} moves: only what is on a base that stands still can float", quoted(&joint.name), quoted(&self.link(joint.parent).name)),
                     "describe what floats in a file of its own".to_owned(),
@@ -507,7 +371,16 @@ impl Builder<'_> {
     ) {
         let system = self.forest.systems.len() - 1;
         let held = self.held(link);
-        let parts: Vec<Part> = held.iter().filter_map(|&l| self.part(l)).collect();
+        let mut parts: Vec<Part> = held.iter().filter_map(|&l| self.part(l)).collect();
+        if parts.is_empty() {
+            // it is refused for that; here it stands for what carries other elements
+            parts.push(Part {
+                link,
+                mass: 1.0,
+                center: self.placed[link].at,
+                tensor: IDENTITY,
+            });
+        }
         let (element, frames) = match parts.iter().all(|p| wrong_with(p).is_none()) {
             true => (self.welded(system, &parts, on, carried, origin), held),
             false => (self.merged(system, &parts, on, carried, origin), held),
@@ -570,11 +443,10 @@ impl Builder<'_> {
                 _ => format!("{name}, with what is fixed to it,"),
             };
             let help = "give the tensor of a body: about the centre of mass, each principal moment at most the sum of the other two";
-            self.problems.push((
-                place,
-                format!("the inertia of {what} {wrong}"),
-                help.to_owned(),
-            ));
+            let problem = Problem::new(place, format!("the inertia of {what} {wrong}"), help);
+            let wrong = parts.iter().filter(|p| wrong_tensor(&p.tensor).is_some());
+            let repair = Repair::Tensor(wrong.map(|p| p.link).collect());
+            self.problems.push(problem.with(vec![repair]));
         } else {
             let names = parts
                 .iter()
@@ -648,8 +520,8 @@ impl Builder<'_> {
         }
     }
 
-    /// The point in which all axes of rotation of a list of joints meet, with all joints at 0.
-    fn meeting_point(&mut self, joints: &[usize]) -> Option<Vector> {
+    /// The point in which all axes of rotation of a list of joints meet, with all joints at 0; it is a problem if they do not.
+    fn meeting_point(&mut self, joints: &[usize]) -> Vector {
         let robot = self.robot;
         let turns: Vec<usize> = joints
             .iter()
@@ -683,7 +555,7 @@ impl Builder<'_> {
                     .iter()
                     .map(|&j| quoted(&robot.joints[j].name))
                     .collect();
-                let problem = (
+                let problem = Problem::new(
                     joint.place,
                     format!(
                         "the joints {} have no mass between them, and their axes do not meet in one point",
@@ -694,11 +566,14 @@ impl Builder<'_> {
                         quoted(&self.link(joint.parent).name)
                     ),
                 );
-                self.problems.push(problem);
-                return None;
+                let between = joints[1..]
+                    .iter()
+                    .map(|&j| Repair::Mass(robot.joints[j].parent));
+                self.problems.push(problem.with(between.collect()));
+                break;
             }
         }
-        Some(point)
+        point
     }
 }
 

@@ -1,7 +1,7 @@
 //! Writes the model as YAML.
 
 use super::Options;
-use super::robot::{Joint, Kind, Mimic, Place, Robot};
+use super::robot::{Joint, Kind, Limits, Mimic, Place, Robot};
 use super::tree::{Carried, Element, Forest, Freedom};
 use crate::rotation::{Vector, length, subtract};
 use std::cell::RefCell;
@@ -99,12 +99,59 @@ fn axis(v: Vector) -> String {
     }
 }
 
+/// The key `stop` for limits; nothing where there are none, or where both are 0.
+fn stop(limits: &Limits, stiffness: f64) -> String {
+    let [from, to] = limits.range;
+    if limits.are_empty() || (from.is_infinite() && to.is_infinite()) {
+        return String::new();
+    }
+    let end = |key: &str, value: f64| match value.is_finite() {
+        true => format!("{key}: {}, ", number(value)),
+        false => String::new(),
+    };
+    let ends = end("from", from) + &end("to", to);
+    format!(", stop: {{ {ends}stiffness: {} }}", number(stiffness))
+}
+
+/// A comment on the limits of a joint: those of its coordinate unless they are stops, and those of its motor. Zeros are no limits of a motor.
+fn limits(joint: &Joint, are_stops: bool) -> Option<String> {
+    let limits = joint.limits?;
+    let (unit, effort) = match joint.kind {
+        Kind::Prismatic => ("m", "N"),
+        _ => ("rad", "N·m"),
+    };
+    let mut parts = Vec::new();
+    let [from, to] = limits.range;
+    if !are_stops && (from.is_finite() || to.is_finite()) {
+        parts.push(format!(
+            "has the limits {} and {} {unit}",
+            number(from),
+            number(to)
+        ));
+    }
+    let is_limit = |value: f64| value > 0.0 && value.is_finite();
+    if is_limit(limits.effort) {
+        parts.push(format!(
+            "has a motor of at most {} {effort}",
+            number(limits.effort)
+        ));
+    }
+    if is_limit(limits.velocity) {
+        parts.push(format!(
+            "moves at {} {unit}/s at most",
+            number(limits.velocity)
+        ));
+    }
+    (!parts.is_empty()).then(|| parts.join(", "))
+}
+
 /// Writes the model. Also returns its lines that come from a link or a joint, with the places of these.
 pub fn yaml(
     file: &str,
     robot: &Robot,
     forest: &Forest,
     options: &Options,
+    changes: &[String],
 ) -> (String, Vec<(usize, Place)>) {
     let writer = Writer {
         robot,
@@ -116,7 +163,7 @@ pub fn yaml(
     };
     let mut text = String::new();
     // writing to a String never fails
-    let _ = writer.write(file, options, &mut text);
+    let _ = writer.write(file, options, changes, &mut text);
     (text, writer.origins.into_inner())
 }
 
@@ -136,7 +183,13 @@ impl Writer<'_> {
         self.origins.borrow_mut().push((line, place));
     }
 
-    fn write(&self, file: &str, options: &Options, text: &mut String) -> std::fmt::Result {
+    fn write(
+        &self,
+        file: &str,
+        options: &Options,
+        changes: &[String],
+        text: &mut String,
+    ) -> std::fmt::Result {
         // the text does not depend on where the file is
         let file = file.rsplit(['/', '\\']).next().unwrap_or(file);
         writeln!(
@@ -153,6 +206,12 @@ impl Writer<'_> {
             "# Elements have the names of links, freedoms the names of joints."
         )?;
         self.renamed(text)?;
+        if !changes.is_empty() {
+            writeln!(text, "#\n# Changed by --repair-inertias:")?;
+        }
+        for change in changes {
+            writeln!(text, "#   {}", change.replace(char::is_control, " "))?;
+        }
         writeln!(
             text,
             "model: {}\ndimension: 3\nsystems:",
@@ -291,7 +350,8 @@ impl Writer<'_> {
             )?;
         }
         match &element.carried {
-            Carried::Freely => {}
+            Carried::Freely if element.on.is_none() => {}
+            Carried::Freely => write!(text, ", joint: free")?,
             Carried::Weld => write!(text, ", joint: weld")?,
             Carried::Joint(freedoms) => {
                 let written: Vec<String> = freedoms
@@ -333,12 +393,17 @@ impl Writer<'_> {
 
     fn freedom(&self, elements: &[Element], freedom: &Freedom, uncouple: bool) -> String {
         let kind = if freedom.slides { "slider" } else { "hinge" };
-        let follows = match &self.robot.joints[freedom.joint].mimic {
+        let joint = &self.robot.joints[freedom.joint];
+        let armature = match joint.armature {
+            0.0 => String::new(),
+            armature => format!(", armature: {}", number(armature)),
+        };
+        let follows = match &joint.mimic {
             Some(mimic) if !uncouple => self.follows(elements, mimic),
             _ => String::new(),
         };
         format!(
-            "{{ {kind}: {}, name: {}{follows} }}",
+            "{{ {kind}: {}, name: {}{armature}{follows} }}",
             axis(freedom.axis),
             self.freedom_name(freedom)
         )
@@ -392,14 +457,8 @@ impl Writer<'_> {
             if joint.friction != 0.0 {
                 write!(law, ", friction: {}", number(joint.friction))?;
             }
-            if let (Some([from, to]), Some(stiffness)) = (joint.limits, options.stops) {
-                write!(
-                    law,
-                    ", stop: {{ from: {}, to: {}, stiffness: {} }}",
-                    number(from),
-                    number(to),
-                    number(stiffness)
-                )?;
+            if let (Some(limits), Some(stiffness)) = (joint.limits, options.stops) {
+                law += &stop(&limits, stiffness);
             }
             let written = format!(
                 "joint: {}/{}",
@@ -414,19 +473,8 @@ impl Writer<'_> {
                 self.origin(text, joint.place);
                 writeln!(text, "  - {{ {written}{which}{law} }}")?;
             }
-            if let (Some([from, to]), None) = (joint.limits, options.stops) {
-                let unit = if joint.kind == Kind::Prismatic {
-                    "m"
-                } else {
-                    "rad"
-                };
-                writeln!(
-                    text,
-                    "  # {} has the limits {} and {} {unit}",
-                    self.joints.given[freedom.joint],
-                    number(from),
-                    number(to)
-                )?;
+            if let Some(comment) = limits(joint, options.stops.is_some()) {
+                writeln!(text, "  # {} {comment}", self.joints.given[freedom.joint])?;
             }
         }
         Ok(())

@@ -120,24 +120,6 @@ impl<'g> Body<'g> {
         unfelt
     }
 
-    /// Whether all its entries are numbers.
-    pub fn is_constant(&self) -> bool {
-        let second = self.second.diagonal.iter().chain(&self.second.off);
-        let mut entries = self.first.0.iter().chain(second).chain([&self.mass]);
-        entries.all(|e| e.as_constant().is_some())
-    }
-
-    /// The part of a body that a hinge about z does not feel.
-    pub fn unfelt_about_z(&self) -> Self {
-        let mut unfelt = Body {
-            mass: self.mass,
-            ..Body::none(self.mass.graph())
-        };
-        unfelt.first.0[2] = self.first.0[2];
-        unfelt.second.diagonal[2] = self.second.diagonal[2];
-        unfelt
-    }
-
     /// The body without values that are only rounding, and with regrouped entries exactly 0; z is along the axis of the joint.
     pub fn felt(&self, joint: &LinkJoint<'g>) -> Self {
         let zero = self.mass.graph().constant(0.0);
@@ -172,7 +154,7 @@ impl<'g> Body<'g> {
 }
 
 /// The relative size below which a constant counts as rounding.
-const ROUNDING: f64 = 4e-15;
+pub const ROUNDING: f64 = 4e-15;
 
 fn largest<'a, 'g: 'a>(entries: impl Iterator<Item = &'a Expr<'g>>) -> f64 {
     let constants = entries.filter_map(|e| e.as_constant());

@@ -48,6 +48,33 @@ pub struct LinkChoice {
     pub scales_rate: bool,
 }
 
+impl LinkChoice {
+    /// All of it, as numbers that are equal where the choices are.
+    pub fn words(&self) -> [u64; 3] {
+        let flags = [
+            self.aligned,
+            self.by_inertia,
+            self.scales_bias,
+            self.scales_rate,
+        ];
+        let flags = flags.iter().fold(self.reference as u64, |word, flag| {
+            2 * word + u64::from(*flag)
+        });
+        let order = self
+            .order
+            .iter()
+            .fold(flags, |word, axis| 4 * word + *axis as u64);
+        let keep = self
+            .keep
+            .map_or(0, |(child, axis)| 1 + 4 * child as u64 + axis as u64);
+        [
+            self.turn.to_bits(),
+            self.place.to_bits(),
+            (keep << 16) + order,
+        ]
+    }
+}
+
 /// The choice of α⁰_z of a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReferenceTurn {

@@ -4,10 +4,11 @@
 //! r_k is taken from the parent and given to the child, h_k of the parent is 0 and the child has m = μ. The part of the point that the parent's own
 //! hinge does not feel is passed on to its parent.
 
-use super::body::Body;
+use super::body::{Body, ROUNDING};
 use super::frames::{Choice, Matrix};
 use super::tree::{LinkJoint, Tree};
-use crate::expression::vector::Vec3;
+use crate::expression::Graph;
+use crate::expression::vector::{Sym3, Vec3};
 
 /// The constant properties of a link.
 pub struct Constant<'g> {
@@ -38,69 +39,245 @@ fn can_keep(tree: &Tree<'_>, parent: usize, child: usize, place: Vec3<'_>, k: us
 
 /// The bodies for the reference motion.
 pub fn kept<'g>(tree: &Tree<'g>, choice: &Choice, links: &[Constant<'g>]) -> Vec<Body<'g>> {
-    let mut bodies: Vec<Body<'g>> = links.iter().map(|link| link.body).collect();
+    let mut keeper = Keeper {
+        tree,
+        links,
+        numbers: links.iter().map(|link| Numbers::of(&link.body)).collect(),
+        points: vec![0.0; links.len()],
+    };
+    let mut changed = vec![false; links.len()];
     for k in (0..links.len()).rev() {
         let Some((child, axis)) = choice.links[k].keep else {
             continue;
         };
-        let place = links[child].place;
-        if !can_keep(tree, k, child, place, axis) {
+        if !can_keep(tree, k, child, links[child].place, axis) {
             continue;
         }
-        if let Some(changed) = with_kept(tree, links, &bodies, (k, child, axis)) {
-            bodies = changed;
+        let mut before = Vec::new();
+        let point = keeper.keep((k, child, axis), &mut before);
+        for (link, own) in before.into_iter().rev() {
+            match point {
+                Some(_) => changed[link] = true,
+                None => keeper.numbers[link] = Some(own),
+            }
         }
+        keeper.points[child] = point.unwrap_or(0.0);
     }
-    bodies
+    let graph = tree.graph;
+    let body = |k: usize| match keeper.numbers[k] {
+        Some(numbers) if changed[k] => numbers.body(graph),
+        Some(_) => links[k].body,
+        // a body with parameters takes the point as it is
+        None => links[k]
+            .body
+            .plus(&Numbers::point(keeper.points[k]).body(graph)),
+    };
+    (0..links.len()).map(body).collect()
 }
 
-/// The bodies when a child of a link keeps a component of its first moment; `None` if numbers become too large.
-fn with_kept<'g>(
-    tree: &Tree<'g>,
-    links: &[Constant<'g>],
-    bodies: &[Body<'g>],
-    (k, child, axis): (usize, usize, usize),
-) -> Option<Vec<Body<'g>>> {
-    let graph = tree.graph;
-    let mut bodies = bodies.to_vec();
-    let place = links[child].place;
-    let too_large = |of: &Body<'g>, link: usize| {
-        let own = links[link].body.sizes;
-        (0..2).any(|i| of.sizes[i] > LARGER[i] * own[i])
-    };
-    let point = Body {
-        mass: bodies[k].first.0[axis] / place.0[axis],
-        ..Body::none(graph)
-    };
-    let [first, second] = links[k].body.sizes;
-    if point.mass.as_constant()?.abs() * second > LARGER[0] * first * first {
-        return None;
-    }
-    bodies[child] = bodies[child].plus(&point);
-    let mut rest = bodies[k].minus(&point.moved(place));
-    rest.first.0[axis] = graph.constant(0.0);
-    // the part that the joint of the link does not feel is passed on
-    let mut link = k;
-    loop {
-        // what is no number has no size that could be compared
-        if !rest.is_constant() || too_large(&rest, link) {
+/// Moves points between bodies, as numbers: a trial does so for every link of a part, and each change goes through all links that carry it.
+struct Keeper<'a, 'g> {
+    tree: &'a Tree<'g>,
+    links: &'a [Constant<'g>],
+    /// The bodies; `None` for those that are no numbers.
+    numbers: Vec<Option<Numbers>>,
+    /// The mass of the point that each link keeps \[kg\].
+    points: Vec<f64>,
+}
+
+impl Keeper<'_, '_> {
+    /// Gives a component of the first moment of link `k` to a child. Returns the mass of the point, or `None` if something is no number or too large. `before`
+    /// gets the bodies that were changed.
+    fn keep(
+        &mut self,
+        (k, child, axis): (usize, usize, usize),
+        before: &mut Vec<(usize, Numbers)>,
+    ) -> Option<f64> {
+        let (tree, links) = (self.tree, self.links);
+        let too_large = |of: &Numbers, link: usize| {
+            let own = links[link].body.sizes;
+            (0..2).any(|i| of.sizes[i] > LARGER[i] * own[i])
+        };
+        let place = numbers(links[child].place)?;
+        let body = self.numbers[k]?;
+        let mass = body.first[axis] / place[axis];
+        let [first, second] = links[k].body.sizes;
+        if mass.abs() * second > LARGER[0] * first * first {
             return None;
         }
-        let joint = &tree.links[link].joint;
-        if !joint.is_hinge() {
-            bodies[link] = rest;
-            return Some(bodies);
+        let point = Numbers::point(mass);
+        if let Some(own) = self.numbers[child] {
+            self.set(child, own.plus(&point), before);
         }
-        let unfelt = rest.unfelt_about_z();
-        bodies[link] = rest.minus(&unfelt).felt(joint);
-        match tree.links[link].parent {
-            Some(parent) if parent > 0 || tree.carrier.is_none() => {
-                let axes = links[link].against;
-                let passed = unfelt.in_axes(&axes).moved(links[link].place);
-                rest = bodies[parent].plus(&passed);
-                link = parent;
+        let mut rest = body.minus(&point.moved(place));
+        rest.first[axis] = 0.0;
+        // the part that the joint of the link does not feel is passed on
+        let mut link = k;
+        loop {
+            if too_large(&rest, link) {
+                return None;
             }
-            _ => return Some(bodies),
+            if !tree.links[link].joint.is_hinge() {
+                self.set(link, rest, before);
+                return Some(mass);
+            }
+            let unfelt = rest.unfelt_about_z();
+            self.set(link, rest.minus(&unfelt).felt_about_z(), before);
+            match tree.links[link].parent {
+                Some(parent) if parent > 0 || tree.carrier.is_none() => {
+                    let place = numbers(links[link].place)?;
+                    let passed = unfelt.in_axes(&links[link].against).moved(place);
+                    // what is no number has no size that could be compared
+                    rest = self.numbers[parent]?.plus(&passed);
+                    link = parent;
+                }
+                _ => return Some(mass),
+            }
         }
     }
+
+    fn set(&mut self, link: usize, body: Numbers, before: &mut Vec<(usize, Numbers)>) {
+        before.extend(self.numbers[link].replace(body).map(|own| (link, own)));
+    }
+}
+
+fn numbers(v: Vec3<'_>) -> Option<[f64; 3]> {
+    let [x, y, z] = v.0.map(|e| e.as_constant());
+    Some([x?, y?, z?])
+}
+
+/// A [`Body`] of numbers. Its operations are those of a body, in the same order.
+#[derive(Clone, Copy)]
+struct Numbers {
+    mass: f64,
+    first: [f64; 3],
+    /// Symmetric.
+    second: Matrix,
+    sizes: [f64; 2],
+}
+
+impl Numbers {
+    /// `None` if an entry is no number.
+    fn of(body: &Body<'_>) -> Option<Self> {
+        let mut second = [[0.0; 3]; 3];
+        for (i, row) in second.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = body.second.entry(i, j).as_constant()?;
+            }
+        }
+        Some(Numbers {
+            mass: body.mass.as_constant()?,
+            first: numbers(body.first)?,
+            second,
+            sizes: body.sizes,
+        })
+    }
+
+    /// A point at the origin.
+    fn point(mass: f64) -> Self {
+        Numbers {
+            mass,
+            first: [0.0; 3],
+            second: [[0.0; 3]; 3],
+            sizes: [0.0; 2],
+        }
+    }
+
+    fn body<'g>(&self, graph: &'g Graph) -> Body<'g> {
+        Body {
+            mass: graph.constant(self.mass),
+            first: Vec3(self.first.map(|h| graph.constant(h))),
+            second: Sym3::from_fn(|i, j| graph.constant(self.second[i][j])),
+            sizes: self.sizes,
+        }
+    }
+
+    fn sized(mut self, others: [f64; 2]) -> Self {
+        let largest = |entries: &[f64]| entries.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        let own = [largest(&self.first), largest(self.second.as_flattened())];
+        self.sizes = [0, 1].map(|i| own[i].max(others[i]));
+        self
+    }
+
+    /// See [`Body::moved`].
+    fn moved(&self, d: [f64; 3]) -> Self {
+        let first = [0, 1, 2].map(|i| self.first[i] + self.mass * d[i]);
+        let (h, k) = (self.first, first);
+        let second = symmetric(|i, j| {
+            let moved = match i == j && self.mass == 0.0 {
+                true => (2.0 * d[i]) * h[i],
+                false => h[i] * d[j] + d[i] * k[j],
+            };
+            self.second[i][j] + moved
+        });
+        Numbers {
+            first,
+            second,
+            ..*self
+        }
+        .sized(self.sizes)
+    }
+
+    /// See [`Body::in_axes`].
+    fn in_axes(&self, axes: &Matrix) -> Self {
+        let weighted = |w: [f64; 3], v: [f64; 3]| w[0] * v[0] + w[1] * v[1] + w[2] * v[2];
+        let half = axes.map(|row| self.second.map(|entries| weighted(row, entries)));
+        Numbers {
+            first: axes.map(|row| weighted(row, self.first)),
+            second: symmetric(|i, j| weighted(axes[i], half[j])),
+            ..*self
+        }
+    }
+
+    fn combined(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        Numbers {
+            mass: of(self.mass, other.mass),
+            first: [0, 1, 2].map(|i| of(self.first[i], other.first[i])),
+            second: symmetric(|i, j| of(self.second[i][j], other.second[i][j])),
+            sizes: self.sizes,
+        }
+        .sized([0, 1].map(|i| self.sizes[i].max(other.sizes[i])))
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        self.combined(other, |a, b| a + b)
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        self.combined(other, |a, b| a - b)
+    }
+
+    /// The part of a body that a hinge about z does not feel.
+    fn unfelt_about_z(&self) -> Self {
+        let mut unfelt = Self::point(self.mass);
+        unfelt.first[2] = self.first[2];
+        unfelt.second[2][2] = self.second[2][2];
+        unfelt
+    }
+
+    /// See [`Body::felt`], for a hinge about z.
+    fn felt_about_z(mut self) -> Self {
+        self.first[2] = 0.0;
+        self.second[2][2] = 0.0;
+        let without = |value: f64, scale: f64| match value.abs() <= ROUNDING * scale {
+            true => 0.0,
+            false => value,
+        };
+        let [first, second] = self.sizes;
+        self.first = self.first.map(|h| without(h, first));
+        self.second = self.second.map(|row| row.map(|a| without(a, second)));
+        self
+    }
+}
+
+/// The symmetric matrix with these entries, of which those with i ≤ j are asked for as in [`Sym3::from_fn`].
+fn symmetric(of: impl Fn(usize, usize) -> f64) -> Matrix {
+    let mut m = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in i..3 {
+            m[i][j] = of(i, j);
+            m[j][i] = m[i][j];
+        }
+    }
+    m
 }

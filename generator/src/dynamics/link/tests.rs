@@ -476,3 +476,46 @@ fn trees_in_the_plane_have_the_equations_of_absolute_axes() {
 fn axes_that_are_almost_parallel_cost_no_digits() {
     compare(11, 200, Kind::Almost, &["quaternion"]);
 }
+
+/// The links that the search for the frames of a chain derives, trial by trial, for each of its links.
+fn derived_for_each_link(links: usize, axes: &[&str]) -> f64 {
+    let element = |k: usize| {
+        let on = match k {
+            0 => String::new(),
+            k => format!("on: e{}, at: [0, 0, 0.2], ", k - 1),
+        };
+        let axis = axes[k % axes.len()];
+        format!(
+            "      - {{ name: e{k}, {on}joint: {{ hinge: {axis} }}, mass: 1, cg: [0, 0, 0.1], inertia: [0.02, 0.02, 0.02] }}\n"
+        )
+    };
+    let elements: String = (0..links).map(element).collect();
+    let model = read(&format!(
+        "model: chain\ndimension: 3\nsystems:\n  - name: s\n    reference: fixed\n    elements:\n{elements}run: {{ duration: 1 s, every: 10 ms }}\n"
+    ));
+    let graph = Graph::new();
+    let layout = Layout::of(&model);
+    let state = State::symbols(&graph, &layout);
+    let motion = Motion::of(&graph, &model, &layout, &state);
+    let augmented = AugmentedTree::of(&graph, &model, 0, &motion);
+    let spatial = Spatial {
+        graph: &graph,
+        model: &model,
+        layout: &layout,
+        system: 0,
+        motion: &motion,
+        tree: &augmented,
+    };
+    let tree = Tree::of(&spatial, None).expect("link frames can say it");
+    search::derived(&tree, Aim::Elimination) as f64 / links as f64
+}
+
+#[test]
+fn a_search_takes_as_long_for_each_link_of_a_long_chain_as_of_a_short_one() {
+    // parallel axes, along which a part of the chain reaches furthest, and others
+    for axes in [&["y"][..], &["y", "x", "z"]] {
+        let [short, long] = [50, 100].map(|links| derived_for_each_link(links, axes));
+        // the ends of a chain have smaller parts: of 16 links at each end at most, which is a third of 50 and a sixth of 100
+        assert!(long < 1.25 * short, "{axes:?}: {short} {long}");
+    }
+}

@@ -7,6 +7,7 @@ use crate::description::place::At;
 use crate::description::quantity::OneOrThree;
 use crate::diagnostic::{quoted, suggestion};
 use crate::joint::{couple, joint_of};
+use crate::model::requirement::ROUNDING;
 use crate::model::{Element, Number};
 use crate::rotation::{bryant_angles, principal};
 use std::cmp::Reverse;
@@ -281,9 +282,10 @@ fn tensor(
     }
     let [xx, yy, zz, xy, xz, yz] = entries;
     let (moments, axes) = principal(&[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-    // a rod has a moment of 0, and its tensor one of 1e-17
+    // a rod has a moment of 0, and its tensor one of ±1e-17, or -1e-14 where it was written with twelve digits
     let largest = moments.iter().copied().fold(0.0, f64::max);
-    let clean = moments.map(|m| if m.abs() <= 1e-15 * largest { 0.0 } else { m });
+    let is_rounding = |m: f64| (-ROUNDING * largest..=1e-15 * largest).contains(&m);
+    let clean = moments.map(|m| if is_rounding(m) { 0.0 } else { m });
     Some((
         clean.map(Number::from),
         bryant_angles(&axes).map(Number::from),

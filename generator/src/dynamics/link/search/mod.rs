@@ -16,6 +16,7 @@ use crate::expression::{Expr, Graph, Node, NodeId, Symbol};
 use candidates::reach;
 use part::{Part, matrices};
 use rustc_hash::FxHashMap;
+use std::cell::RefCell;
 use std::sync::Mutex;
 
 /// Number of sweeps over all links.
@@ -26,6 +27,10 @@ const UNITS: usize = 8;
 
 /// The smallest number of links in a part of a tree, if the tree has as many.
 const NEAR: usize = 8;
+
+/// From so many links on a part goes no further inwards, even where a link keeps its axes and is turned together with its carrier: else the part of a chain of
+/// parallel axes reaches to the root, and the time for a choice grows with the square of its length.
+const FAR: usize = 16;
 
 /// Number of trees whose choice is stored.
 const KEPT: usize = 64;
@@ -53,17 +58,7 @@ pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
     {
         return choice.clone();
     }
-    for _ in 0..SWEEPS {
-        let before = search.best.clone();
-        search.bases();
-        for k in (0..tree.links.len()).rev() {
-            search.link(k);
-        }
-        search.units();
-        if search.best == before {
-            break;
-        }
-    }
+    search.sweep();
     if let Ok(mut known) = KNOWN.lock() {
         if known.len() >= KEPT {
             known.remove(0);
@@ -71,6 +66,16 @@ pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
         known.push((signature, search.best.clone()));
     }
     search.best
+}
+
+/// The number of links whose equations a search derives, trial by trial.
+#[cfg(test)]
+pub fn derived(tree: &Tree<'_>, aim: Aim) -> usize {
+    let mut search = Search::new(tree, aim);
+    search.sweep();
+    let counted = search.counted.borrow();
+    // four words for each link, after five of the whole
+    counted.keys().map(|key| (key.len() - 5) / 4).sum()
 }
 
 /// Frames of links drawn at random from those that a search tries. `draw` returns a number below its argument.
@@ -97,6 +102,14 @@ struct Search<'t, 'g> {
     /// The largest distance of the origin of a link from its joint \[m\].
     reach: f64,
     best: Choice,
+    /// For each link, those that it carries.
+    children: Vec<Vec<usize>>,
+    /// For each link, the number of its velocities and of those of all links that it carries.
+    columns: Vec<usize>,
+    /// The operations of all parts that were derived, by what they depend on.
+    counted: RefCell<FxHashMap<Vec<u64>, usize>>,
+    /// The graph of the trials, one after the other.
+    graph: Graph,
 }
 
 impl<'t, 'g> Search<'t, 'g> {
@@ -115,13 +128,44 @@ impl<'t, 'g> Search<'t, 'g> {
             let varies = !live.dependence(id).within(Dependence::PARAMETERS);
             inputs.entry(id).or_insert((varies, number));
         }
+        let links = &tree.links;
+        let mut children = vec![Vec::new(); links.len()];
+        let mut columns: Vec<usize> = links
+            .iter()
+            .map(|l| if l.joint.is_ball() { 3 } else { 1 })
+            .collect();
+        for (k, link) in links.iter().enumerate().rev() {
+            if let Some(parent) = link.parent {
+                children[parent].insert(0, k);
+                columns[parent] += columns[k];
+            }
+        }
         Search {
             tree,
             aim,
             inputs,
             natural: natural_axes(tree),
             reach: reach(tree),
-            best: Choice::plain(tree.links.len()),
+            best: Choice::plain(links.len()),
+            children,
+            columns,
+            counted: RefCell::default(),
+            graph: Graph::new(),
+        }
+    }
+
+    /// Tries the choices for all links, several times.
+    fn sweep(&mut self) {
+        for _ in 0..SWEEPS {
+            let before = self.best.clone();
+            self.bases();
+            for k in (0..self.tree.links.len()).rev() {
+                self.link(k);
+            }
+            self.units();
+            if self.best == before {
+                break;
+            }
         }
     }
 
@@ -161,13 +205,41 @@ impl<'t, 'g> Search<'t, 'g> {
         signature
     }
 
-    /// The number of operations of the equations around a link, or of all of them.
+    /// The number of operations of the equations around a link, or of all of them; each is derived once.
     fn count(&self, choice: &Choice, around: Option<usize>) -> usize {
-        let graph = Graph::new();
+        let key = self.key(choice, around);
+        if let Some(count) = self.counted.borrow().get(&key) {
+            return *count;
+        }
+        let count = self.counted_anew(choice, around);
+        self.counted.borrow_mut().insert(key, count);
+        count
+    }
+
+    /// All of a choice that the equations around a link depend on, or all of them.
+    fn key(&self, choice: &Choice, around: Option<usize>) -> Vec<u64> {
+        let (links, top) = match around {
+            Some(k) => self.near(k, choice),
+            None => ((0..self.tree.links.len()).collect(), 0),
+        };
+        let mut key = vec![around.map_or(u64::MAX, |k| k as u64), choice.unit.to_bits()];
+        key.extend(choice.base.map(f64::to_bits));
+        for link in self.tree.links[top].parent.into_iter().chain(links) {
+            key.push(link as u64);
+            key.extend(choice.links[link].words());
+        }
+        key
+    }
+
+    fn counted_anew(&self, choice: &Choice, around: Option<usize>) -> usize {
+        // the graph of a whole tree is large, and would have to be cleared each time
+        let own = Graph::new();
+        let graph = if around.is_some() { &self.graph } else { &own };
+        graph.clear();
         let part = match around {
-            Some(k) => self.around(&graph, k, choice),
+            Some(k) => self.around(graph, k, choice),
             None => Part {
-                tree: self.opened(&graph),
+                tree: self.opened(graph),
                 natural: self.natural.clone(),
                 choice: choice.clone(),
                 of: (0..self.tree.links.len()).map(Some).collect(),
@@ -185,7 +257,7 @@ impl<'t, 'g> Search<'t, 'g> {
             Aim::Matrices => matrices(&part, &framed, Reference::Rest),
             Aim::Factorization => matrices(&part, &framed, Reference::ChosenOfAxes),
         };
-        operations(&graph, &roots)
+        operations(graph, &roots)
     }
 
     /// Tries choices and keeps the one with the fewest operations around a link, or of all.
@@ -216,8 +288,7 @@ impl<'t, 'g> Search<'t, 'g> {
 
     /// Tries the choices for one link.
     fn link(&mut self, k: usize) {
-        let children = self.tree.links.iter().filter(|l| l.parent == Some(k));
-        if children.count() > 1 {
+        if self.children[k].len() > 1 {
             let link = &self.best.links[k];
             let with = |order| LinkChoice {
                 order,
@@ -274,7 +345,7 @@ impl<'t, 'g> Search<'t, 'g> {
             keep: None,
             ..link.clone()
         }];
-        for child in (k + 1..links.len()).filter(|&c| links[c].parent == Some(k)) {
+        for &child in &self.children[k] {
             let keep = |axis| LinkChoice {
                 keep: Some((child, axis)),
                 ..link.clone()

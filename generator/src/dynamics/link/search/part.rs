@@ -1,6 +1,6 @@
 //! A part of a tree for the trial of one link: the links near it, with unknowns in place of the others.
 
-use super::{Aim, NEAR, Search, unsigned};
+use super::{Aim, FAR, NEAR, Search, unsigned};
 use crate::dynamics::link::articulated::Articulated;
 use crate::dynamics::link::body::Body;
 use crate::dynamics::link::frames::{Choice, Framed, Matrix, origin_of, turned_axes};
@@ -56,25 +56,21 @@ impl<'g> Search<'_, 'g> {
         }
     }
 
-    /// The links that k carries.
-    fn children(&self, k: usize) -> impl Iterator<Item = usize> {
-        let links = &self.tree.links;
-        (k + 1..links.len()).filter(move |&c| links[c].parent == Some(k))
-    }
-
     /// The links around k, in the order of the tree, and the one that carries the others.
-    fn near(&self, k: usize, choice: &Choice) -> (Vec<usize>, usize) {
+    pub fn near(&self, k: usize, choice: &Choice) -> (Vec<usize>, usize) {
         let mut chosen = vec![k];
-        chosen.extend(self.children(k));
+        chosen.extend(&self.children[k]);
         let mut next = 1;
         while chosen.len() < NEAR && next < chosen.len() {
-            chosen.extend(self.children(chosen[next]));
+            chosen.extend(&self.children[chosen[next]]);
             next += 1;
         }
         let mut top = k;
         while let Some(parent) = self.tree.links[top].parent
             // a link that keeps its axes is turned together with its carrier
-            && (top == k || chosen.len() < NEAR || choice.links[parent].aligned)
+            && (top == k
+                || chosen.len() < NEAR
+                || (chosen.len() < FAR && choice.links[parent].aligned))
         {
             top = parent;
             chosen.push(top);
@@ -135,7 +131,7 @@ impl<'g> Search<'_, 'g> {
                     .parent
                     .and_then(|p| chosen.iter().position(|&c| c == p).map(|at| first + at)),
             };
-            let children = self.children(link);
+            let children = self.children[link].iter().copied();
             let left_out: Vec<usize> = children.filter(|c| !chosen.contains(c)).collect();
             if !left_out.is_empty() {
                 own.carries = Some(match self.aim {
@@ -165,14 +161,7 @@ impl<'g> Search<'_, 'g> {
         vector: &mut impl FnMut() -> Vec3<'h>,
     ) -> Carried<'h> {
         let links = &self.tree.links;
-        let mut beyond = vec![false; links.len()];
-        let mut columns = 0;
-        for (k, link) in links.iter().enumerate() {
-            beyond[k] = left_out.contains(&k) || link.parent.is_some_and(|p| beyond[p]);
-            if beyond[k] {
-                columns += if link.joint.is_ball() { 3 } else { 1 };
-            }
-        }
+        let columns: usize = left_out.iter().map(|&c| self.columns[c]).sum();
         let (first, diagonal, off) = (vector(), vector().0, vector().0);
         let mut body = Body::none(first.0[0].graph());
         // a ball passes no moment, and a hinge no mass of regrouped bodies

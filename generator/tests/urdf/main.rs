@@ -2,6 +2,12 @@
 //!
 //! The refused texts follow the tests of the ROS parser (urdfdom, `test/assets/bad_*.urdf`), one case each, in texts of our own.
 
+mod coupled;
+mod digits;
+mod kinds;
+mod parts;
+mod repaired;
+
 use bryant_generator::Diagnostics;
 use bryant_generator::dynamics::derive;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
@@ -121,14 +127,16 @@ fn what_urdfdom_refuses_is_refused_with_its_place() {
         ("axis without direction", arm("", "\n<axis xyz=\"0 0 0\"/>", ""), 5, "no direction"),
         ("axis of two numbers", arm("", "\n<axis xyz=\"0 1\"/>", ""), 5, "3 numbers"),
         ("origin said twice", arm("", "\n<origin rpy=\"0 0 0\" quat_xyzw=\"0 0 0 1\"/>", ""), 5, "either"),
-        ("quaternion without direction", arm("", "\n<origin quat_xyzw=\"0 0 0 0\"/>", ""), 5, "no direction"),
+        ("quaternion without direction", arm("", "\n<origin quat_xyzw=\"0 0 0 0\"/>", "").replace("<robot", "<robot version=\"1.1\""), 5, "no direction"),
+        ("quaternion of an old version", arm("", "\n<origin quat_xyzw=\"0 0 0 1\"/>", ""), 5, "version 1.1"),
         ("macros", "<robot name=\"a\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n<xacro:include filename=\"b\"/></robot>".into(), 2, "not expanded"),
         ("a joint that follows itself", joint("type=\"continuous\"", "\n<mimic joint=\"wrist\"/>"), 7, "so itself"),
         ("a joint that follows a fixed one", joint("type=\"continuous\"", "\n<mimic joint=\"hinge\"/>").replace("name=\"hinge\" type=\"continuous\"", "name=\"hinge\" type=\"fixed\""), 7, "does not move"),
         ("a planar joint that follows", joint("type=\"planar\"", "\n<mimic joint=\"hinge\"/>"), 7, "several freedoms"),
-        ("a joint of another system", joint("type=\"continuous\"", "\n<mimic joint=\"hinge\"/>").replace("<parent link=\"arm\"/>", "<parent link=\"base\"/>"), 7, "systems of their own"),
         ("mimic with a word", joint("type=\"continuous\"", "\n<mimic joint=\"hinge\" multiplier=\"two\"/>"), 7, "two"),
-        ("what moves without mass", arm("", "", "").replace(INERTIAL, ""), 4, "nothing says how fast"),
+        ("a file without masses", arm("", "", "").replace(INERTIAL, ""), 1, "no link of this robot has a mass"),
+        ("an end without mass", joint("type=\"continuous\"", "").replacen(&format!("hand\">{INERTIAL}"), "hand\">", 1), 6, "nothing says how fast"),
+        ("two ends without mass", joint("type=\"continuous\"", "").replacen(&format!("hand\">{INERTIAL}"), "hand\">", 1).replace("</robot>", "<link name=\"thumb\"/><joint name=\"t\" type=\"continuous\"><parent link=\"arm\"/><child link=\"thumb\"/></joint></robot>"), 6, "2 links move and have no mass: \"hand\" (line 5), \"thumb\" (line 7)"),
         ("nothing that moves", "<robot name=\"a\"><link name=\"b\"/></robot>".into(), 1, "nothing moves"),
         ("what floats on what moves", joint("type=\"floating\"", ""), 6, "can float"),
     ];
@@ -293,7 +301,8 @@ fn roll_pitch_and_yaw_about_fixed_axes_equal_quaternions() {
             2.0 * w
         ),
         axis,
-    );
+    )
+    .replace("<robot", "<robot version=\"1.1\"");
     same(&of_urdf(&angles), &of_urdf(&quaternion));
     // three joints at fixed angles give the same, with yaw as the outermost one
     let chain = robot(&[
@@ -662,4 +671,35 @@ fn what_is_left_out_is_listed_with_its_lines() {
     for line in ["line 7", "line 8", "line 9"] {
         assert!(notes.contains(line), "{line}\n{notes}");
     }
+}
+
+/// What is said about a robot that is accepted.
+fn notes(text: &str) -> String {
+    imported(text, &Options::default()).notes.join("\n")
+}
+
+/// The acceleration of a model with one freedom, at rest in its start.
+fn acceleration(yaml: &str) -> f64 {
+    let equations = derive(&read(yaml));
+    assert_eq!(equations.velocities.len(), 1, "{yaml}");
+    let inputs = Inputs {
+        time: 0.0,
+        coordinates: &[0.0],
+        velocities: &[0.0],
+        parameters: &[],
+        auxiliaries: &[],
+        memory: &[],
+    };
+    let no_call = |f, _: &[f64]| panic!("no {f:?} in these models");
+    evaluate(
+        &equations.graph,
+        &equations.accelerations,
+        &inputs,
+        &no_call,
+    )[0]
+}
+
+/// The arm, turning about y.
+fn about_y(robot: &str) -> String {
+    arm("", "<axis xyz=\"0 1 0\"/>", robot)
 }
