@@ -218,6 +218,7 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
             unit: String::new(),
             code: None,
             filter: None,
+            channel: None,
         });
     };
     for (k, element) in elements.iter().enumerate() {

@@ -49,6 +49,7 @@ fn forces(recording: &Recording, until: f64) -> Vec<(f64, String, f64)> {
             unit: String::new(),
             code: None,
             filter: None,
+            channel: None,
         });
     }
     let equations = derive_with(

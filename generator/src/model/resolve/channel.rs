@@ -98,17 +98,21 @@ pub(super) fn is_upper_neck(code: &str) -> bool {
 }
 
 /// An output with a code, along the axes of its own body if it is a sensor and the text does not say along which.
-pub(super) fn with_axes(written: &WrittenOutput) -> WrittenOutput {
+pub(super) fn with_axes(resolver: &Resolver<'_>, written: &WrittenOutput) -> WrittenOutput {
     let sensors = [
         "acceleration",
         "accelerometer",
         "angular_velocity",
         "angular_acceleration",
     ];
-    let is_load = written.of.starts_with("joint ") && ["force", "moment"].contains(&&*written.what);
-    let of_body = written.of.contains('/') && !written.of.contains(' ');
+    let (of, what) = (written.of.as_str(), written.what.as_str());
+    let is_load = of.starts_with("joint ") && ["force", "moment"].contains(&what);
+    let vehicle = of.strip_prefix("vehicle ").unwrap_or(of);
+    let of_vehicle = resolver.vehicles.iter().any(|one| one.name == vehicle);
+    let of_element = of.contains('/') && !of.contains(' ');
+    let of_sensor = (of_element || of_vehicle) && sensors.contains(&what);
     let mut with = written.clone();
-    if with.axes.is_none() && (is_load || of_body && sensors.contains(&&*written.what)) {
+    if with.axes.is_none() && (is_load || of_sensor) {
         with.axes = Some("local".to_owned());
     }
     with

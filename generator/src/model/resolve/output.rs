@@ -109,7 +109,7 @@ pub(super) fn output(
         check_code(resolver, code, filter, at.key("code"));
     }
     let quantity = match &code {
-        Some(_) => resolver.quantity(&channel::with_axes(written), at, off),
+        Some(_) => resolver.quantity(&channel::with_axes(resolver, written), at, off),
         None => resolver.quantity(written, at, off),
     };
     let (quantity, unit) = quantity.filter(|_| !off)?;
