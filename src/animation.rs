@@ -1,6 +1,6 @@
 //! A run as an animation in glTF 2.0: one binary file that Blender, game engines and viewers on the web open.
 //!
-//! Every body is a node with keyframes of its position and its rotation at the samples of the run; its ellipsoids, bones and planes are
+//! Every body is a node with keyframes of its position and its rotation, with less than a quarter turn from one to the next; its ellipsoids, bones and planes are
 //! meshes on nodes below it. A belt or a spring is a rod; keyframes rotate and stretch it from one end to the other. All nodes are below
 //! one node that rotates z up into y up, as glTF requires. Units are metres and seconds.
 
@@ -46,6 +46,21 @@ pub fn glb(title: &str, scene: &Value) -> Result<Vec<u8>, String> {
     file.planes(scene, &bodies);
     file.lines(scene);
     Ok(file.finish())
+}
+
+/// By how much each body of a scene turns at least from each instant to the next, instant by instant \[rad\].
+pub fn turns(scene: &Value) -> Vec<Vec<f64>> {
+    let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
+    let between = |pair: &[Vec<f64>]| {
+        let bodies = pair[0].chunks_exact(7).zip(pair[1].chunks_exact(7));
+        let angle = |(a, b): (&[f64], &[f64])| {
+            let [a, b] = [a, b].map(|one| unit([one[4], one[5], one[6], one[3]]));
+            let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+            2.0 * product.abs().min(1.0).acos()
+        };
+        bodies.map(angle).collect()
+    };
+    frames.windows(2).map(between).collect()
 }
 
 /// A glTF file under construction.

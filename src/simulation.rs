@@ -26,6 +26,9 @@ pub struct Recording {
     pub coordinates: Vec<String>,
     /// Poses, evenly spread over the samples, with the first and the last.
     pub instants: Vec<Instant>,
+    /// No body turned faster at a sample, unless a vehicle carries it or it follows another \[rad/s\]: the largest sum of the angular velocities of a
+    /// system.
+    pub turning: f64,
     /// The state of the last sample: q, v, z, m, as in [`Info::state_name`]; empty if there is no sample.
     pub last_state: Vec<f64>,
     /// The cost of the run, or its failure.
@@ -93,7 +96,17 @@ impl Runs for RustcModel {
 
 /// Runs a job until its end, or until an [interrupt]; `progress` is called from time to time with the time reached \[s\].
 pub fn run(model: &dyn Runs, job: &Job, progress: &mut dyn FnMut(f64)) -> Recording {
-    let mut recorder = Recorder::new(Header::of(model.info()));
+    run_with_poses(model, job, MOST_INSTANTS, progress)
+}
+
+/// The same with at most so many poses, and the last.
+pub fn run_with_poses(
+    model: &dyn Runs,
+    job: &Job,
+    most: usize,
+    progress: &mut dyn FnMut(f64),
+) -> Recording {
+    let mut recorder = Recorder::new(Header::of(model.info()), Turning::of(model.info()), most);
     let start = Clock::now();
     let mut outcome = model.run(
         job,
@@ -137,25 +150,65 @@ impl Recording {
     }
 }
 
+/// How fast bodies turn at most.
+struct Turning {
+    /// The angular velocities of each system, as indices of the state.
+    systems: Vec<Vec<usize>>,
+    /// The largest sum of their magnitudes so far \[rad/s\].
+    fastest: f64,
+}
+
+impl Turning {
+    fn of(info: &Info) -> Self {
+        let mut systems: Vec<(&str, Vec<usize>)> = Vec::new();
+        let first = info.coordinates.len();
+        for (i, name) in info.velocities.iter().enumerate() {
+            if info.state_unit(first + i) != Some("rad/s") {
+                continue;
+            }
+            let system = name.split(['/', '.']).next().unwrap_or_default();
+            match systems.iter_mut().find(|(known, _)| *known == system) {
+                Some((_, all)) => all.push(first + i),
+                None => systems.push((system, vec![first + i])),
+            }
+        }
+        Turning {
+            systems: systems.into_iter().map(|(_, all)| all).collect(),
+            fastest: 0.0,
+        }
+    }
+
+    fn look_at(&mut self, state: &[f64]) {
+        for system in &self.systems {
+            let sum: f64 = system.iter().map(|i| state[*i].abs()).sum();
+            self.fastest = self.fastest.max(sum);
+        }
+    }
+}
+
 struct Recorder {
     header: Header,
     without_charts: WithoutCharts,
     times: Vec<f64>,
     outputs: Vec<Vec<f64>>,
     instants: Vec<Instant>,
-    /// One pose is kept for this many samples.
+    /// At most so many are kept, and one for this many samples.
+    most: usize,
     stride: usize,
+    turning: Turning,
     latest: Option<Instant>,
     last_state: Vec<f64>,
 }
 
 impl Recorder {
-    fn new(header: Header) -> Self {
+    fn new(header: Header, turning: Turning, most: usize) -> Self {
         Self {
             times: Vec::new(),
             outputs: vec![Vec::new(); header.outputs.len()],
             instants: Vec::new(),
+            most,
             stride: 1,
+            turning,
             latest: None,
             last_state: Vec::new(),
             without_charts: WithoutCharts::of(&header),
@@ -172,7 +225,7 @@ impl Recorder {
         instant.coordinates = self.without_charts.q(state);
         if self.times.len().is_multiple_of(self.stride) {
             self.instants.push(instant.clone());
-            if self.instants.len() > MOST_INSTANTS {
+            if self.instants.len() > self.most {
                 let mut index = 0;
                 self.instants.retain(|_| {
                     index += 1;
@@ -182,6 +235,7 @@ impl Recorder {
             }
         }
         self.latest = Some(instant);
+        self.turning.look_at(state);
         self.last_state.clear();
         self.last_state.extend_from_slice(state);
         self.times.push(t);
@@ -215,6 +269,7 @@ impl Recorder {
             instants: self.instants,
             header: self.header,
             last_state: self.last_state,
+            turning: self.turning.fastest,
             result: outcome.result,
             answers: outcome.answers,
             kept: Vec::new(),
@@ -297,7 +352,11 @@ mod tests {
 
     #[test]
     fn a_long_run_keeps_few_poses_but_the_first_and_the_last() {
-        let mut recorder = Recorder::new(header());
+        let turning = Turning {
+            systems: Vec::new(),
+            fastest: 0.0,
+        };
+        let mut recorder = Recorder::new(header(), turning, MOST_INSTANTS);
         let samples = 10 * MOST_INSTANTS + 7;
         for i in 0..samples {
             recorder.add(i as f64, &[i as f64, 0.0], &[]);

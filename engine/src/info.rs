@@ -35,6 +35,7 @@ fn leaked(facts: &Facts) -> Info {
         kind: match curve.kind {
             Watched::Curve(_) => CurveKind::Curve,
             Watched::Bearing => CurveKind::Bearing,
+            Watched::HalfTurn => CurveKind::HalfTurn,
             Watched::Direction(component) => CurveKind::Direction(component),
             Watched::Volume => CurveKind::Volume,
             Watched::Edge => CurveKind::Edge,

@@ -150,7 +150,9 @@ pub enum Watched {
     Curve(usize),
     /// To which side a joint is bent.
     Bearing,
-    /// A component of the direction in which two ellipsoids push each other; all components of one contact follow each other.
+    /// On which side of ±180° an angle is, where a torque jumps.
+    HalfTurn,
+    /// A component of the direction in which two ellipsoids push each other, or a bushing turns; all components of one follow each other.
     Direction(u8),
     /// The share of the volume of an airbag that what it meets takes.
     Volume,

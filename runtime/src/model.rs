@@ -385,8 +385,11 @@ pub enum CurveKind {
     /// axis is bent. [`CurveInfo::last`] where the bend is less than 90°. Of a bushing, or of laws of a joint about x, y and z, it is the angle about x, [`CurveInfo::last`] where the angle about y
     /// is far from ±90°.
     Bearing,
+    /// The sine of an angle of a joint or a bushing where its cosine is negative, [`CurveInfo::last`] elsewhere: at ±180° its torque jumps.
+    HalfTurn,
     /// A component of the direction in which two ellipsoids push each other; [`CurveInfo::last`] where they do not. The components of one contact
-    /// follow each other, one for each dimension of the model. Their vector has the length 1, or less where no direction is determined.
+    /// follow each other, one for each dimension of the model. Their vector has the length 1, or less where no direction is determined. Of a bushing
+    /// with a law of the whole rotation it is the axis of this rotation where its angle is above 90°.
     Direction(u8),
     /// The share of the volume of an airbag that a penetrating body takes; 0 while it does not push. The law ends at [`CurveInfo::last`].
     Volume,
@@ -441,16 +444,22 @@ impl CurveInfo {
         (axis(first) && axis(middle) && axis(last)).then(|| middle.chars().next())?
     }
 
-    /// Of a [bearing](CurveKind::Bearing) that leapt, what became of its law.
+    /// Of a [bearing](CurveKind::Bearing), an angle or a direction of a bushing that leapt, what became of its law.
     pub fn singular(&self) -> &'static str {
-        match self.middle() {
-            Some('x') => {
+        match (self.kind, self.middle()) {
+            (CurveKind::HalfTurn, _) => {
+                "is turned through ±180°, where its angle and its torque jump to the other side"
+            }
+            (CurveKind::Direction(_), _) => {
+                "is turned through 180°, where its torque jumps to the opposite direction"
+            }
+            (_, Some('x')) => {
                 "is turned through ±90° about x, where the angles about y and z are not defined"
             }
-            Some('z') => {
+            (_, Some('z')) => {
                 "is turned through ±90° about z, where the angles about x and y are not defined"
             }
-            None if !self.is_of_bushing() => {
+            (_, None) if !self.is_of_bushing() => {
                 "is bent through 180°, where flexion has no direction and torsion no angle"
             }
             _ => "is turned through ±90° about y, where the angles about x and z are not defined",
@@ -466,7 +475,7 @@ impl CurveInfo {
     /// direction.
     pub(crate) const fn turning(&self, dimension: u8) -> Option<usize> {
         match self.kind {
-            CurveKind::Bearing => Some(1),
+            CurveKind::Bearing | CurveKind::HalfTurn => Some(1),
             CurveKind::Direction(0) => Some(dimension as usize),
             CurveKind::Curve | CurveKind::Volume | CurveKind::Edge | CurveKind::Direction(_) => {
                 None
@@ -485,6 +494,9 @@ impl CurveInfo {
             return there == [true; 2] && turned.min(2.0 * PI - turned) > FRAC_PI_2;
         }
         match there {
+            both if self.kind == CurveKind::HalfTurn => {
+                both == [true; 2] && (a[0] < 0.0) != (b[0] < 0.0)
+            }
             [true, true] => dot(a, b) <= 0.0,
             [true, false] => dot(a, a) < 0.5,
             [false, true] => dot(b, b) < 0.5,
@@ -505,6 +517,7 @@ impl CurveInfo {
                 let turned = (a[0] - b[0]).max(b[0] - a[0]);
                 turned.min(2.0 * PI - turned) > PI / 8.0
             }
+            CurveKind::HalfTurn => (a[0] < 0.0) != (b[0] < 0.0),
             // cos π/8
             _ => dot(a, b) < 0.923_879_532_511_286_7,
         }

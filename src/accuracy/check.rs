@@ -65,10 +65,16 @@ pub enum Verdict {
     TooLong(f64),
 }
 
-/// Runs a job and checks it. `chosen` says that the user chose the method. `progress` is called with the time of every sample.
-pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f64)) -> Checked {
+/// Runs a job and checks it. `chosen` says that the user chose the method. `progress` is called with the number of runs before, and the time of
+/// every sample.
+pub fn run(
+    model: &dyn Runs,
+    job: &Job,
+    chosen: bool,
+    progress: &mut dyn FnMut(usize, f64),
+) -> Checked {
     let mut checked = Checked {
-        recording: simulation::run(model, job, progress),
+        recording: simulation::run(model, job, &mut |t| progress(0, t)),
         setting: Setting::of(job),
         first: None,
         runs: 1,
@@ -92,13 +98,14 @@ pub fn run(model: &dyn Runs, job: &Job, chosen: bool, progress: &mut dyn FnMut(f
     let (mut floors, mut rounding) = (Vec::new(), Vec::new());
     loop {
         let opinion = sharper(&checked.setting);
-        let second = second(model, job, &opinion, patience, &mut |_| {});
+        let mut hear = |t: f64| progress(checked.runs, t);
+        let second = second(model, job, &opinion, patience, &mut hear);
         let answers = (asked, &first[..]);
         let mut verdict = Verdict::of(&checked.recording, &second, &floors, answers, patience);
         checked.runs += 1;
         let mut close = verdict.is_close();
-        if !close && rounding.is_empty() {
-            rounding = conditioning::reach(model, job, &checked.recording);
+        if let (false, true, Verdict::Apart(difference)) = (close, rounding.is_empty(), &verdict) {
+            rounding = conditioning::reach(model, job, &checked.recording, &difference.outputs);
             let beyond = Verdict::of(&checked.recording, &second, &rounding, answers, patience);
             close = beyond.is_close();
             if close || chosen {
@@ -171,6 +178,7 @@ impl Verdict {
                     asked,
                     [run, second],
                     first,
+                    floors,
                 ),
             ),
             Err(error) if error.kind == ErrorKind::Time => Verdict::TooLong(patience),

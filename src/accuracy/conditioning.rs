@@ -1,13 +1,17 @@
 //! How precisely an output can be known: how much it changes when the state changes by about its rounding errors.
 //!
-//! An output that is exactly 0, such as the acceleration of the centre of a free rod, consists of rounding errors: two runs never agree on
-//! it, however sharp they are. Its condition tells it from a wrong output: if the state changes by a few rounding errors, such an output
-//! changes by a large part of its own size.
+//! An output that is exactly 0, such as the acceleration of the centre of a free rod, or the moment of a free hinge about its axis, consists
+//! of rounding errors: two runs never agree on it, however sharp they are. Its condition tells it from a wrong output: if the state changes
+//! by a few rounding errors, such an output changes by a large part of its own size, because the terms that cancel in it are rounded
+//! otherwise. Rounding errors are as large as these terms, so they are looked at where the output itself is largest: the moment of a hinge in
+//! an impact is rounded by more than that at rest.
 
 use super::target::largest;
+use crate::interrupt;
 use crate::simulation::{Recording, Runs};
 use bryant_runtime::Method;
 use bryant_runtime::program::{Job, Reading, Start};
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 /// Each entry of the state is changed by this share of itself.
@@ -19,17 +23,75 @@ const MARGIN: f64 = 100.0;
 /// Number of patterns of changes: the rounding errors of a few states may be 0 by chance.
 const PATTERNS: usize = 8;
 
-/// For each output the size, in its unit, below which it may consist of rounding errors, evaluated at the last state of a run. All are 0 if
-/// the run has no state.
-pub fn reach(model: &dyn Runs, job: &Job, run: &Recording) -> Vec<f64> {
-    let sizes = run.table.columns.iter().skip(1);
-    let none: Vec<f64> = sizes.map(|_| 0.0).collect();
+/// States of a run that are looked at, besides the last.
+const PLACES: usize = 16;
+
+/// For each output the size, in its unit, below which it may consist of rounding errors, evaluated at the last state of a run and at the states
+/// where outputs that do not agree between two runs are largest. `job` is what made the run, `errors` say by how much each output disagrees. All
+/// are 0 if the run has no state.
+pub fn reach(model: &dyn Runs, job: &Job, run: &Recording, errors: &[f64]) -> Vec<f64> {
+    let mut reach = vec![0.0; run.table.columns.len().saturating_sub(1)];
     if run.last_state.is_empty() {
-        return none;
+        return reach;
     }
-    let at = |state: &[f64]| outputs(model, job, run.last_time(), state);
-    let Some(here) = at(&run.last_state) else {
-        return none;
+    let mut states = states_at(model, job, &largest_at(run, errors));
+    states.push((run.last_time(), run.last_state.clone()));
+    for (t, state) in &states {
+        let changes = changes(model, job, run, *t, state);
+        for (reach, change) in reach.iter_mut().zip(changes) {
+            *reach = f64::max(*reach, MARGIN * change);
+        }
+    }
+    reach
+}
+
+/// The samples at which the outputs of a run that disagree most are largest, by index.
+fn largest_at(run: &Recording, errors: &[f64]) -> BTreeSet<usize> {
+    let mut disagree: Vec<usize> = (0..errors.len()).filter(|i| errors[*i] > 0.0).collect();
+    disagree.sort_by(|a, b| errors[*b].total_cmp(&errors[*a]));
+    let columns = disagree.iter().filter_map(|i| run.table.columns.get(1 + i));
+    let place = |values: &[f64]| {
+        let sizes = values.iter().map(|value| value.abs()).enumerate();
+        sizes.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
+    };
+    columns
+        .take(PLACES)
+        .filter_map(|column| place(&column.values))
+        .collect()
+}
+
+/// Times and states of a run at these of its samples; as many as there are before it is interrupted.
+fn states_at(model: &dyn Runs, job: &Job, samples: &BTreeSet<usize>) -> Vec<(f64, Vec<f64>)> {
+    let Some(last) = samples.last() else {
+        return Vec::new();
+    };
+    let job = Job {
+        reading: Reading::default(),
+        ..job.clone()
+    };
+    let (mut states, mut index) = (Vec::new(), 0);
+    model.run(
+        &job,
+        &mut |t, state, _| {
+            if samples.contains(&index) {
+                states.push((t, state.to_vec()));
+            }
+            index += 1;
+            match index > *last {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        },
+        &mut |_| interrupt::unless_asked(),
+    );
+    states
+}
+
+/// By how much each output changes at most when a state of the run changes by its rounding errors.
+fn changes(model: &dyn Runs, job: &Job, run: &Recording, t: f64, state: &[f64]) -> Vec<f64> {
+    let at = |state: &[f64]| outputs(model, job, t, state);
+    let Some(here) = at(state) else {
+        return Vec::new();
     };
     let [coordinates, velocities] = [run.header.coordinates.len(), run.header.velocities.len()];
     let kinds = [0..coordinates, coordinates..coordinates + velocities];
@@ -37,20 +99,22 @@ pub fn reach(model: &dyn Runs, job: &Job, run: &Recording) -> Vec<f64> {
     let patterns = (1..=PATTERNS).map(|period| {
         move |i: usize| [1.0, -1.0][i / period % 2] * period as f64 / PATTERNS as f64
     });
-    let largest_change = patterns.fold(none, |reach, change| {
-        let mut state = run.last_state.clone();
+    let mut most = vec![0.0; here.len()];
+    for change in patterns {
+        let mut changed = state.to_vec();
         for kind in kinds.clone() {
-            let most = largest(&run.last_state[kind.clone()]);
+            let largest = largest(&state[kind.clone()]);
             for i in kind {
-                let size = state[i].abs().max(LEAST * most);
-                state[i] += CHANGE * change(i) * size;
+                let size = state[i].abs().max(LEAST * largest);
+                changed[i] += CHANGE * change(i) * size;
             }
         }
-        let there = at(&state).unwrap_or_else(|| here.clone());
-        let changes = here.iter().zip(&there).map(|(a, b)| (a - b).abs());
-        reach.iter().zip(changes).map(|(a, b)| a.max(b)).collect()
-    });
-    largest_change.iter().map(|x| MARGIN * x).collect()
+        let Some(there) = at(&changed) else { continue };
+        for ((most, a), b) in most.iter_mut().zip(&here).zip(&there) {
+            *most = f64::max(*most, (a - b).abs());
+        }
+    }
+    most
 }
 
 /// The outputs at a state; `None` if they cannot be computed.

@@ -19,6 +19,8 @@ use bryant_runtime::Formula;
 use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
 use bryant_runtime::response::Answer;
+use std::collections::HashMap;
+use std::hash::Hash;
 
 /// Smaller tolerances are lost in rounding errors.
 pub(super) const FINEST: f64 = 1e-13;
@@ -85,18 +87,21 @@ impl Difference {
     /// The same with floors: an output that is nowhere larger than its floor is vanishing, and its error does not count.
     pub fn beyond(coarse: &Table, sharp: &Table, floors: &[f64]) -> Difference {
         // the first column is time
-        let columns = || coarse.columns.iter().zip(&sharp.columns).skip(1);
+        let columns: Vec<(&Column, &Column)> =
+            coarse.columns.iter().zip(&sharp.columns).skip(1).collect();
+        let size = |(a, b): &(&Column, &Column)| largest(&a.values).max(largest(&b.values));
+        let sizes: Vec<f64> = columns.iter().map(size).collect();
+        let units = columns.iter().map(|(_, sharp)| sharp.unit.as_str());
+        let scales = largest_by_unit(units.zip(sizes.iter().copied()));
         let mut vanishing = Vec::new();
-        let outputs: Vec<f64> = columns()
+        let outputs: Vec<f64> = columns
+            .iter()
             .enumerate()
             .map(|(index, (coarse, sharp))| {
-                let size = |(a, b): (&Column, &Column)| largest(&a.values).max(largest(&b.values));
-                let same = columns().filter(|(_, other)| other.unit == sharp.unit);
-                let scale = same.map(size).fold(0.0, f64::max);
                 if coarse.values.len() != sharp.values.len() {
                     return f64::INFINITY;
                 }
-                if size((coarse, sharp)) <= NOISE * scale {
+                if sizes[index] <= NOISE * scales[sharp.unit.as_str()] {
                     return 0.0;
                 }
                 let own = largest(&sharp.values);
@@ -128,12 +133,13 @@ impl Difference {
     }
 
     /// Adds the differences of the responses of both runs; `asked` are the responses. A response of a signal that has fallen below a
-    /// hundredth of its size in the `first` run does not count.
+    /// hundredth of its size in the `first` run does not count, nor does one of a single output that is nowhere larger than its floor.
     pub fn with_responses(
         self,
         asked: &[Asked],
         [coarse, sharp]: [&Recording; 2],
         first: &[Answer],
+        floors: &[f64],
     ) -> Difference {
         let unit = |asked: &Asked| {
             let channel = asked.channel;
@@ -141,17 +147,16 @@ impl Difference {
             let first = channel.outputs().first().filter(|_| keeps)?;
             Some(sharp.header.outputs.get(*first)?.unit.as_str())
         };
+        // the largest value with each unit, among rows and samples
         let columns = sharp.table.columns.iter().skip(1);
-        // the largest value with this unit, among rows and samples
-        let scale = |of: &Asked| {
-            let same = columns
-                .clone()
-                .filter(|column| Some(column.unit.as_str()) == unit(of));
-            let rows = same.map(|column| largest(&column.values));
-            let samples = asked.iter().zip(&sharp.answers);
-            let samples = samples.filter(|(other, _)| unit(other) == unit(of));
-            rows.chain(samples.map(|(_, answer)| answer.largest))
-                .fold(0.0, f64::max)
+        let rows = columns.map(|column| (Some(column.unit.as_str()), largest(&column.values)));
+        let samples = asked.iter().zip(&sharp.answers);
+        let samples = samples.map(|(asked, answer)| (unit(asked), answer.largest));
+        let scales = largest_by_unit(rows.chain(samples));
+        let scale = |asked: &Asked| scales.get(&unit(asked)).copied().unwrap_or(0.0);
+        let floor = |asked: &Asked| match asked.channel.plain() {
+            Some(output) => floors.get(output).copied().filter(|floor| *floor > 0.0),
+            None => None,
         };
         let pairs = sharp.answers.iter().zip(&coarse.answers);
         let responses: Vec<f64> = pairs.map(|(sharp, coarse)| sharp.apart(coarse)).collect();
@@ -162,7 +167,9 @@ impl Difference {
             let vanishes = first
                 .get(index)
                 .is_some_and(|first| answer.largest <= SHRUNK * first.largest);
-            if size <= NOISE * scale(asked) || vanishes || both.iter().all(|x| x.is_nan()) {
+            let negligible = size <= NOISE * scale(asked)
+                || floor(asked).is_some_and(|floor| answer.largest <= floor);
+            if negligible || vanishes || both.iter().all(|x| x.is_nan()) {
                 return None;
             }
             Some(
@@ -205,6 +212,16 @@ fn apart(a: f64, b: f64) -> f64 {
             .filter(|d| !d.is_nan())
             .unwrap_or(f64::INFINITY),
     }
+}
+
+/// The largest of some sizes with each unit.
+fn largest_by_unit<U: Eq + Hash>(sizes: impl Iterator<Item = (U, f64)>) -> HashMap<U, f64> {
+    let mut scales = HashMap::new();
+    for (unit, size) in sizes {
+        let scale = scales.entry(unit).or_insert(0.0f64);
+        *scale = scale.max(size);
+    }
+    scales
 }
 
 /// The largest magnitude of some values.
@@ -269,12 +286,17 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
             (Ok(_), Ok(_)) => {
                 let mut apart = Difference::of(&recording.table, &sharper.table);
                 if apart.worst > wanted {
-                    let floors =
-                        rounding.get_or_insert_with(|| conditioning::reach(model, job, &sharper));
+                    let floors = rounding.get_or_insert_with(|| {
+                        conditioning::reach(model, &next.job(job), &sharper, &apart.outputs)
+                    });
                     apart = Difference::beyond(&recording.table, &sharper.table, floors);
                 }
-                let apart =
-                    apart.with_responses(&job.reading.asked, [&recording, &sharper], &first);
+                let apart = apart.with_responses(
+                    &job.reading.asked,
+                    [&recording, &sharper],
+                    &first,
+                    rounding.as_deref().unwrap_or_default(),
+                );
                 comparisons += 1;
                 Some(apart.at_least(estimate.as_ref(), LEAST))
             }

@@ -101,7 +101,8 @@ fn bushings(model: &Model) -> Vec<String> {
         if (*x != none || *z != none) && y.elastic.is_none() {
             all.push(format!(
                 "bushing \"{}\" has laws about x or z, and nothing ends the rotation about y: at ±90° these have no direction\n  \
-                 help: give it a stiffness about y, or turn its frames so that the widest rotation is about x or z",
+                 help: give it a stiffness about y, or turn its frames so that the widest rotation is about x or z; a law that is the same about all axes \
+                 is `about: {{ turn: … }}`",
                 force.name
             ));
         }

@@ -361,7 +361,7 @@ mod tests {
             taken: Cell::new(false),
             then,
         };
-        ErrorReport::of_checked(&check::run(&once, &Job::default(), false, &mut |_| {}))
+        ErrorReport::of_checked(&check::run(&once, &Job::default(), false, &mut |_, _| {}))
     }
 
     /// On a busy machine milliseconds of work may take a hundred times as long.

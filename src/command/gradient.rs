@@ -42,6 +42,7 @@ every 0.1 ms, by 0.02 to 0.1 % with `--sampling '10 us'`.
 
 The command compares the derivatives with those of a run at ten times the tolerance. If they are not as accurate as 0.1 %, it repeats the
 run at smaller tolerances. If their error stays above 1 %, or above 10 % at a --tolerance of your own, it ends with exit code 3.
+So it does if --check finds more than that.
 
 After Ctrl-C it finishes the derivatives under way, prints the table of those that are done, and ends with exit code 130.
 
@@ -159,10 +160,18 @@ impl Arguments {
             false if done > 0 => terminal.print(&table.text())?,
             false => {}
         }
-        let compared = checked.map_or(done, |checked| checked.len() / responses.len());
+        let compared = checked
+            .as_ref()
+            .map_or(done, |checked| checked.len() / responses.len());
         match missing(&parameters, done, compared) {
             Some(missing) => Err(Error::Interrupted(missing)),
-            None => self.conclude(&found, terminal),
+            None => {
+                self.conclude(&found, terminal)?;
+                match table.worst() {
+                    Some(worst) if worst.is_nan() || worst > self.limit() => Err(disagree(worst)),
+                    _ => Ok(()),
+                }
+            }
         }
     }
 
@@ -218,12 +227,10 @@ impl Arguments {
             };
             terminal.note(&format!("estimated error: {error}"));
         }
-        let (limit, help) = match self.tolerance {
-            Some(_) => (FAR, "give a smaller --tolerance, or none"),
-            None => (
-                AGREE,
-                "`bryant run` with the same parameters says how accurate the run is",
-            ),
+        let limit = self.limit();
+        let help = match self.tolerance {
+            Some(_) => "give a smaller --tolerance, or none",
+            None => "`bryant run` with the same parameters says how accurate the run is",
         };
         match error <= limit {
             true => Ok(()),
@@ -231,6 +238,14 @@ impl Arguments {
                 "the derivatives are not as accurate as {}: a run at ten times the tolerance has other derivatives\n  help: {help}",
                 percent(limit)
             ))),
+        }
+    }
+
+    /// Derivatives that are wrong by more cannot be trusted.
+    fn limit(&self) -> f64 {
+        match self.tolerance {
+            Some(_) => FAR,
+            None => AGREE,
         }
     }
 
@@ -265,6 +280,15 @@ impl Arguments {
         }
         Ok(wrt)
     }
+}
+
+/// The derivatives and the differences are too far apart.
+fn disagree(worst: f64) -> Error {
+    Error::failed(format!(
+        "derivatives and differences disagree by {} of the largest\n  help: a response that has a kink or a jump near these values has no derivative \
+         there; `bryant sweep` over a few values of the parameter shows it",
+        percent(worst)
+    ))
 }
 
 /// The sentence that says what an interruption left out: how many derivatives are done, and how many are compared.

@@ -1,5 +1,6 @@
 //! `bryant run`: the motion of a model as a table, a file and a picture.
 
+mod animation;
 mod beside;
 mod criteria;
 mod files;
@@ -518,7 +519,16 @@ impl Arguments {
                 (recording, errors)
             }
             None => {
-                let checked = check::run(engine, job, chosen, &mut hear);
+                let mut runs = 0;
+                let mut hear_of = |before: usize, t: f64| {
+                    if before != runs {
+                        runs = before;
+                        let what = format!("checking {}", model.name);
+                        progress.next(what, Whole::Time(duration - begin));
+                    }
+                    hear(t);
+                };
+                let checked = check::run(engine, job, chosen, &mut hear_of);
                 let errors = ErrorReport::of_checked(&checked);
                 (checked.recording, errors)
             }
@@ -528,14 +538,17 @@ impl Arguments {
                 let opinion = target::second_opinion(&errors.setting().unwrap_or(Setting::of(job)));
                 let patience = f64::INFINITY;
                 let second = check::second(engine, job, &opinion, patience, &mut hear);
-                let floors = conditioning::reach(engine, job, &recording);
-                let verdict = Verdict::of(
-                    &recording,
-                    &second,
-                    &floors,
-                    (&job.reading.asked, &[]),
-                    patience,
-                );
+                let answers = (&job.reading.asked[..], &[][..]);
+                let verdict = Verdict::of(&recording, &second, &[], answers, patience);
+                let verdict = match &verdict {
+                    Verdict::Apart(apart) => {
+                        let made_by = errors.setting().map_or(job.clone(), |s| s.job(job));
+                        let floors =
+                            conditioning::reach(engine, &made_by, &recording, &apart.outputs);
+                        Verdict::of(&recording, &second, &floors, answers, patience)
+                    }
+                    _ => verdict,
+                };
                 errors.verified(opinion, verdict)
             }
             false => errors,
@@ -585,7 +598,7 @@ impl Done<'_> {
             written.push(path.clone());
         }
         if let Some(path) = &arguments.animation {
-            let file = report::animation(found, job, recording)?;
+            let file = animation::animation(found, job, (recording, self.errors), terminal)?;
             crate::files::replace(path, |out| out.write_all(&file)).map_err(Error::system)?;
             written.push(path.clone());
         }

@@ -68,6 +68,7 @@ pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
             "\"{}\" errs by too much, as a comparison with steps half as long shows: the fixed steps are too long",
             info.state_name(index)?
         ),
+        Doubt::Tied => "several events happen at the same time, and depend on parameters otherwise".to_owned(),
         Doubt::Left(curve) if info.curves.get(curve)?.kind == CurveKind::Volume => format!(
             "the {} is compressed so far that its law is no longer valid",
             info.curves.get(curve)?.name

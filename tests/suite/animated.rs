@@ -190,3 +190,90 @@ fn a_table_as_parquet_has_the_digits_of_the_run() {
         call(path, &run, 2);
     }
 }
+
+/// A top that turns at RATE about z for DURATION, with a row every EVERY.
+const TOP: &str = "model: top
+dimension: DIMENSION
+systems:
+  - name: top
+    elements: [{ name: body, mass: 1, cg: CENTRE, inertia: INERTIA }]
+    start: { rates: { body: RATE } }
+run: { duration: DURATION, every: EVERY }
+";
+
+/// Players turn a body the shorter way from one keyframe to the next: 100 rad/s for 1 s are 100/2π = 15.92 turns, whatever the rows.
+#[test]
+fn fast_turns_are_played_as_they_are() {
+    let directory = directory();
+    let path = directory.path();
+    let space = |rate: &str| {
+        let top = TOP.replace("DIMENSION", "3").replace("CENTRE", "[0, 0, 0]");
+        top.replace("INERTIA", "[0.02, 0.03, 0.04]")
+            .replace("RATE", rate)
+    };
+    let plane = |rate: &str| {
+        let top = TOP.replace("DIMENSION", "2").replace("CENTRE", "[0, 0]");
+        top.replace("INERTIA", "0.04").replace("RATE", rate)
+    };
+    for (scene, duration, every, turned) in [
+        (space("[0, 0, 100]"), 1.0, 0.05, 100.0),
+        (space("[0, 0, -100]"), 1.0, 0.5, 100.0),
+        (space("[0, 0, 1000]"), 0.5, 0.05, 500.0),
+        (plane("100"), 1.0, 0.05, 100.0),
+        // more rows than keyframes of a slow motion
+        (space("[0, 0, 30]"), 20.0, 0.01, 600.0),
+        (space("[0, 0, 1]"), 1.0, 0.05, 1.0),
+    ] {
+        let scene = scene.replace("DURATION", &format!("{duration} s"));
+        fs::write(
+            path.join("top.yaml"),
+            scene.replace("EVERY", &format!("{every} s")),
+        )
+        .unwrap();
+        let run = ["run", "top.yaml", "--no-files", "--animation", "top.glb"];
+        let (_, told) = call(path, &run, 0);
+        assert!(!told.contains("cannot show"), "{told}");
+        let bytes = fs::read(path.join("top.glb")).unwrap();
+        let (json, buffer) = parts(&bytes);
+        let animation = &json["animations"][0];
+        let channels = animation["channels"].as_array().unwrap();
+        let of = channels
+            .iter()
+            .find(|c| c["target"]["path"] == "rotation")
+            .unwrap();
+        let sampler = &animation["samplers"][of["sampler"].as_u64().unwrap() as usize];
+        let turns = floats(&json, buffer, &sampler["output"]);
+        let keys: Vec<&[f64]> = turns.chunks(4).collect();
+        let mut sum = 0.0;
+        for pair in keys.windows(2) {
+            let product: f64 = pair[0].iter().zip(pair[1]).map(|(a, b)| a * b).sum();
+            let angle = 2.0 * product.abs().min(1.0).acos();
+            assert!(angle < 0.5 * std::f64::consts::PI, "{angle}");
+            // about z, to the same side as the first
+            sum += angle;
+        }
+        // singles and six digits of each of the keyframes
+        assert!(
+            (sum - turned).abs() < 1e-3 * turned + 1e-4,
+            "{sum} {turned}"
+        );
+    }
+    // what no number of keyframes can show is said
+    let fast = space("[0, 0, 1e5]")
+        .replace("DURATION", "1 s")
+        .replace("EVERY", "0.1 s");
+    fs::write(path.join("top.yaml"), fast).unwrap();
+    let run = [
+        "run",
+        "top.yaml",
+        "--no-files",
+        "--no-verify",
+        "--animation",
+        "top.glb",
+    ];
+    let (_, told) = call(path, &run, 0);
+    assert!(
+        told.contains("cannot show how fast bodies turn") && told.contains("help: "),
+        "{told}"
+    );
+}

@@ -236,3 +236,50 @@ fn a_verification_that_fails_is_an_error() {
     let (_, stderr) = run(directory.path(), CHAOS, &["--verify"], 3);
     assert!(stderr.contains("not as accurate as"), "{stderr}");
 }
+
+/// Two links, thrown to the floor: their hinge is free, so its moment about its own axis is 0, but for the rounding of the moments of the impact, which
+/// are gone at the end. The peg hangs on a spring of 1 kN/m and swings by 1 µm: its force is 1 mN.
+const HINGE: &str = "\
+model: hinge
+dimension: 3
+systems:
+  - name: arm
+    elements:
+      - { name: a, mass: 2, cg: [0.3, 0.1, -0.2], inertia: [0.1, 0.2, 0.15] }
+      - { name: b, on: a, at: [0.6, 0, 0], joint: { hinge: y }, mass: 1, cg: [0.2, 0, -0.1], inertia: [0.02, 0.05, 0.04] }
+    start: { position: [0, 0, 1], velocity: [1, 0, -3] }
+  - name: peg
+    elements: [{ name: p, mass: 1, cg: [0, 0, 0], inertia: [1, 1, 1] }]
+    start: { position: [0, 0, 5 + 1e-6] }
+forces:
+  - { field: gravity, acceleration: [0, 0, -9.81], on: [arm] }
+  - { contact: near, ellipsoid: { on: arm/a, semi_axes: [0.1, 0.1, 0.1], center: [0, 0, 0] }, plane: { on: frame, at: [0, 0, 0], normal: [0, 0, 1] }, stiffness: 1e6, damping: 100 }
+  - { contact: far, ellipsoid: { on: arm/b, semi_axes: [0.1, 0.1, 0.1], center: [0.3, 0, 0] }, plane: { on: frame, at: [0, 0, 0], normal: [0, 0, 1] }, stiffness: 1e6, damping: 100 }
+  - { bushing: hanger, from: { on: frame, at: [0, 0, 5] }, to: { on: peg/p, at: [0, 0, 0] }, along: { z: { stiffness: 1000 } } }
+outputs:
+  - { name: M, of: joint arm/b, what: moment, component: y, axes: arm/b }
+  - { name: F, of: bushing hanger, what: force, on: peg/p, component: z }
+run: { duration: 0.5 s, every: 1 ms }
+";
+
+#[test]
+fn the_moment_of_a_free_hinge_is_no_alarm_and_a_small_force_is_judged() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let (found, _) = run(here, HINGE, &[], 0);
+    let difference = &found["accuracy"]["verified"]["difference"];
+    // about 5 kN at 1 m, so 1e-12 of rounding
+    let bound = difference["vanishing"]["M"]["bound"].as_f64().unwrap();
+    assert!(bound > 0.0 && bound < 1e-10, "{bound}");
+    let vanishing = difference["vanishing"].as_object().unwrap();
+    assert!(!vanishing.contains_key("F"), "{difference}");
+    for (row, force) in output(&found, "F").iter().enumerate() {
+        let expected = -1e-3 * (1000.0_f64.sqrt() * 1e-3 * row as f64).cos();
+        assert!(
+            (force - expected).abs() < 1e-3 * 1e-3,
+            "{row}: {force} {expected}"
+        );
+    }
+    // steps that are too long for 1 mN are found out, not taken for rounding
+    run(here, HINGE, &["--method", "heun", "--step", "4 ms"], 3);
+}

@@ -7,6 +7,7 @@ mod certification;
 mod checked;
 mod comparing;
 mod continued;
+mod degenerate;
 mod formulas;
 mod grazing;
 mod judged;
@@ -22,9 +23,11 @@ mod responses;
 mod resting;
 mod scenes;
 mod slipping;
+mod slopes;
 #[cfg(unix)]
 mod streams;
 mod tables;
+mod turning;
 
 use called::{bryant, call, expect};
 use std::path::Path;

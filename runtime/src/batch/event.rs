@@ -85,9 +85,29 @@ impl<T: Several> Probe<'_, T> {
 
 /// Fractions of a step on both sides of a change of sign, no further apart than can be told, with the derivative of when that is.
 #[derive(Clone, Copy)]
-pub struct Sides<T> {
+pub struct Sides<T: Real> {
     pub ahead: T,
     pub behind: T,
+    /// Where several functions change their signs there, whose times depend on parameters otherwise.
+    pub at_odds: T::Mask,
+}
+
+/// Times that differ by less than this share of a step for a change of a parameter by its size, or by this share of themselves, depend on it alike.
+const ALIKE: [f64; 2] = [1e-9, 1e-6];
+
+impl<T: Several> Sides<T> {
+    /// Where two times depend on parameters otherwise.
+    #[inline(always)]
+    pub fn differ(a: T, b: T) -> T::Mask {
+        let mut differ = T::Mask::of_lanes(0);
+        for part in 1..T::PARTS {
+            let [a, b] = [a.part(part), b.part(part)];
+            let [least, share] = ALIKE.map(T::Part::from_f64);
+            let alike = share.mul_add(a.abs().max(b.abs()), least);
+            differ = differ.or(alike.lt((a - b).abs()));
+        }
+        differ
+    }
 }
 
 /// The fractions of the step around the first change of sign of the functions in the lanes `wanted`, where it has happened at `end`; 1 in the
@@ -116,26 +136,52 @@ pub fn first_change<T: Several>(
     let Bracket { same, other, .. } = bracket;
     let found = T::Part::select(wanted, other, one);
     let between = T::of_part(T::Part::select(wanted, other - same, nought));
+    let none = T::Mask::of_lanes(0);
     if T::PARTS == 1 {
         let behind = T::of_part(found);
         return Sides {
             ahead: behind - between,
             behind,
+            at_odds: none,
         };
     }
     // g(θ, p) = 0 on the way: dθ/dp = −∂g/∂p / ∂g/∂θ
+    let ends = [(found - c(APART)).max(nought), (found + c(APART)).min(one)];
+    let moved = |there: T, [left, right]: [T::Part; 2]| {
+        let rate = (right - left) / (ends[1] - ends[0]);
+        let moves = wanted.and(nought.lt(rate.abs()));
+        let rate = T::Part::select(moves, rate, one);
+        let shift = (there - there.frozen()) / T::of_part(rate);
+        let behind = T::select(moves, T::of_part(found) - shift, T::of_part(found));
+        (behind, moves)
+    };
     let there = probe.change(before, T::of_part(found));
-    let (left, right) = ((found - c(APART)).max(nought), (found + c(APART)).min(one));
-    let to_the_right = probe.change(before, T::of_part(right)).part(0);
-    let to_the_left = probe.change(before, T::of_part(left)).part(0);
-    let rate = (to_the_right - to_the_left) / (right - left);
-    let moves = wanted.and(nought.lt(rate.abs()));
-    let rate = T::Part::select(moves, rate, one);
-    let shift = (there - there.frozen()) / T::of_part(rate);
-    let behind = T::select(moves, T::of_part(found) - shift, T::of_part(found));
+    let (mut alone, mut several) = (none, none);
+    for (before, value) in before.iter().zip(&*probe.values) {
+        let value = opposite(probe.functions.zero(), *before, *value);
+        let changed = nought.lt(value.part(0)).and(wanted);
+        several = several.or(alone.and(changed));
+        alone = alone.or(changed);
+    }
+    let sides = ends.map(|end| probe.change(before, T::of_part(end)).part(0));
+    let (behind, _) = moved(there, sides);
+    let mut at_odds = none;
+    if several.any() {
+        for (i, before) in before.iter().enumerate() {
+            let mut alone = |theta: T::Part| {
+                probe.at(T::of_part(theta));
+                opposite(probe.functions.zero(), *before, probe.values[i])
+            };
+            let there = alone(found);
+            let (time, moves) = moved(there, ends.map(|end| alone(end).part(0)));
+            let counts = several.and(moves).and(nought.lt(there.part(0)));
+            at_odds = at_odds.or(Sides::differ(time, behind).and(counts));
+        }
+    }
     Sides {
         ahead: behind - between,
         behind,
+        at_odds,
     }
 }
 

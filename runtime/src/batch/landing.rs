@@ -17,6 +17,11 @@ pub(super) struct Landing<T: Real> {
     /// Where they arrived at a time that they had to meet.
     arrived: T::Mask,
     renewed: Renewed<T>,
+    /// Where the time of their end depends on parameters, and that time less itself: its derivatives alone \[s\].
+    moves: T::Mask,
+    shift: T,
+    /// Where several events ended them at the same time, which depend on parameters otherwise.
+    at_odds: T::Mask,
 }
 
 /// What renewing memory changed.
@@ -74,33 +79,60 @@ impl<T: Several> Run<'_, T> {
         reach: &Reach<T>,
     ) -> Landing<T> {
         let t = self.step.t;
-        let (Sides { ahead, behind }, whole) = self.place(accepted, easy, reach.reached);
+        let (sides, whole) = self.place(accepted, easy, reach.reached);
+        let Sides {
+            ahead,
+            behind,
+            at_odds,
+        } = sides;
         let whole = whole.or(self.going_on(whole.not().and(accepted), behind));
-        let reached = T::select(whole, reach.reached, behind * self.step.h + t);
-        self.deliver(accepted, whole, reached);
         let broken = whole.not().and(accepted);
         let arrived = accepted.and(whole).and(reach.lands);
+        let nought = T::from_f64(0.0);
+        let shift = (behind - behind.frozen()) * self.step.h;
+        let shift = T::select(broken, shift, T::select(arrived, reach.shift, nought));
+        let (ahead, behind) = (ahead.frozen(), behind.frozen());
+        let reached = T::select(whole, reach.reached, behind * self.step.h + t);
+        self.deliver(accepted, whole, reached);
+        let at_odds = at_odds.and(broken);
+        let moves = moving(shift).or(at_odds).and(broken.or(arrived));
         let jumps = self.notes_jumps && broken.or(arrived).any();
-        if jumps {
+        if jumps || moves.any() {
             if broken.any() {
                 self.step.inside(&*self.models.all, ahead, &mut self.state);
                 replace(broken.not(), &mut self.state, &self.end);
             } else {
                 self.state.copy_from_slice(&self.end);
             }
-            let short = ahead * self.step.h + t;
-            self.look_ahead(T::select(broken, short, reached.min(self.step.latest)));
+        }
+        let ends = reached.min(self.step.latest);
+        let short = T::select(broken, ahead * self.step.h + t, ends);
+        let leads = moves.any();
+        if leads {
+            let model = &self.models.all;
+            model.derivative(short.min(self.step.latest), &self.state, &mut self.ahead);
+        }
+        if jumps {
+            if leads {
+                follow(moves, &mut self.state, &self.ahead, shift);
+            }
+            self.look_ahead(short + shift);
         }
         if broken.any() {
             self.step.inside(&*self.models.all, behind, &mut self.state);
             replace(whole.not(), &mut self.end, &self.state);
-            self.look_at_end(broken, reached);
+        }
+        if leads {
+            follow(moves, &mut self.end, &self.ahead, shift);
+        }
+        if broken.or(moves).any() {
+            self.look_at_end(broken.or(moves), reached + shift);
         }
         let part = T::select(whole, T::from_f64(1.0), behind);
         self.advance_bends(accepted, part);
         self.advance_watch(accepted, part, reached);
         exchange(accepted, &mut self.step.y, &mut self.end);
-        self.step.t = T::select(accepted, reached, t);
+        self.step.t = T::select(accepted, reached + shift, t);
         let renewed = self.renew(accepted);
         self.advance_onsets(accepted);
         if jumps {
@@ -111,6 +143,9 @@ impl<T: Several> Run<'_, T> {
             whole,
             arrived,
             renewed,
+            moves,
+            at_odds,
+            shift,
         }
     }
 
@@ -122,6 +157,9 @@ impl<T: Several> Run<'_, T> {
             whole,
             arrived,
             renewed,
+            moves,
+            at_odds,
+            shift,
         } = *landing;
         self.grid.advance(accepted);
         for i in each(accepted.lanes()) {
@@ -155,6 +193,8 @@ impl<T: Several> Run<'_, T> {
                 goes_on = goes_on.or(self.moves_alike().and(alike));
             }
         }
+        self.tie(at_odds.and(going), renewed.any);
+        self.hold(moves.and(going), shift);
         // where memory stays, they are known
         let known = going.and(renewed.any.not());
         let smooth = known.and(whole);
@@ -168,6 +208,37 @@ impl<T: Several> Run<'_, T> {
         );
         self.leave_watch(going, known.and(arrived.not()), smooth);
         self.count_steps(whole.not().and(going));
+    }
+
+    /// The next steps of these lanes begin at times that do not depend on parameters, although those before ended at times that do. Between the two
+    /// the state moves at the rate behind the event, as it moved at the rate ahead of it in [`Run::land`]. So the derivatives of a state change by
+    /// (ẏ₋ − ẏ₊) dτ/dp, with the rates on both sides of the event and its time τ: those of what the event does not touch stay as they are.
+    #[inline(always)]
+    fn hold(&mut self, lanes: T::Mask, shift: T) {
+        if !lanes.any() {
+            return;
+        }
+        let shift = T::select(lanes, shift, T::from_f64(0.0));
+        follow(lanes, &mut self.step.y, &self.step.k[0], -shift);
+        self.step.t = self.step.t - shift;
+        self.rate(lanes);
+    }
+
+    /// In these lanes the one event of several counted whose function was farthest. That is of no matter where none of them changes a rate or memory.
+    #[inline(always)]
+    fn tie(&mut self, at_odds: T::Mask, renewed: T::Mask) {
+        if !at_odds.any() {
+            return;
+        }
+        let mut jumps = renewed;
+        let entries = self.info.varying_length();
+        for (before, behind) in self.ahead.iter().zip(&self.step.k[0]).take(entries) {
+            let [before, behind] = [before.part(0), behind.part(0)];
+            let size = before.abs().max(behind.abs());
+            let trifle = T::Part::from_f64(TRIFLE) * size;
+            jumps = jumps.or(trifle.lt((behind - before).abs()));
+        }
+        self.tied |= at_odds.and(jumps).lanes();
     }
 
     /// Where the motion goes on as it did in the step before, whose derivative at its end is in `state`, although memory was renewed: over such a step,
@@ -199,6 +270,27 @@ impl<T: Several> Run<'_, T> {
         }
         T::Mask::of_lanes(going_on)
     }
+}
+
+/// A rate that changes by less than this share of itself does not jump.
+const TRIFLE: f64 = 1e-6;
+
+/// Moves a state in these lanes along its rate for a time \[s\], of which there are derivatives alone.
+#[inline(always)]
+fn follow<T: Several>(lanes: T::Mask, state: &mut [T], rate: &[T], time: T) {
+    for (state, rate) in state.iter_mut().zip(rate) {
+        *state = T::select(lanes, rate.frozen() * time + *state, *state);
+    }
+}
+
+/// The lanes in which a number has derivatives that are not 0.
+#[inline(always)]
+fn moving<T: Several>(number: T) -> T::Mask {
+    let mut moving = T::Mask::of_lanes(0);
+    for part in 1..T::PARTS {
+        moving = moving.or(T::Part::from_f64(0.0).lt(number.part(part).abs()));
+    }
+    moving
 }
 
 /// The lanes in which any of two lists of numbers differ.

@@ -45,8 +45,10 @@ impl<T: Real> Grid<T> {
 pub(super) struct Reach<T: Real> {
     /// Whether it ends where it must stop.
     pub(super) lands: T::Mask,
-    /// Where it ends \[s\].
+    /// Where it ends \[s\], without derivatives: steps are held.
     pub(super) reached: T,
+    /// What the time where it must stop has of derivatives alone \[s\].
+    pub(super) shift: T,
     /// How long it is \[s\]: what the clock says, but for its rounding where steps are fixed.
     pub(super) length: T,
 }
@@ -62,7 +64,7 @@ impl<T: Several> Run<'_, T> {
         T::of_lanes(&stops)
     }
 
-    /// The latest time that the equations are evaluated at before it \[s\].
+    /// The latest time that the equations are evaluated at before it, without derivatives \[s\].
     #[inline(always)]
     pub(super) fn latest(&self) -> T {
         let mut latest = [T::One::from_f64(self.settings.duration); MOST_LANES];
@@ -71,7 +73,7 @@ impl<T: Several> Run<'_, T> {
         for (latest, lane) in latest.iter_mut().zip(&self.lanes) {
             *latest = lane.stops_at * before;
         }
-        T::of_lanes(&latest)
+        T::of_lanes(&latest).frozen()
     }
 
     /// Counts the fixed steps from here to the next stop, in these lanes.
@@ -80,7 +82,7 @@ impl<T: Several> Run<'_, T> {
         let Pace::Fixed(Fixed { step, .. }) = self.settings.pace else {
             return;
         };
-        let stops = self.stops();
+        let stops = self.stops().frozen();
         let span = stops - self.step.t;
         let mut number = self.grid.number;
         for i in each(lanes.lanes()) {
@@ -102,6 +104,8 @@ impl<T: Several> Run<'_, T> {
     #[inline(always)]
     pub(super) fn reach(&mut self, stops: T) -> Reach<T> {
         let t = self.step.t;
+        let shift = stops - stops.frozen();
+        let stops = stops.frozen();
         match self.settings.pace {
             Pace::Fixed(_) => {
                 let Grid {
@@ -115,6 +119,7 @@ impl<T: Several> Run<'_, T> {
                 Reach {
                     lands,
                     reached: T::select(lands, stops, next * length + start),
+                    shift,
                     length,
                 }
             }
@@ -128,6 +133,7 @@ impl<T: Several> Run<'_, T> {
                 Reach {
                     lands,
                     reached,
+                    shift,
                     length: reached - t,
                 }
             }

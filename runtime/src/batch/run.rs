@@ -145,12 +145,16 @@ pub(super) struct Run<'a, T: Several> {
     /// Where the step leads, on the manifold, and what counts of it; and what renewing memory makes of that.
     pub(super) end: Box<[T]>,
     pub(super) renewed: Box<[T]>,
+    /// Room for the rate just ahead of the end of a step.
+    pub(super) ahead: Box<[T]>,
     /// Room for a state.
     pub(super) state: Box<[T]>,
     /// The error allowed in each entry of a state; nothing where steps are fixed.
     pub(super) allowed: Vec<Allowed<T::Part>>,
     pub(super) controller: Controller<T::Part>,
     pub(super) accelerations: Accelerations<T::Part>,
+    /// The lanes in whose runs events [tied](Doubt::Tied).
+    pub(super) tied: u32,
     /// The lanes in which accelerations are under control.
     controlled: u32,
     /// Room for the powers of all effects, twice.
@@ -278,6 +282,7 @@ impl<'a, T: Several> Run<'a, T> {
             step,
             end: zeros(entries),
             renewed: zeros(entries),
+            ahead: zeros(if T::PARTS > 1 { entries } else { 0 }),
             state: zeros(entries),
             allowed: match &settings.pace {
                 Pace::Adaptive(tolerances) => Allowed::of(tolerances, info),
@@ -307,6 +312,7 @@ impl<'a, T: Several> Run<'a, T> {
                     Pace::Fixed(_) => f64::INFINITY,
                 },
             ),
+            tied: 0,
             controlled: 0,
             powers: [(); 2].map(|()| zeros(info.powers.len())),
             h: one,
@@ -373,6 +379,7 @@ impl<'a, T: Several> Run<'a, T> {
             self.series[i].forget_jumps();
             self.bends.forget(i);
             self.onsets.missed[i] = None;
+            self.tied &= !(1 << i);
             (lane.steps, lane.rejected, lane.searches) = (0, 0, 0);
             lane.standing.forget();
             lane.patience = Patience::new(self.settings.time_limit, [0.0, self.settings.duration]);
@@ -689,7 +696,9 @@ impl<'a, T: Several> Run<'a, T> {
             finite &= value.is_finite();
         }
         let bent = self.bends.leapt[i].map(|index| match self.info.curves[index].kind {
-            CurveKind::Direction(_) => Doubt::Sunk(index),
+            CurveKind::Direction(_) if !self.info.curves[index].is_of_bushing() => {
+                Doubt::Sunk(index)
+            }
             _ => Doubt::Bent(index),
         });
         let missed = self.onsets.missed[i].map(Doubt::Missed);
@@ -705,7 +714,8 @@ impl<'a, T: Several> Run<'a, T> {
             }
             None => (None, None),
         };
-        let doubt = unstable.or(bent).or(missed).or(left).or(balance);
+        let tied = (self.tied >> i & 1 != 0).then_some(Doubt::Tied);
+        let doubt = unstable.or(bent).or(missed).or(left).or(balance).or(tied);
         let status = match status {
             Status::Done if !finite => Status::NonFinite,
             Status::Done if doubt.is_some() => Status::Doubtful,

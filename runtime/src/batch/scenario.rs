@@ -74,6 +74,8 @@ pub enum Doubt {
     Momentum,
     /// The estimated error of fixed steps is too large: the entry of the state whose error was largest when this began.
     Error(usize),
+    /// Several events happened at the same time, whose times depend on parameters otherwise: derivatives are not known there, though the values are.
+    Tied,
 }
 
 /// Whether a run reached its end.

@@ -2,6 +2,7 @@
 
 use super::event::{
     Functions, PLACES, Probe, Sides, Values, changed, excursion, first_change, hidden, may_stray,
+    width,
 };
 use super::place::Places;
 use super::run::{Run, Section, each};
@@ -10,6 +11,9 @@ use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::excursion::{Excursion, heads_for, overshoot};
 use crate::simulate::{EASY, SEARCHES, Zero, opposite};
+
+/// Places that are found apart by so many times what they are found to are not told apart.
+const TOGETHER: f64 = 4.0;
 
 /// [`Run::look_at`]
 struct Look<'a>(Functions, &'a mut Places<(usize, f64)>);
@@ -159,9 +163,11 @@ impl<T: Several> Run<'_, T> {
         reached: T,
     ) -> (Sides<T>, T::Mask) {
         let one = T::from_f64(1.0);
+        let none = T::Mask::of_lanes(0);
         let mut place = Sides {
             ahead: one,
             behind: one,
+            at_odds: none,
         };
         let mut whole = T::Mask::of_lanes(u32::MAX);
         if !self.event_functions.is_empty() {
@@ -188,7 +194,13 @@ impl<T: Several> Run<'_, T> {
                 reached,
             }) {
                 let first = at.behind.part(0).lt(place.behind.part(0)).and(crossed);
+                let apart = (at.behind.part(0) - place.behind.part(0)).abs();
+                let together = T::Part::from_f64(TOGETHER * width::<T>()).lt(apart).not();
+                let both = together.and(crossed).and(whole.not());
+                let odd = Sides::differ(at.behind, place.behind).and(both);
+                let at_odds = T::Mask::or(first.and(at.at_odds), first.not().and(place.at_odds));
                 place = Sides {
+                    at_odds: at_odds.or(odd),
                     ahead: T::select(first, at.ahead, place.ahead),
                     behind: T::select(first, at.behind, place.behind),
                 };

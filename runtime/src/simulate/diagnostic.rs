@@ -44,7 +44,8 @@ pub enum Problem {
         /// The number of such steps.
         steps: u64,
     },
-    /// A flexion went through 180°; or a bushing, or a joint with laws about x, y and z, through ±90° about y.
+    /// A flexion went through 180°; or a bushing, or a joint with laws about x, y and z, through ±90° about y; or an angle through ±180°, where its
+    /// torque jumps.
     Flexion {
         /// The direction of bending that jumped, an index in [`Info::curves`].
         bearing: usize,
@@ -122,6 +123,7 @@ impl Diagnostic {
             Problem::Curve { curve, .. } if self.is_edge(curve) => "edge",
             Problem::Curve { .. } => "curve",
             Problem::Missed { .. } => "missed",
+            Problem::Flexion { bearing } if self.is_half_turn(bearing) => "turn",
             Problem::Flexion { bearing } if self.is_bushing(bearing) => "bushing",
             Problem::Flexion { bearing } if self.is_angles(bearing) => "angles",
             Problem::Flexion { .. } => "flexion",
@@ -136,6 +138,12 @@ impl Diagnostic {
     fn is_bushing(&self, bearing: usize) -> bool {
         let curve = self.info.curves.get(bearing);
         curve.is_some_and(CurveInfo::is_of_bushing)
+    }
+
+    /// Whether an entry of [`Info::curves`] is an angle at ±180°, or the axis of a rotation of 180°.
+    fn is_half_turn(&self, bearing: usize) -> bool {
+        let kind = self.info.curves.get(bearing).map(|curve| curve.kind);
+        matches!(kind, Some(CurveKind::HalfTurn | CurveKind::Direction(_)))
     }
 
     /// Whether an entry of [`Info::curves`] belongs to the laws about x, y and z of a joint.
@@ -174,8 +182,12 @@ impl Diagnostic {
             Problem::Missed { .. } | Problem::Error { .. } => {
                 "give --tolerance instead of --step, which ends steps where something begins; or a smaller --step"
             }
+            Problem::Flexion { bearing } if self.is_half_turn(bearing) => {
+                "end the rotation before 180° by a stop or a larger stiffness; what turns farther needs a `hinge`, whose angle goes on beyond 180°, and the law on that"
+            }
             Problem::Flexion { bearing } if self.is_bushing(bearing) => {
-                "give it a stiffness about y that ends the rotation before 90°, or turn its frames so that the widest rotation is about x or z"
+                "if the law is the same about all axes, write it as `about: { turn: … }`, which is regular up to 180°; else give it a stiffness about y that \
+                 ends the rotation before 90°, or turn its frames so that the widest rotation is about x or z"
             }
             Problem::Flexion { bearing } if self.is_angles(bearing) => {
                 "end this rotation by stops within ±80°, or let another rotation be the middle one of the three (`about: { order: yxz, … }`), or use `flexion` and `torsion`"

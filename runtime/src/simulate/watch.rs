@@ -274,7 +274,8 @@ impl<'a, T: Real> Watch<'a, T> {
             }
             let problem = match curve.kind {
                 CurveKind::Curve | CurveKind::Volume | CurveKind::Edge => return None,
-                CurveKind::Bearing => Problem::Flexion { bearing },
+                CurveKind::Bearing | CurveKind::HalfTurn => Problem::Flexion { bearing },
+                CurveKind::Direction(_) if curve.is_of_bushing() => Problem::Flexion { bearing },
                 CurveKind::Direction(_) => Problem::Sunk { contact: bearing },
             };
             Some((since, problem))

@@ -1,5 +1,6 @@
 //! The derivatives of responses: by dual numbers through the run, and by differences of runs for comparison.
 
+use super::table::AGREE;
 use crate::accuracy::check::PROMISED;
 use crate::command::Error;
 use crate::command::progress::Progress;
@@ -8,8 +9,8 @@ use crate::interrupt;
 use crate::sweep;
 use bryant_generator::model::Parameter;
 use bryant_runtime::Tolerances;
-use bryant_runtime::batch::rows::{Gradients, Job};
-use bryant_runtime::batch::{Pace, Status};
+use bryant_runtime::batch::rows::{Gradients, Job, Row};
+use bryant_runtime::batch::{Doubt, Pace, Status};
 use bryant_runtime::program::{ErrorKind, RunError};
 use std::time::Instant;
 
@@ -21,6 +22,8 @@ pub(super) const SHARP: f64 = 1e-12;
 pub(super) const MOVED: f64 = 1e-4;
 /// Slopes that are smaller than this share of their response are measured by the response.
 const SMALL: f64 = 1e-2;
+/// Events that happen at the same time are told apart by this share of the size of a parameter, to either side.
+const NUDGE: f64 = 1e-7;
 
 /// The size of a parameter's possible change: its value, or a share of the interval between its bounds.
 pub(super) fn size(parameter: &Parameter, value: f64) -> f64 {
@@ -40,9 +43,67 @@ pub(super) fn by_size(slopes: &[f64], sizes: &[f64], responses: usize) -> Vec<f6
 
 /// Responses, and slopes along these directions.
 fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<Gradients, Error> {
-    let gradients = engine
+    let mut gradients = engine
         .gradients(job, given, directions)
         .map_err(Error::system)?;
+    let tied = |row: &Row| row.status == Status::Doubtful && row.doubt == Some(Doubt::Tied);
+    for k in 0..gradients.rows.len() {
+        if tied(&gradients.rows[k]) {
+            let direction = &directions[k * given.len()..][..given.len()];
+            untie(engine, job, given, direction, &mut gradients, k)?;
+        }
+    }
+    check(engine, job, given, &gradients)?;
+    Ok(gradients)
+}
+
+/// Puts in place of a direction in which several events happen at the same time what its slopes are on both sides of the point, where they do not.
+/// Events of systems that share nothing have the same effect in either order.
+fn untie(
+    engine: &Engine,
+    job: &Job,
+    given: &[f64],
+    direction: &[f64],
+    gradients: &mut Gradients,
+    k: usize,
+) -> Result<(), Error> {
+    let mut sides = Vec::new();
+    for side in [-NUDGE, NUDGE] {
+        let moved = given.iter().zip(direction);
+        let moved: Vec<f64> = moved.map(|(given, way)| given + side * way).collect();
+        let found = engine.gradients(job, &moved, direction);
+        let found = found.map_err(Error::system)?;
+        // a parameter may be at its bound
+        if found.rows[0].status != Status::Refused {
+            check(engine, job, &moved, &found)?;
+            sides.push(found);
+        }
+    }
+    let ([one, ..], Some(other)) = (&sides[..], sides.last()) else {
+        return Ok(());
+    };
+    if sides.len() < 2 || apart(one, other) > AGREE {
+        return Err(Error::failed(
+            "several events happen at the same time, and the derivatives are others just before and just after these values of the parameters\n  \
+             help: change a parameter a little, so that the events follow each other"
+                .into(),
+        ));
+    }
+    let count = one.values.len();
+    let mean = |a: &[f64], b: &[f64]| -> Vec<f64> {
+        let pairs = a.iter().zip(b);
+        pairs.map(|(a, b)| 0.5 * (a + b)).collect()
+    };
+    gradients.slopes[k * count..][..count].copy_from_slice(&mean(&one.slopes, &other.slopes));
+    if k == 0 {
+        gradients.values = mean(&one.values, &other.values);
+    }
+    gradients.rows[k] = one.rows[0];
+    Ok(())
+}
+
+/// Refuses runs that cannot be trusted.
+fn check(engine: &Engine, job: &Job, given: &[f64], gradients: &Gradients) -> Result<(), Error> {
     for row in &gradients.rows {
         let what = match row.status {
             Status::Done => continue,
@@ -78,7 +139,7 @@ fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<
             ),
         }));
     }
-    Ok(gradients)
+    Ok(())
 }
 
 /// What is differentiated: a model, its run, and the point at which the derivatives are taken.

@@ -105,7 +105,22 @@ impl Table<'_> {
             let difference = self.check(response, i)?;
             Some(change(i, self.slope(response, i) - difference) / largest)
         });
-        Some(off.fold(0.0, f64::max))
+        // what is no number stays
+        Some(
+            off.fold(0.0, |worst, off| match off > worst || off.is_nan() {
+                true => off,
+                false => worst,
+            }),
+        )
+    }
+
+    /// How far the derivatives of any response are from the differences; `None` if they were not compared.
+    pub fn worst(&self) -> Option<f64> {
+        let all = (0..self.responses.len()).filter_map(|k| self.disagreement(k));
+        all.reduce(|a, b| match a.is_nan() {
+            true => a,
+            false => a.max(b),
+        })
     }
 
     pub fn json(&self) -> serde_json::Value {

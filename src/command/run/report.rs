@@ -112,18 +112,6 @@ pub(super) fn kept(recording: &Recording) -> Vec<Instant> {
     kept.map(|(_, instant)| instant.clone()).collect()
 }
 
-/// The animation of a run.
-///
-/// # Errors
-/// The run has fewer than two instants.
-pub fn animation(found: &Found, job: &Job, recording: &Recording) -> Result<Vec<u8>, Error> {
-    let (model, instants) = (&found.model, kept(recording));
-    let parameters = recording.parameters(job);
-    let scene = Scene::new(model, &recording.coordinates, &parameters, &instants);
-    let scene = scene.map_err(Error::system)?.json(&[]);
-    crate::animation::glb(&model.name, &scene).map_err(Error::failed)
-}
-
 /// The forces between bodies at these instants, a column for each component. The same run is computed again, with outputs for these forces.
 /// `None` if the run did not reach its end, this time or before.
 fn forces(

@@ -160,6 +160,18 @@ impl<'g> AppliedForces<'g> {
         });
     }
 
+    /// Tells how far an angle is from ±180°, to one side or the other, [`NO_BEARING`](equations::NO_BEARING) where it is nearer to 0, so that a run that goes
+    /// through it says so.
+    pub fn half_turn(&mut self, owner: &str, side: impl Fn() -> Expr<'g> + 'g) {
+        self.events.curves.push(CurveOfState {
+            name: owner.to_owned(),
+            what: equations::Watched::HalfTurn,
+            idle: equations::NO_BEARING,
+            argument: Box::new(side),
+            acts: None,
+        });
+    }
+
     /// Tells of the share of the volume of an airbag that what it meets takes, while a force that is never negative is not 0.
     pub fn volume(&mut self, owner: &str, share: impl Fn() -> Expr<'g> + 'g, acts: Expr<'g>) {
         self.events.curves.push(CurveOfState {
@@ -182,8 +194,8 @@ impl<'g> AppliedForces<'g> {
         });
     }
 
-    /// Tells of the direction in which two ellipsoids push each other, of length 1, or shorter where it is not determined, so that a run in
-    /// which it leaps says so.
+    /// Tells of the direction in which two ellipsoids push each other, or a bushing turns, of length 1, or shorter where it is not determined, so
+    /// that a run in which it leaps says so.
     pub fn direction(&mut self, owner: &str, components: Vec<impl Fn() -> Expr<'g> + 'g>) {
         for (i, component) in components.into_iter().enumerate() {
             self.events.curves.push(CurveOfState {

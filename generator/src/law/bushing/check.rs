@@ -1,6 +1,6 @@
 //! Bushings: two frames, and a law for each direction.
 
-use super::keys::{Bushing as Written, Direction as WrittenDirection, Directions, Mount as End};
+use super::keys::{Bushing as Written, Direction as WrittenDirection, Mount as End, Rotations};
 use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::resolve::quantity::{
@@ -21,6 +21,8 @@ pub struct Bushing {
     pub along: [Direction; 3],
     /// Laws of the rotation, by Bryant angle; in the plane the second is used.
     pub about: [Direction; 3],
+    /// Law of the angle φ of the whole rotation, about its axis, in space. There are no laws by Bryant angle beside it.
+    pub turn: Direction,
 }
 
 /// A frame on a body.
@@ -67,14 +69,56 @@ pub(crate) fn bushing(
             "a bushing stands between two bodies; `frame` is the absolute frame",
         ));
     }
-    let along = directions(resolver, written.along.as_ref(), (name, "along"), ALONG, at);
-    let about = directions(resolver, written.about.as_ref(), (name, "about"), ABOUT, at);
+    let along = written.along.as_ref().map(|w| [&w.x, &w.y, &w.z]);
+    let about = written.about.as_ref().map(|w| [&w.x, &w.y, &w.z]);
+    let along = directions(resolver, along, (name, "along"), ALONG, at);
+    let about = directions(resolver, about, (name, "about"), ABOUT, at);
+    let turn = turn(resolver, written.about.as_ref(), name, at.key("about"));
     Some(Bushing {
         from: from?,
         to: to?,
         along,
         about,
+        turn,
     })
+}
+
+/// The law of the whole rotation.
+fn turn(
+    resolver: &mut Resolver<'_>,
+    written: Option<&Rotations>,
+    name: &str,
+    at: At<'_>,
+) -> Direction {
+    let Some((about, law)) = written.and_then(|about| Some((about, about.turn.as_ref()?))) else {
+        return Direction::default();
+    };
+    let place = at.key("turn");
+    if resolver.planar {
+        resolver.problems.add(place.key_problem(
+            "in the plane a rotation has one angle, that about y",
+            "write `about: { y: … }`",
+        ));
+        return Direction::default();
+    }
+    if about.x.is_some() || about.y.is_some() || about.z.is_some() {
+        resolver.problems.add(place.key_problem(
+            "there are a law of the whole rotation and laws about single axes",
+            "keep `turn`, the same law about any axis, or `x`, `y` and `z`, a law for each Bryant angle",
+        ));
+    }
+    let written = WrittenDirection {
+        elastic: None,
+        stiffness: law.stiffness.clone(),
+        damping: law.damping.clone(),
+    };
+    direction(
+        resolver,
+        &written,
+        &format!("bushing {name} turn"),
+        ABOUT,
+        place,
+    )
 }
 
 fn mount(resolver: &Resolver<'_>, written: &End, at: At<'_>) -> Option<Mount> {
@@ -93,17 +137,13 @@ fn mount(resolver: &Resolver<'_>, written: &End, at: At<'_>) -> Option<Mount> {
 /// The laws of the bushing of this name under this key.
 fn directions(
     resolver: &mut Resolver<'_>,
-    written: Option<&Directions>,
+    written: Option<[&Option<WrittenDirection>; 3]>,
     (name, key): (&str, &str),
     measures: Measures,
     at: At<'_>,
 ) -> [Direction; 3] {
     let mut laws: [Direction; 3] = Default::default();
-    let Some(written) = written else {
-        return laws;
-    };
-    let each = [&written.x, &written.y, &written.z];
-    for (axis, law) in each.into_iter().enumerate() {
+    for (axis, law) in written.into_iter().flatten().enumerate() {
         let place = at.key(key).key(AXES[axis]);
         let Some(law) = law else { continue };
         if resolver.planar && (axis == 1) != (key == "about") {

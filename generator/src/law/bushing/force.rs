@@ -10,21 +10,33 @@
 //!
 //! M = −Σ (g_i(θ_i) + e_i θ̇_i) n_i,   θ̇_i = n_i · (ω₂ − ω₁)
 //!
+//! A law of the whole rotation acts along its axis n, by its angle φ, and is damped about all axes alike:
+//!
+//! M = −g(φ) n − e (ω₂ − ω₁),   2 sin φ n = Σ a_i × b_i,   2 cos φ + 1 = Σ a_i · b_i,   φ̇ = n · (ω₂ − ω₁)
+//!
+//! with the axes a_i of A₁ and b_i of A₂ (the antisymmetric part and the trace of A₁ᵀ A₂). So it stores ∫g dφ, and is regular up to φ = 180°, where n
+//! turns back.
+//!
 //! For small angles n_i are the axes. At θ₂ = ±90° the first and the third angle are not defined: they leap by half a turn, and θ₂ turns back. A run that
-//! goes through that says so by the [bearing](bryant_bearing). In the plane there are d₁, d₃ and θ₂, and nothing is singular.
+//! goes through that says so by the [bearing](bryant_bearing); one in which θ₁ or θ₃ of an elastic law, or φ, goes through 180°, where the torque jumps,
+//! says so, too. In the plane there are d₁, d₃ and θ₂, and nothing is singular.
 
 use super::check::{Bushing, Direction, Mount};
 use super::outputs::BushingMeasures;
-use crate::dynamics::force::{Acts, AppliedForces, Product};
+use crate::dynamics::force::{Acts, AppliedForces, Product, choose};
 use crate::dynamics::kinematics::constant_rotation;
 use crate::dynamics::numbers::{curve, number};
+use crate::equations::NO_BEARING;
 use crate::expression::Expr;
 use crate::expression::vector::{Mat3, Vec3};
-use crate::law::joint::force::{bryant, bryant_bearing};
+use crate::law::joint::force::{bryant, bryant_bearing, bryant_half_turn};
 use crate::law::{Equations, Measures, Setting};
 use crate::model::Dimension;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Below this, sin² φ is taken for it: the square of the rounding of a unit vector.
+const SMALLEST_SINE_SQUARED: f64 = 1e-32;
 
 impl Equations for Bushing {
     fn apply<'g>(
@@ -34,7 +46,15 @@ impl Equations for Bushing {
     ) -> Box<dyn Measures<'g> + 'g> {
         let curves = applied.curves_so_far();
         let (displacement, force) = push(self, setting, applied);
-        let (angles, moment) = turn(self, setting, applied);
+        let whole = self.turn != Direction::default();
+        let Turned {
+            angles,
+            turn,
+            moment,
+        } = match whole {
+            true => turn_as_a_whole(self, setting, applied),
+            false => turn(self, setting, applied),
+        };
         let Setting {
             graph, gate, name, ..
         } = setting;
@@ -45,6 +65,7 @@ impl Equations for Bushing {
                 let [inboard, outboard] = &frames;
                 bryant_bearing(graph, [inboard, outboard])
             });
+            watch_half_turns(self, setting, applied);
         }
         if gate.waits() {
             applied.curves_act(curves, gate.of(graph.constant(1.0)));
@@ -54,7 +75,27 @@ impl Equations for Bushing {
             moment,
             displacement,
             angles,
+            turn,
         })
+    }
+}
+
+/// Tells where the first or the third angle of an elastic law goes through ±180°.
+fn watch_half_turns<'g>(
+    bushing: &Bushing,
+    setting: Setting<'_, 'g>,
+    applied: &mut AppliedForces<'g>,
+) {
+    let Setting { graph, name, .. } = setting;
+    for i in [0, 2] {
+        if bushing.about[i].elastic.is_some() {
+            let frames = [&bushing.from, &bushing.to].map(|end| axes(setting, end));
+            let owner = format!("bushing {name} about {}", AXES[i]);
+            applied.half_turn(&owner, move || {
+                let [inboard, outboard] = &frames;
+                bryant_half_turn(graph, [inboard, outboard], i)
+            });
+        }
     }
 }
 
@@ -83,12 +124,81 @@ fn push<'g>(
     (displacement, force)
 }
 
+/// The rotation of the second frame against the first, and what resists it.
+struct Turned<'g> {
+    /// Bryant angles, or the vector of the whole rotation \[rad\].
+    angles: [Expr<'g>; 3],
+    /// Angle of the whole rotation, where there is a law of it \[rad\].
+    turn: Expr<'g>,
+    /// The moment on the first body.
+    moment: Vec3<'g>,
+}
+
+/// φ, φ n in the axes of the first frame, and the moment on the first body.
+fn turn_as_a_whole<'g>(
+    bushing: &Bushing,
+    setting: Setting<'_, 'g>,
+    applied: &mut AppliedForces<'g>,
+) -> Turned<'g> {
+    let Setting {
+        graph,
+        motion,
+        name,
+        gate,
+        ..
+    } = setting;
+    let (first, second) = (bushing.from.on.on, bushing.to.on.on);
+    let [inboard, outboard] = [&bushing.from, &bushing.to].map(|end| axes(setting, end));
+    let omega = motion.body(second).omega - motion.body(first).omega;
+    let (half, one, zero) = (
+        graph.constant(0.5),
+        graph.constant(1.0),
+        graph.constant(0.0),
+    );
+    let (mut across, mut trace) = (Vec3::zero(graph), zero);
+    for i in 0..3 {
+        let (a, b) = (inboard.column(i), outboard.column(i));
+        across = across + a.cross(b);
+        trace = trace + a.dot(b);
+    }
+    let (across, cosine) = (half * across, half * (trace - one));
+    let sine = across
+        .squared()
+        .max(graph.constant(SMALLEST_SINE_SQUARED))
+        .sqrt();
+    let (angle, axis) = (sine.atan2(cosine), sine.recip() * across);
+    let law = Direction {
+        damping: None,
+        ..bushing.turn.clone()
+    };
+    let way = ("about turn".to_owned(), angle, axis.dot(omega));
+    let mut moment = resistance(&law, way, setting, applied) * axis;
+    if let Some(damping) = &bushing.turn.damping {
+        let resists = gate.of_vector(number(graph, damping) * omega);
+        let work = format!("bushing {name}: damping about turn");
+        applied.work(work, Product::Vectors(-resists, omega));
+        moment = moment + resists;
+    }
+    if law.elastic.is_some() {
+        let none = graph.constant(NO_BEARING);
+        let component = |i: usize| move || choose(cosine, zero, axis.0[i], none);
+        applied.direction(&format!("bushing {name}"), (0..3).map(component).collect());
+    }
+    applied.turn(first, moment);
+    applied.turn(second, -moment);
+    Turned {
+        angles: inboard.transposed_times(angle * axis).0,
+        turn: angle,
+        moment,
+    }
+}
+
 /// θ, and the moment on the first body.
 fn turn<'g>(
     bushing: &Bushing,
     setting: Setting<'_, 'g>,
     applied: &mut AppliedForces<'g>,
-) -> ([Expr<'g>; 3], Vec3<'g>) {
+) -> Turned<'g> {
     let Setting { graph, motion, .. } = setting;
     let (first, second) = (bushing.from.on.on, bushing.to.on.on);
     let [inboard, outboard] = [&bushing.from, &bushing.to].map(|end| axes(setting, end));
@@ -112,7 +222,11 @@ fn turn<'g>(
     }
     applied.turn(first, moment);
     applied.turn(second, -moment);
-    (angles, moment)
+    Turned {
+        angles,
+        turn: zero,
+        moment,
+    }
 }
 
 /// The axes of a frame in absolute axes.

@@ -28,7 +28,7 @@ record! {
         /// Laws of the displacement.
         along: Option<Directions>,
         /// Laws of the rotation.
-        about: Option<Directions>,
+        about: Option<Rotations>,
     }
 }
 
@@ -53,6 +53,30 @@ record! {
         y: Option<Direction>,
         /// Along or about z.
         z: Option<Direction>,
+    }
+}
+
+record! {
+    /// A law for each Bryant angle, or one of the rotation as a whole.
+    Rotations as "the rotations of a bushing" {
+        /// About x.
+        x: Option<Direction>,
+        /// About y.
+        y: Option<Direction>,
+        /// About z.
+        z: Option<Direction>,
+        /// Of the angle of the whole rotation, about whatever axis it is.
+        turn: Option<Turn>,
+    }
+}
+
+record! {
+    /// The law of the angle of the whole rotation.
+    Turn as "the law of a whole rotation" {
+        /// Moment by the angle \[N m/rad\].
+        stiffness: Option<Quantity>,
+        /// Viscous coefficient \[N m s/rad\].
+        damping: Option<Quantity>,
     }
 }
 
@@ -90,11 +114,14 @@ impl Keys for Bushing {
             record::<Bushing>(),
             record::<Mount>(),
             record::<Directions>(),
+            record::<Rotations>(),
+            record::<Turn>(),
             record::<Direction>(),
         ]
     }
 
     /// The frames of the image are images, too: the displacement along the reversed axis and the angles about the two others change their signs.
+    /// The angle of the whole rotation stays.
     fn mirror(expander: &Expander<'_>, image: &mut Node) {
         for key in ["from", "to"] {
             image.change(key, |end| expander.mirrored_surface(end));

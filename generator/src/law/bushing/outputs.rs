@@ -1,6 +1,6 @@
 //! What can be asked of a bushing.
 
-use super::check::Bushing;
+use super::check::{Bushing, Direction};
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
@@ -18,8 +18,11 @@ pub enum BushingQuantity {
     Moment(bool, Projection),
     /// Displacement of the second frame in the axes of the first \[m\].
     Displacement(Component),
-    /// Bryant angle of the second frame against the first \[rad\], by its index.
+    /// Bryant angle of the second frame against the first \[rad\], by its index; of a bushing with a law of the whole rotation a component of the
+    /// vector of this rotation, in the axes of the first frame.
     Angle(usize),
+    /// Angle of the whole rotation \[rad\].
+    Turn,
 }
 
 impl OfLaw for BushingQuantity {
@@ -28,7 +31,9 @@ impl OfLaw for BushingQuantity {
             BushingQuantity::Force(_, projection) | BushingQuantity::Moment(_, projection) => {
                 Some(projection)
             }
-            BushingQuantity::Displacement(_) | BushingQuantity::Angle(_) => None,
+            BushingQuantity::Displacement(_)
+            | BushingQuantity::Angle(_)
+            | BushingQuantity::Turn => None,
         }
     }
 
@@ -38,7 +43,7 @@ impl OfLaw for BushingQuantity {
                 Some(projection.component)
             }
             BushingQuantity::Displacement(component) => Some(*component),
-            BushingQuantity::Angle(_) => None,
+            BushingQuantity::Angle(_) | BushingQuantity::Turn => None,
         }
     }
 
@@ -48,6 +53,7 @@ impl OfLaw for BushingQuantity {
             BushingQuantity::Moment(_, projection) => projection.is_about_y(),
             BushingQuantity::Displacement(component) => *component != Component::Y,
             BushingQuantity::Angle(axis) => *axis == 1,
+            BushingQuantity::Turn => false,
         }
     }
 }
@@ -96,6 +102,9 @@ impl Outputs for Bushing {
                 (true, Component::X) => BushingQuantity::Angle(0),
                 (true, Component::Y) => BushingQuantity::Angle(1),
                 (true, Component::Z) => BushingQuantity::Angle(2),
+                (true, Component::Resultant) if self.turn != Direction::default() => {
+                    BushingQuantity::Turn
+                }
                 (true, Component::Resultant) => {
                     resolver.problems.add(at.key("component").problem(
                         "a bushing has three Bryant angles, and no resultant of them",
@@ -118,8 +127,10 @@ pub struct BushingMeasures<'g> {
     pub moment: Vec3<'g>,
     /// Displacement of the second frame in the axes of the first \[m\].
     pub displacement: Vec3<'g>,
-    /// Bryant angles of the second frame against the first \[rad\].
+    /// Bryant angles of the second frame against the first, or the vector of the whole rotation \[rad\].
     pub angles: [Expr<'g>; 3],
+    /// Angle of the whole rotation, where there is a law of it \[rad\].
+    pub turn: Expr<'g>,
 }
 
 impl<'g> Measures<'g> for BushingMeasures<'g> {
@@ -143,6 +154,7 @@ impl<'g> Measures<'g> for BushingMeasures<'g> {
                 Value::Along(Projection::absolute(component), self.displacement)
             }
             BushingQuantity::Angle(axis) => Value::Scalar(self.angles[axis]),
+            BushingQuantity::Turn => Value::Scalar(self.turn),
         })
     }
 }

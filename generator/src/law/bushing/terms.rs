@@ -13,6 +13,7 @@ impl Terms for Bushing {
             to,
             along,
             about,
+            turn,
         } = self;
         for (key, mount) in [("from", from), ("to", to)] {
             let Mount { on, axes } = mount;
@@ -26,6 +27,9 @@ impl Terms for Bushing {
                 }
             }
         }
+        if dimension == Dimension::Space {
+            direction(turn, "about", "turn", fields);
+        }
     }
 
     fn bodies_mut(&mut self) -> Vec<&mut Body> {
@@ -38,12 +42,15 @@ impl Terms for Bushing {
             (mount.axes[0], mount.axes[2]) = (Number::ZERO, Number::ZERO);
         }
         self.along[1] = Direction::default();
+        if self.turn != Direction::default() {
+            self.about[1] = std::mem::take(&mut self.turn);
+        }
         (self.about[0], self.about[2]) = (Direction::default(), Direction::default());
         true
     }
 }
 
-/// The law along or about an axis.
+/// The law along or about an axis, or of the whole rotation.
 fn direction<'a>(law: &'a mut Direction, key: &str, axis: &str, fields: &mut Vec<Field<'a>>) {
     let Direction { elastic, damping } = law;
     let term = |term: &str| {

@@ -349,6 +349,7 @@ pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
         let kind = match kind {
             crate::equations::Watched::Curve(_) => quote!(CurveKind::Curve),
             crate::equations::Watched::Bearing => quote!(CurveKind::Bearing),
+            crate::equations::Watched::HalfTurn => quote!(CurveKind::HalfTurn),
             crate::equations::Watched::Volume => quote!(CurveKind::Volume),
             crate::equations::Watched::Edge => quote!(CurveKind::Edge),
             crate::equations::Watched::Direction(i) => {

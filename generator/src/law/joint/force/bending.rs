@@ -42,6 +42,8 @@ pub struct Bent<'g> {
     pub bend: Rotation<'g>,
     /// τ, τ̇ and t.
     pub twist: Rotation<'g>,
+    /// Sine and cosine of τ, times the same factor.
+    pub of_twist: [Expr<'g>; 2],
     /// w \[rad/s\].
     swing: Vec3<'g>,
 }
@@ -79,7 +81,8 @@ impl<'g> Bent<'g> {
                 .column(row)
                 .dot(outboard.rotation.column(column))
         };
-        let angle = (entry(k, j) - entry(j, k)).atan2(entry(j, j) + entry(k, k));
+        let of_twist = [entry(k, j) - entry(j, k), entry(j, j) + entry(k, k)];
+        let angle = of_twist[0].atan2(of_twist[1]);
         let opening = (one + cosine).max(graph.constant(SMALLEST_OPENING));
         let direction = opening.recip() * (a + b);
         let rate = direction.dot(omega);
@@ -91,6 +94,7 @@ impl<'g> Bent<'g> {
                 direction,
                 unit: "rad",
             },
+            of_twist,
             swing: omega - b.dot(omega) * b,
         }
     }

@@ -146,6 +146,9 @@ fn apply<'g>(
             bryant_bearing(graph, [&inboard, &outboard])
         });
     }
+    if model.dimension == Dimension::Space {
+        watch_half_turns(joint, setting, applied);
+    }
     if gate.waits() {
         applied.curves_act(curves, gate.of(graph.constant(1.0)));
     }
@@ -159,6 +162,41 @@ fn apply<'g>(
     }
     applied.turn_joint(child, parent, moment);
     measures
+}
+
+/// Tells where the first or the last angle of the order, or the torsion, goes through ±180° although a torque depends on it.
+fn watch_half_turns<'g>(joint: &Joint, setting: Setting<'_, 'g>, applied: &mut AppliedForces<'g>) {
+    let Setting {
+        graph,
+        model,
+        motion,
+        name,
+        ..
+    } = setting;
+    let bodies = [
+        motion.body(parent(model, joint.child)),
+        motion.element(joint.child),
+    ];
+    let order = joint.order;
+    for i in [0, 2] {
+        let axis = order.0[i];
+        if depends_on_angle(&joint.about[axis]) {
+            let axes = bodies.map(|body| body.rotation);
+            applied.half_turn(&format!("joint {name} about {}", AXES[axis]), move || {
+                let [inboard, outboard] = axes.map(|axes| ordered(axes, order));
+                bryant_half_turn(graph, [&inboard, &outboard], i)
+            });
+        }
+    }
+    if let Some(bending) = joint.bending.as_deref()
+        && depends_on_angle(&bending.torsion)
+    {
+        let [inboard, outboard] = bodies;
+        let [sine, cosine] = bending::Bent::of(graph, inboard, outboard, bending.axis).of_twist;
+        applied.half_turn(&format!("joint {name} torsion"), move || {
+            half_turn(graph, sine, cosine)
+        });
+    }
 }
 
 /// Whether laws about x, y and z mean something else behind θ₂ = ±90°. There n₂ turns round, but the moment −d (n₂·ω) n₂ of damping about the
@@ -504,6 +542,32 @@ pub fn bryant_bearing<'g>(graph: &'g Graph, axes: [&Mat3<'g>; 2]) -> Expr<'g> {
     let (angle, _) = bryant(graph, axes, 0);
     let none = graph.constant(NO_BEARING);
     choose(cosine_squared, graph.constant(NEAR), angle, none)
+}
+
+/// How far the first angle, i = 0, or the third, i = 2, is from ±180°, to one side or the other, as a sine; [`NO_BEARING`] where it is nearer to 0.
+pub fn bryant_half_turn<'g>(graph: &'g Graph, axes: [&Mat3<'g>; 2], i: usize) -> Expr<'g> {
+    let [inboard, outboard] = axes;
+    let along = |row: usize, column: usize| inboard.column(row).dot(outboard.column(column));
+    let (sine, cosine) = match i {
+        0 => (along(1, 2), along(2, 2)),
+        _ => (along(0, 1), along(0, 0)),
+    };
+    half_turn(graph, sine, cosine)
+}
+
+/// The sine of an angle where its cosine is negative, elsewhere [`NO_BEARING`].
+fn half_turn<'g>(graph: &'g Graph, sine: Expr<'g>, cosine: Expr<'g>) -> Expr<'g> {
+    choose(
+        cosine,
+        graph.constant(0.0),
+        sine,
+        graph.constant(NO_BEARING),
+    )
+}
+
+/// Whether a torque depends on the angle, so that it jumps where that jumps from 180° to −180°.
+fn depends_on_angle(law: &JointTorque) -> bool {
+    law.elastic.is_some() || law.stop.is_some() || law.lock.is_some() || law.drive.is_some()
 }
 
 /// θ_i and n_i of the second axes relative to the first.

@@ -1,0 +1,120 @@
+//! The keyframes of an animation: players turn a body the shorter way from one keyframe to the next, so these must be close enough.
+
+use super::super::Error;
+use super::super::error_report::ErrorReport;
+use super::super::model_argument::Found;
+use super::super::prepare::prepare_model;
+use super::super::terminal::Terminal;
+use super::report::kept;
+use crate::accuracy::setting::Setting;
+use crate::animation::{glb, turns};
+use crate::report::Scene;
+use crate::simulation::{self, Recording};
+use bryant_runtime::program::Job;
+use serde_json::Value;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, TAU};
+
+/// An animation has at most so many keyframes: 28 bytes for each body.
+const MOST_KEYFRAMES: usize = 20_000;
+/// The angle that a body may turn from one keyframe to the next, as it is aimed at and at most \[rad\].
+const WANTED: f64 = FRAC_PI_3;
+const MOST: f64 = FRAC_PI_2;
+/// Keyframes that are so many times as close show whether bodies turn by whole turns between them: no power of them is a whole number.
+const CLOSER: f64 = 1.3;
+/// Angles that a body turns through, over all keyframes, are the same within this share and a tenth of a turn.
+const SAME: f64 = 0.02;
+
+/// The animation of a run, at its rows, or closer where bodies turn fast; then the run is computed again.
+///
+/// # Errors
+/// The run has fewer than two instants.
+pub fn animation(
+    found: &Found,
+    job: &Job,
+    (recording, errors): (&Recording, &ErrorReport),
+    terminal: &mut Terminal,
+) -> Result<Vec<u8>, Error> {
+    let scene = |recording: &Recording, rows: bool| {
+        let instants = match rows {
+            true => kept(recording),
+            false => recording.instants.clone(),
+        };
+        let parameters = recording.parameters(job);
+        let scene = Scene::new(&found.model, &recording.coordinates, &parameters, &instants);
+        scene.map_err(Error::system).map(|scene| scene.json(&[]))
+    };
+    let mut shown = scene(recording, true)?;
+    let rows = shown["times"].as_array().map_or(0, Vec::len);
+    let span = recording.last_time() - recording.first_time();
+    let aimed = |turning: f64| (span * turning / WANTED).ceil() as usize;
+    let wanted = aimed(recording.turning);
+    let enough = wanted < rows && widest(&shown) < MOST && turns_by_itself(found);
+    if rows < 2 || enough || recording.result.is_err() {
+        let slow = rows < 2 || wanted < rows && widest(&shown) < MOST;
+        if !slow {
+            tell(terminal);
+        }
+        return glb(&found.model.name, &shown).map_err(Error::failed);
+    }
+    let engine = prepare_model(found, &found.model, terminal)?;
+    let mut by = errors.setting().unwrap_or(Setting::of(job)).job(job);
+    by.reading = Default::default();
+    let mut again = |frames: usize| {
+        by.every = Some(span / frames as f64);
+        let run = simulation::run_with_poses(&*engine, &by, 2 * MOST_KEYFRAMES, &mut |_| {});
+        scene(&run, false)
+    };
+    let mut frames = wanted.max(rows - 1);
+    let mut told = false;
+    while frames <= MOST_KEYFRAMES && !told {
+        shown = again(frames)?;
+        let closer = again((CLOSER * frames as f64).ceil() as usize)?;
+        told = widest(&shown) < MOST && alike(&shown, &closer);
+        frames *= 2;
+    }
+    if !told {
+        tell(terminal);
+    }
+    glb(&found.model.name, &shown).map_err(Error::failed)
+}
+
+fn tell(terminal: &mut Terminal) {
+    terminal.note(
+        "the animation cannot show how fast bodies turn: they turn by more than 90° from one keyframe to the next, and players turn them the \
+         shorter way\n  help: shorten the run by --duration, or give it more rows by --every",
+    );
+}
+
+/// Whether the angular velocities of the state are all that turn.
+fn turns_by_itself(found: &Found) -> bool {
+    let systems = &found.model.systems;
+    let elements = || systems.iter().flat_map(|system| &system.elements);
+    found.model.vehicles.is_empty()
+        && elements().all(|element| element.joint.freedoms().iter().all(|f| f.follows.is_none()))
+}
+
+/// The largest angle from one keyframe to the next, as players turn \[rad\].
+fn widest(scene: &Value) -> f64 {
+    turns(scene)
+        .iter()
+        .flatten()
+        .fold(0.0, |most, angle| angle.max(most))
+}
+
+/// Whether all bodies turn through the same angle in both scenes.
+fn alike(a: &Value, b: &Value) -> bool {
+    let sums = |scene: &Value| {
+        let mut sums: Vec<f64> = Vec::new();
+        for angles in turns(scene) {
+            sums.resize(angles.len(), 0.0);
+            for (sum, angle) in sums.iter_mut().zip(angles) {
+                *sum += angle;
+            }
+        }
+        sums
+    };
+    let pairs = sums(a).into_iter().zip(sums(b));
+    pairs
+        .into_iter()
+        .all(|(a, b)| (a - b).abs() <= SAME * a.max(b) + 0.1 * TAU)
+}
