@@ -572,7 +572,7 @@ struct Done<'a> {
 
 impl Done<'_> {
     /// Writes all files; returns their paths.
-    fn write(&self, files: &Files, terminal: &Terminal) -> Result<Vec<PathBuf>, Error> {
+    fn write(&self, files: &Files, terminal: &mut Terminal) -> Result<Vec<PathBuf>, Error> {
         let Done {
             arguments,
             found,
