@@ -124,8 +124,10 @@ impl Criteria {
                         (response.channel.combination, recording.kept.get(kept..))
                     {
                         let mode = mode([fx, fz, my], &neck, [recording.first_time(), every]);
-                        let both = [mode, detail.clone()];
-                        detail = both.join("; ").trim_end_matches("; ").to_owned();
+                        let both = [mode, std::mem::take(&mut detail)];
+                        let both: Vec<String> =
+                            both.into_iter().filter(|text| !text.is_empty()).collect();
+                        detail = both.join("; ");
                     }
                     let value = answers.next().map_or(f64::NAN, |answer| answer.value);
                     match value.is_finite() {

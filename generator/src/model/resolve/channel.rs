@@ -5,8 +5,9 @@
 //!
 //! - **Axes** \[SAE J1733, J211-1\]: of a body that stands upright, x points forward, y from left to right, z down. They turn with each part. A
 //!   sensor reads along the axes of the part that it is in.
-//! - **Loads** \[derived from the table of manipulations of J1733\]: the wrench of the lower part on the upper one, of a body that stands. So
-//!   tension of neck and femur is positive along z, and the moment of a chin that is pressed to the sternum is positive about y.
+//! - **Loads** \[SAE J211: of a dummy that is sectioned below the load cell, positive loads are applied to its bottom surface\]: the wrench of
+//!   the lower part on the upper one, of a body that stands. So tension of neck and femur is positive along z, and the moment of a chin that is
+//!   pressed to the sternum is positive about y.
 //! - **Which side of a joint is the upper one** follows from the centres of gravity: it does not matter which element carries the other.
 
 use super::Resolver;
