@@ -17,9 +17,8 @@ fn combined(factors: Vector, directions: [Vector; 3]) -> Vector {
     [0, 1, 2].map(|i| (0..3).map(|k| factors[k] * directions[k][i]).sum())
 }
 
-/// A person who stands: forward and up in the frames of its elements, as the model says it, and in absolute axes at the start.
+/// A person who stands: up in the frames of its elements, where the model says what is forward; and both in absolute axes at the start.
 struct Standing {
-    forward: Vector,
     up: Vector,
     anatomy: &'static str,
     start: &'static str,
@@ -35,32 +34,30 @@ fn minus(v: Vector) -> Vector {
 }
 
 fn people() -> Vec<Standing> {
-    let person = |forward, up, anatomy, start, seen| Standing {
-        forward,
+    let person = |up, anatomy, start, seen| Standing {
         up,
         anatomy,
         start,
         seen,
     };
     vec![
-        person(X, Z, "", "", [X, Z]),
+        person(Z, "", "", [X, Z]),
         // faces the other way, aside, and hangs head down
-        person(X, Z, "", "angles: { ROOT: [0, 0, 180 deg] }", [minus(X), Z]),
-        person(X, Z, "", "angles: { ROOT: [0, 0, 90 deg] }", [Y, Z]),
-        person(X, Z, "", "angles: { ROOT: [180 deg, 0, 0] }", [X, minus(Z)]),
+        person(Z, "", "angles: { ROOT: [0, 0, 180 deg] }", [minus(X), Z]),
+        person(Z, "", "angles: { ROOT: [0, 0, 90 deg] }", [Y, Z]),
+        person(Z, "", "angles: { ROOT: [180 deg, 0, 0] }", [X, minus(Z)]),
         // lies on the back
-        person(X, Z, "", "angles: { ROOT: [0, -90 deg, 0] }", [Z, minus(X)]),
-        // frames that are turned: those of somebody who faces -x, of a lateral scene, and of a program with z forward and x down
-        person(minus(X), Z, "anatomy: { forward: -x }", "", [minus(X), Z]),
-        person(Y, Z, "anatomy: { forward: y }", "", [Y, Z]),
+        person(Z, "", "angles: { ROOT: [0, -90 deg, 0] }", [Z, minus(X)]),
+        // frames that are turned: those of somebody who faces -x, of a lateral scene, of a program with z forward and x down, of one with z down
+        person(Z, "anatomy: { forward: -x }", "", [minus(X), Z]),
+        person(Z, "anatomy: { forward: y }", "", [Y, Z]),
         person(
-            Z,
             minus(X),
             "anatomy: { forward: z, up: -x }",
             "",
             [Z, minus(X)],
         ),
-        person(X, minus(Z), "anatomy: { up: -z }", "", [X, minus(Z)]),
+        person(minus(Z), "anatomy: { up: -z }", "", [X, minus(Z)]),
     ]
 }
 
