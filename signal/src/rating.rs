@@ -119,8 +119,9 @@ pub fn rate(reference: &[f64], comparison: &[f64]) -> Result<Rating, RatingError
     if reference.iter().chain(comparison).any(|x| !x.is_finite()) {
         return Err(RatingError::Missing);
     }
-    if reference.iter().all(|x| *x == reference[0]) {
-        return match reference == comparison {
+    if is_constant(reference) {
+        let same = |(r, c): (&f64, &f64)| (r - c).abs() <= ROUNDING * r.abs();
+        return match reference.iter().zip(comparison).all(same) {
             true => Ok(Rating::SAME),
             false => Err(RatingError::Constant),
         };
@@ -140,6 +141,12 @@ pub fn rate(reference: &[f64], comparison: &[f64]) -> Result<Rating, RatingError
         slope: (1.0 - slope_error(reference_part, comparison_part) / 2.0).max(0.0),
         late,
     })
+}
+
+/// Whether a signal never changes, but for the rounding of what has passed a filter.
+fn is_constant(signal: &[f64]) -> bool {
+    let apart = signal.iter().map(|x| (x - signal[0]).abs());
+    apart.fold(0.0, f64::max) <= 1e-12 * signal[0].abs()
 }
 
 fn corridor(reference: &[f64], comparison: &[f64]) -> f64 {
@@ -473,6 +480,14 @@ mod tests {
         let mut missing = pulse.clone();
         missing[3] = f64::NAN;
         assert_eq!(rate(&pulse, &missing), Err(RatingError::Missing));
+        // a constant beside itself, but for rounding, and beside another one
+        let nearly: Vec<f64> = flat
+            .iter()
+            .enumerate()
+            .map(|(i, x)| x + 1e-15 * (i % 3) as f64)
+            .collect();
+        assert_eq!(rate(&nearly, &flat), Ok(super::Rating::SAME));
+        assert_eq!(rate(&flat, &vec![1.001; 1001]), Err(RatingError::Constant));
         // a comparison that never changes is as bad as possible, but is rated
         let poor = rate(&pulse, &vec![0.0; 1001]).unwrap();
         assert_eq!(

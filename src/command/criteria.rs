@@ -85,10 +85,15 @@ impl Arguments {
         let verdict = verdict(&limits, &recorded);
         usable(&verdict)?;
         if verdict.rows.iter().all(|row| row.value.is_err()) {
+            let lacks = verdict.rows.iter().filter_map(|row| match &row.value {
+                Err(Missing::Place(place)) => Some(format!("{} ({place})", row.criterion.name)),
+                _ => None,
+            });
             return Err(Error::Input(format!(
-                "{} has no channel that a criterion of {standard} is computed from\n  \
+                "{} has no channel that a criterion of {standard} is computed from, so these have none: {}\n  \
                  help: name channels, as --place 'head=head acceleration', or give outputs their `code`",
-                path.display()
+                path.display(),
+                lacks.collect::<Vec<_>>().join(", ")
             )));
         }
         match self.json {

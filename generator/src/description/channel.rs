@@ -34,6 +34,13 @@ impl<'t> Lines<'t> {
             .find(|(known, _)| known.eq_ignore_ascii_case(key));
         found.map(|(_, value)| *value)
     }
+
+    /// What the file says of its data if that casts doubt on them.
+    fn doubt(&self) -> Option<&'t str> {
+        let status = self.value("Data status")?;
+        let sound = SOUND.iter().any(|sound| sound.eq_ignore_ascii_case(status));
+        (!sound && !matches!(status, "" | "NOVALUE")).then_some(status)
+    }
 }
 
 /// The folder of the channels of a test and what their files are called, in the spellings that there are.
@@ -122,10 +129,7 @@ pub fn table(text: &str, code: &str) -> Result<(String, String), (String, &'stat
             "give a channel whose samples are at equal intervals, or the points as a text file",
         ));
     }
-    if let Some(status) = lines.value("Data status").filter(|said| {
-        let sound = SOUND.iter().any(|sound| sound.eq_ignore_ascii_case(said));
-        !sound && !matches!(*said, "" | "NOVALUE")
-    }) {
+    if let Some(status) = lines.doubt() {
         return Err((
             format!("the file of the channel {code} says of its data: `{status}`"),
             "give a channel that is sound; if you know that it is, write `Data status :ok` into its file",
