@@ -434,7 +434,10 @@ impl Builder<'_> {
         let heaviest = parts.iter().max_by(|a, b| a.mass.total_cmp(&b.mass));
         let main = heaviest.map_or(0, |p| p.link);
         let whole = together(main, parts);
-        if let Some(wrong) = wrong_with(&whole) {
+        // a body without mass has been refused for that
+        if whole.mass > 0.0
+            && let Some(wrong) = wrong_with(&whole)
+        {
             let inertial = self.link(main).inertial.as_ref();
             let place = inertial.map_or(self.link(main).place, |i| i.tensor_place);
             let name = quoted(&self.link(main).name);

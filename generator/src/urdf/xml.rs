@@ -160,9 +160,12 @@ impl<'a> Xml<'a> {
                 "this is no XML: `&` begins the name of a character".to_owned(),
                 "write `&amp;` for & itself".to_owned(),
             ),
-            Error::InvalidAttributeValue(_) => (
-                "this is no XML: `<` stands in the value of an attribute".to_owned(),
-                "write `&lt;` for < itself, or close the quotation marks before it".to_owned(),
+            Error::InvalidAttributeValue(_)
+            | Error::InvalidChar(_, b'<', _)
+            | Error::InvalidChar2(_, b'<', _) => (
+                "this is no XML: `<` begins an element here, in the middle of another".to_owned(),
+                "write `&lt;` for < itself, or close the quotation marks and the element before it"
+                    .to_owned(),
             ),
             other => {
                 // its own place is one of the mended text

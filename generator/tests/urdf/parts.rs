@@ -57,7 +57,11 @@ fn what_stands_once_is_refused_twice() {
         "safety_controller",
         "calibration",
     ] {
-        let start = WHOLE.find(&format!("<{element}")).unwrap();
+        let begin = match element {
+            "inertial" => "<inertial>".to_owned(),
+            _ => format!("<{element} "),
+        };
+        let start = WHOLE.find(&begin).unwrap();
         let end = match element {
             "inertial" => "</inertial>",
             _ => "/>",

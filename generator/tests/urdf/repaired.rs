@@ -73,7 +73,7 @@ fn links_without_mass_get_one_or_are_fixed() {
     refused(&ends);
     let (yaml, said) = repaired(&ends);
     assert!(
-        said.len() == 2 && yaml.contains("mass: 0.004"),
+        said.len() == 2 && yaml.contains("mass: 4e-3"),
         "{said:?}\n{yaml}"
     );
     assert_eq!(derive(&read(&yaml)).velocities.len(), 3);
