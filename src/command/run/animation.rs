@@ -13,6 +13,7 @@ use crate::simulation::{self, Recording};
 use bryant_runtime::program::Job;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, TAU};
+use std::io::{self, Write};
 
 /// An animation has at most so many keyframes: 28 bytes for each body.
 const MOST_KEYFRAMES: usize = 20_000;
@@ -32,7 +33,7 @@ pub fn animation(
     found: &Found,
     job: &Job,
     (recording, errors): (&Recording, &ErrorReport),
-    terminal: &mut Terminal,
+    terminal: &Terminal,
 ) -> Result<Vec<u8>, Error> {
     let scene = |recording: &Recording, rows: bool| {
         let instants = match rows {
@@ -52,7 +53,7 @@ pub fn animation(
     if rows < 2 || enough || recording.result.is_err() {
         let slow = rows < 2 || wanted < rows && widest(&shown) < MOST;
         if !slow {
-            tell(terminal);
+            tell();
         }
         return glb(&found.model.name, &shown).map_err(Error::failed);
     }
@@ -73,15 +74,16 @@ pub fn animation(
         frames *= 2;
     }
     if !told {
-        tell(terminal);
+        tell();
     }
     glb(&found.model.name, &shown).map_err(Error::failed)
 }
 
-fn tell(terminal: &mut Terminal) {
-    terminal.note(
+fn tell() {
+    let _ = writeln!(
+        io::stderr(),
         "the animation cannot show how fast bodies turn: they turn by more than 90° from one keyframe to the next, and players turn them the \
-         shorter way\n  help: shorten the run by --duration, or give it more rows by --every",
+         shorter way\n  help: shorten the run by --duration, or give it more rows by --every"
     );
 }
 
