@@ -13,7 +13,6 @@ use crate::simulation::{self, Recording};
 use bryant_runtime::program::Job;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, TAU};
-use std::io::{self, Write};
 
 /// An animation has at most so many keyframes: 28 bytes for each body.
 const MOST_KEYFRAMES: usize = 20_000;
@@ -33,7 +32,7 @@ pub fn animation(
     found: &Found,
     job: &Job,
     (recording, errors): (&Recording, &ErrorReport),
-    terminal: &Terminal,
+    terminal: &mut Terminal,
 ) -> Result<Vec<u8>, Error> {
     let scene = |recording: &Recording, rows: bool| {
         let instants = match rows {
@@ -53,7 +52,7 @@ pub fn animation(
     if rows < 2 || enough || recording.result.is_err() {
         let slow = rows < 2 || wanted < rows && widest(&shown) < MOST;
         if !slow {
-            tell();
+            tell(terminal);
         }
         return glb(&found.model.name, &shown).map_err(Error::failed);
     }
@@ -74,16 +73,15 @@ pub fn animation(
         frames *= 2;
     }
     if !told {
-        tell();
+        tell(terminal);
     }
     glb(&found.model.name, &shown).map_err(Error::failed)
 }
 
-fn tell() {
-    let _ = writeln!(
-        io::stderr(),
+fn tell(terminal: &mut Terminal) {
+    terminal.note(
         "the animation cannot show how fast bodies turn: they turn by more than 90° from one keyframe to the next, and players turn them the \
-         shorter way\n  help: shorten the run by --duration, or give it more rows by --every"
+         shorter way\n  help: shorten the run by --duration, or give it more rows by --every",
     );
 }
 
