@@ -10,9 +10,9 @@ use super::parameters::{parse_parameters, values_of};
 use super::prepare::{Prepared, prepare_model};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
+use crate::own::{self, Kind};
 use crate::report::with_forces;
 use crate::settling::{End, Settled, Wanted, settle};
-use crate::own::{self, Kind};
 use crate::{files, interrupt, quantity, simulation, state_file};
 use bryant_generator::model::{
     Body, Component, ElementId, Model, Output, PointQuantity, Projection, Quantity, Reference,

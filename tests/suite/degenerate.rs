@@ -101,7 +101,7 @@ fn what_cannot_move_by_itself_panics_in_no_command() {
         &["equations", "s.yaml", "--rust"],
         &["equations", "s.yaml", "--c"],
         &["equations", "s.yaml", "--json"],
-        &["settle", "s.yaml", "--no-files"],
+        &["settle", "s.yaml"],
         &["gradient", "s.yaml", "--of", "final of x"],
         &[
             "accuracy",

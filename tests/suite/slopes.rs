@@ -16,11 +16,11 @@ systems:
     elements: [{ name: cart, mass: 1 kg, cg: [0, 0], inertia: 1 }]
     start: { velocity: [1, 0] }
 switches:
-  - { switch: of a, when: { time: when } }
-  - { switch: of b, when: { time: 0.04 s } }
+  - { switch: of-a, when: { time: when } }
+  - { switch: of-b, when: { time: 0.04 s } }
 forces:
-  - { load: on a, on: a/cart, at: [0, 0], force: [push, 0], since: of a }
-  - { load: on b, on: b/cart, at: [0, 0], force: [push, 0], since: of b }
+  - { load: on-a, on: a/cart, at: [0, 0], force: [push, 0], since: of-a }
+  - { load: on-b, on: b/cart, at: [0, 0], force: [push, 0], since: of-b }
 outputs:
   - { name: va, of: a/cart, what: velocity, component: x }
   - { name: vb, of: b/cart, what: velocity, component: x }
@@ -126,7 +126,7 @@ fn events_of_the_same_time_that_meet_are_told_apart_or_said() {
     let directory = directory();
     let scene = CARTS
         .replace("WHEN", "0.04")
-        .replace("since: of a }", "since: of a, until: of b }");
+        .replace("since: of-a }", "since: of-a, until: of-b }");
     // from T until 0.04 s it is pushed if T is before, and never stops if T is after: a kink at 0.04 s
     let (_, said) = slopes(directory.path(), &scene, &["va"], &["--wrt", "when"], 3);
     assert!(
@@ -147,7 +147,7 @@ fn balls_that_touch_at_the_same_time_are_two() {
     };
     let floor = |name: &str| {
         format!(
-            "  - {{ contact: floor {name}, ellipsoid: {{ on: {name}/ball, center: [0, 0], semi_axes: [0.1, 0.1] }}, plane: {{ on: frame, at: [0, 0], \
+            "  - {{ contact: floor-{name}, ellipsoid: {{ on: {name}/ball, center: [0, 0], semi_axes: [0.1, 0.1] }}, plane: {{ on: frame, at: [0, 0], \
              normal: [0, 1] }}, stiffness: 1e4, damping: 50 }}\n"
         )
     };

@@ -18,10 +18,10 @@ use std::time::Instant;
 pub(super) const TOLERANCE: f64 = 1e-8;
 /// Tolerance of the runs for difference quotients, and the share of its size by which a parameter is changed to either side. The error of a
 /// difference quotient has two parts: the square of the second, and the first divided by the second.
-pub(super) const SHARP: f64 = 1e-12;
-pub(super) const MOVED: f64 = 1e-4;
+const SHARP: f64 = 1e-12;
+const MOVED: f64 = 1e-4;
 /// Slopes that are smaller than this share of their response are measured by the response.
-const SMALL: f64 = 1e-2;
+pub(super) const SMALL: f64 = 1e-2;
 /// Events that happen at the same time are told apart by this share of the size of a parameter, to either side.
 const NUDGE: f64 = 1e-7;
 

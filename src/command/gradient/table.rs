@@ -1,6 +1,6 @@
 //! The derivatives as a table for people, and as JSON.
 
-use super::slopes::{MOVED, SHARP, size};
+use super::slopes::{SMALL, size};
 use crate::accuracy::conclusion::percent;
 use crate::command::response::Requested;
 use bryant_generator::model::Parameter;
@@ -8,9 +8,6 @@ use serde_json::json;
 
 /// Differences disagree if they are off by more than this share of the largest derivative.
 pub(super) const AGREE: f64 = 1e-2;
-/// Differences cannot tell from 0 what is less than this share of a response.
-const NOISE: f64 = SHARP / MOVED / AGREE;
-
 /// The derivatives of some responses with respect to some parameters.
 pub(super) struct Table<'a> {
     pub responses: &'a [Requested],
@@ -90,7 +87,7 @@ impl Table<'_> {
     }
 
     /// How far the derivatives of a response are from the differences, relative to the largest change of the response that any parameter
-    /// makes by either of the two, or to the noise of the differences.
+    /// makes by either of the two, or to 1 % of the response: what is far less cannot be told from 0 by differences of runs.
     fn disagreement(&self, response: usize) -> Option<f64> {
         self.checked?;
         let change = |i: usize, slope: f64| (slope * size(self.parameters[i], self.row[i])).abs();
@@ -99,8 +96,8 @@ impl Table<'_> {
             let difference = self.check(response, i).unwrap_or(0.0);
             change(i, self.slope(response, i)).max(change(i, difference))
         });
-        let noise = NOISE * self.values[response].abs();
-        let largest = largest.fold(noise.max(f64::MIN_POSITIVE), f64::max);
+        let least = SMALL * self.values[response].abs();
+        let largest = largest.fold(least.max(f64::MIN_POSITIVE), f64::max);
         let off = all.filter_map(|i| {
             let difference = self.check(response, i)?;
             Some(change(i, self.slope(response, i) - difference) / largest)
