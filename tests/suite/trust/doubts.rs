@@ -3,6 +3,7 @@
 //! | reason | test |
 //! |---|---|
 //! | a curve is exceeded | `a_curve_counts_while_its_force_acts`, `a_line_through_nothing_goes_on_for_ever` |
+//! | an edge that pushes harder than its plane | `an_edge_that_fades_over_less_than_the_depth_says_so` |
 //! | a bag compressed so far that its law is no longer valid | `a_bag_that_is_pressed_flat_says_so` |
 //! | flexion through 180° | `a_flexion_through_half_a_turn_says_so`; in lanes `tests/suite/sweep/reasons.rs` |
 //! | laws about x, y, z through ±90° about y | `a_joint_through_its_singular_angle_says_so` |
@@ -71,6 +72,50 @@ forces:
 outputs: [{ name: torque, of: joint top/body, what: torque, about: flexion }]
 run: { duration: 5 s, every: 10 ms }
 ";
+
+/// A ball that lies deep in foam and glides over its edge.
+const FOAM: &str = "model: foam
+dimension: 2
+systems:
+  - name: ball
+    elements: [{ name: ball, mass: 20, cg: [0, 0], inertia: 0.1 }]
+    start: { position: [0.1, 0.04], velocity: [2, 0] }
+forces:
+  - { load: weight, on: ball/ball, at: cg, force: [0, -4 kN] }
+  - contact: foam
+    ellipsoid: { on: ball/ball, center: [0, 0], semi_axes: [0.1, 0.1] }
+    plane: { on: frame, at: [0, 0], normal: [0, 1], extent: 0.25 }
+    elastic: { unit: [mm, N], points: [[0, 0], [30, 700], [60, 4200], [90, 12000]], extrapolate: linear }
+outputs: [{ name: x, of: ball/ball, what: position, component: x }]
+run: { duration: 0.1 s, every: 1 ms }
+";
+
+/// The push of an edge is 3/2 E/width at most, of 4.2 kN at a depth of 60 mm where E = 84 J: more than these below 30 mm. A width of one's own may be as
+/// narrow as that; the default is the depth of the curve.
+#[test]
+fn an_edge_that_fades_over_less_than_the_depth_says_so() {
+    assert_eq!(kinds(FOAM, &job()), [""; 0]);
+    let found = in_lanes(FOAM, batch::Method::Dopri5, 1e-4, ENERGY_LIMIT);
+    assert_eq!(found, (Status::Done, None));
+    let wide = FOAM.replace("extent: 0.25", "extent: 0.25, edge: { width: 60 mm }");
+    assert_eq!(kinds(&wide, &job()), [""; 0]);
+    let narrow = FOAM.replace("extent: 0.25", "extent: 0.25, edge: { width: 10 mm }");
+    let doubts = go(&narrow, &job()).doubts;
+    assert!(doubts.len() == 1 && doubts[0].kind == "edge", "{doubts:?}");
+    assert!(
+        doubts[0].message.contains("the edge of \"contact foam\" pushes harder than the surface")
+            && doubts[0].amount > 2.0,
+        "{doubts:?}"
+    );
+    let (status, doubt) = in_lanes(&narrow, batch::Method::Dopri5, 1e-4, ENERGY_LIMIT);
+    assert!(
+        matches!((status, doubt), (Status::Doubtful, Some(Doubt::Left(_)))),
+        "{doubt:?}"
+    );
+    // an edge that cuts does not push
+    let cut = FOAM.replace("extent: 0.25", "extent: 0.25, edge: { rule: cut }");
+    assert!(!kinds(&cut, &job()).contains(&"edge".to_owned()));
+}
 
 fn go(text: &str, job: &Job) -> Recording {
     let (_, engine) = sound(text);
