@@ -133,6 +133,65 @@ fn all_names(node: &Node, names: &mut BTreeSet<String>) {
     }
 }
 
+/// Takes the items of lists and mappings out of a file in which these problems are.
+pub fn take_out(root: &mut Node, problems: &[Diagnostic]) {
+    let is_sound = |from: Span, node: &Node| {
+        let inside =
+            |p: &Diagnostic| begin(from) <= (p.line, p.column) && (p.line, p.column) <= end(node);
+        !problems.iter().any(inside)
+    };
+    let Kind::Map(sections) = &mut root.kind else {
+        return;
+    };
+    for section in sections {
+        match &mut section.value.kind {
+            Kind::Scalar { .. } => {}
+            Kind::List(items) => items.retain(|item| is_sound(item.span, item)),
+            Kind::Map(entries) => entries.retain(|e| is_sound(e.span, &e.value)),
+        }
+    }
+}
+
+/// Whether the item of a list in which a problem is has one of these words, such as the name of a parameter whose value is not known.
+pub fn item_mentions(source: &Source, problem: &Diagnostic, words: &[String]) -> bool {
+    let place = (problem.line, problem.column);
+    let contains = |from: Span, node: &Node| begin(from) <= place && place <= end(node);
+    let mut node = &source.root;
+    let mut item = None;
+    loop {
+        let inner = match &node.kind {
+            Kind::Scalar { .. } => None,
+            Kind::List(items) => {
+                let found = items.iter().find(|item| contains(item.span, item));
+                item = found
+                    .filter(|found| matches!(found.kind, Kind::Map(_)))
+                    .or(item);
+                found
+            }
+            Kind::Map(entries) => {
+                let found = entries.iter().find(|e| contains(e.span, &e.value));
+                found.map(|entry| &entry.value)
+            }
+        };
+        match inner {
+            Some(inner) => node = inner,
+            None => return item.is_some_and(|item| mentions(item, words)),
+        }
+    }
+}
+
+/// Whether one of these words stands in a node.
+fn mentions(node: &Node, words: &[String]) -> bool {
+    match &node.kind {
+        Kind::Scalar { text, .. } => {
+            let mut parts = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+            parts.any(|part| words.iter().any(|word| word == part))
+        }
+        Kind::List(items) => items.iter().any(|item| mentions(item, words)),
+        Kind::Map(entries) => entries.iter().any(|e| mentions(&e.value, words)),
+    }
+}
+
 /// The tree of a source without what `check` reports; `None` if so little is left that nothing can be said of it.
 pub fn mend(source: &Source, check: fn(At<'_>, &Problems), lost: &mut Lost) -> Option<Node> {
     let mut rest = Source {
