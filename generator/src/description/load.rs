@@ -492,11 +492,8 @@ impl Reader<'_> {
             }
         };
         if let Some((what, help)) = T::instead(&source.root, name) {
-            self.problems.add(Diagnostic::of_file(
-                name,
-                format!("this is {what}, not {}", T::TITLE),
-                help,
-            ));
+            let message = format!("this is {what}, not {}", T::TITLE);
+            self.problems.add(source.at().problem(message, help));
             self.unread = true;
             return None;
         }

@@ -43,11 +43,18 @@ impl Lost {
         };
         // every second piece is in quotation marks
         let mut quoted = problem.message.split(['"', '`']).skip(1).step_by(2);
+        // a contact of several surfaces makes names: `edge-trunk-man-pelvis`
+        let is_of = |word: &str, name: &str| {
+            word.strip_prefix(name)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+        };
+        let lost = |word: &str| {
+            self.names
+                .iter()
+                .any(|name| !name.is_empty() && is_of(word, name))
+        };
         self.regions.iter().any(inside)
-            || quoted.any(|text| {
-                let mut words = text.split([' ', '/', ',']);
-                words.any(|word| self.names.contains(word)) || self.names.contains(text)
-            })
+            || quoted.any(|text| lost(text) || text.split([' ', '/', ',']).any(lost))
     }
 
     /// Notes that what stands where a problem is will not be as it was meant.
