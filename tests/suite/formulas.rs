@@ -194,7 +194,7 @@ systems:
 outputs:
   - { name: x, of: man/body, what: position, component: x }
   - { name: height above, of: man/body, what: position, component: z }
-  - { name: sum, formula: x + h, with: { h: height above } }
+  - { name: sum, formula: x + up, with: { up: height above } }
 ";
     let scene = "\
 model: two

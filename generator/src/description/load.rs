@@ -6,7 +6,7 @@ use super::curve::{self, Curve};
 use super::expand::instance::rename;
 use super::expand::{Known, expand};
 use super::force::Force;
-use super::mend::{Lost, mend};
+use super::mend::{Lost, mend, take_out};
 use super::output::Column;
 use super::parameter::ParameterEntry;
 use super::part;
@@ -492,11 +492,8 @@ impl Reader<'_> {
             }
         };
         if let Some((what, help)) = T::instead(&source.root, name) {
-            self.problems.add(Diagnostic::of_file(
-                name,
-                format!("this is {what}, not {}", T::TITLE),
-                help,
-            ));
+            let message = format!("this is {what}, not {}", T::TITLE);
+            self.problems.add(source.at().problem(message, help));
             self.unread = true;
             return None;
         }
@@ -514,13 +511,30 @@ impl Reader<'_> {
         Some(source)
     }
 
-    /// Writes out the short forms of a file.
+    /// Writes out the short forms of a file; items for which this is not possible are reported and taken out.
     fn expand(&mut self, source: &mut Source) {
-        let before = self.problems.kept();
-        let root = expand(source, self.planar, &mut self.known, &self.problems);
-        for problem in self.problems.since(before) {
-            self.lost.add(source, &problem);
+        let mut problems = Problems::default();
+        let mut known = self.known.clone();
+        let mut root = expand(source, self.planar, &mut known, &problems);
+        let (mut found, _) = problems.into_parts();
+        // what names something in a file that was not read is no mistake
+        for problem in found.iter().filter(|_| !self.unread) {
+            self.problems.add(problem.clone());
         }
+        for _ in 0..MAX_FILES {
+            if found.is_empty() {
+                break;
+            }
+            for problem in &found {
+                self.lost.add(source, problem);
+            }
+            take_out(&mut source.root, &found);
+            problems = Problems::default();
+            known = self.known.clone();
+            root = expand(source, self.planar, &mut known, &problems);
+            (found, _) = problems.into_parts();
+        }
+        self.known = known;
         source.root = root;
     }
 

@@ -43,11 +43,18 @@ impl Lost {
         };
         // every second piece is in quotation marks
         let mut quoted = problem.message.split(['"', '`']).skip(1).step_by(2);
+        // a contact of several surfaces makes names: `edge-trunk-man-pelvis`
+        let is_of = |word: &str, name: &str| {
+            word.strip_prefix(name)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+        };
+        let lost = |word: &str| {
+            self.names
+                .iter()
+                .any(|name| !name.is_empty() && is_of(word, name))
+        };
         self.regions.iter().any(inside)
-            || quoted.any(|text| {
-                let mut words = text.split([' ', '/', ',']);
-                words.any(|word| self.names.contains(word)) || self.names.contains(text)
-            })
+            || quoted.any(|text| lost(text) || text.split([' ', '/', ',']).any(lost))
     }
 
     /// Notes that what stands where a problem is will not be as it was meant.
@@ -130,6 +137,65 @@ fn all_names(node: &Node, names: &mut BTreeSet<String>) {
         Kind::Scalar { .. } => {}
         Kind::List(items) => items.iter().for_each(|item| all_names(item, names)),
         Kind::Map(entries) => entries.iter().for_each(|e| all_names(&e.value, names)),
+    }
+}
+
+/// Takes the items of lists and mappings out of a file in which these problems are.
+pub fn take_out(root: &mut Node, problems: &[Diagnostic]) {
+    let is_sound = |from: Span, node: &Node| {
+        let inside =
+            |p: &Diagnostic| begin(from) <= (p.line, p.column) && (p.line, p.column) <= end(node);
+        !problems.iter().any(inside)
+    };
+    let Kind::Map(sections) = &mut root.kind else {
+        return;
+    };
+    for section in sections {
+        match &mut section.value.kind {
+            Kind::Scalar { .. } => {}
+            Kind::List(items) => items.retain(|item| is_sound(item.span, item)),
+            Kind::Map(entries) => entries.retain(|e| is_sound(e.span, &e.value)),
+        }
+    }
+}
+
+/// Whether the item of a list in which a problem is has one of these words, such as the name of a parameter whose value is not known.
+pub fn item_mentions(source: &Source, problem: &Diagnostic, words: &[String]) -> bool {
+    let place = (problem.line, problem.column);
+    let contains = |from: Span, node: &Node| begin(from) <= place && place <= end(node);
+    let mut node = &source.root;
+    let mut item = None;
+    loop {
+        let inner = match &node.kind {
+            Kind::Scalar { .. } => None,
+            Kind::List(items) => {
+                let found = items.iter().find(|item| contains(item.span, item));
+                item = found
+                    .filter(|found| matches!(found.kind, Kind::Map(_)))
+                    .or(item);
+                found
+            }
+            Kind::Map(entries) => {
+                let found = entries.iter().find(|e| contains(e.span, &e.value));
+                found.map(|entry| &entry.value)
+            }
+        };
+        match inner {
+            Some(inner) => node = inner,
+            None => return item.is_some_and(|item| mentions(item, words)),
+        }
+    }
+}
+
+/// Whether one of these words stands in a node.
+fn mentions(node: &Node, words: &[String]) -> bool {
+    match &node.kind {
+        Kind::Scalar { text, .. } => {
+            let mut parts = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+            parts.any(|part| words.iter().any(|word| word == part))
+        }
+        Kind::List(items) => items.iter().any(|item| mentions(item, words)),
+        Kind::Map(entries) => entries.iter().any(|e| mentions(&e.value, words)),
     }
 }
 

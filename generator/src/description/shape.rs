@@ -68,6 +68,11 @@ impl Problems {
         self.kept.borrow().get(kept..).unwrap_or_default().to_vec()
     }
 
+    /// Forgets those that `keeps` does not keep; they count as reported.
+    pub fn retain(&self, keeps: impl Fn(&Diagnostic) -> bool) {
+        self.kept.borrow_mut().retain(keeps);
+    }
+
     /// How many are kept.
     pub fn kept(&self) -> usize {
         self.kept.borrow().len()

@@ -20,14 +20,19 @@ pub struct Slip {
 /// A parser notices a slip at most this many lines of content later.
 const NOTICED_AFTER: usize = 3;
 
-/// The slip that a parser noticed in this line: the last one in it, in the next line, or shortly before.
+/// The slip that a parser noticed in this line: the last one in the line of content behind it, in it, or shortly before; or, in an
+/// indentation, anywhere before.
 pub fn noticed_at(text: &str, line: usize) -> Option<Slip> {
     let mut before = Vec::new();
-    for (number, content) in (1..).zip(text.lines().take(line + 1)) {
+    for (number, content) in (1..).zip(text.lines()) {
         if content.trim().is_empty() || content.trim_start().starts_with('#') {
             continue;
         }
         before.push(in_line(content, number));
+        // the line of content behind it is looked at, too
+        if number > line {
+            break;
+        }
     }
     let near = before.iter().rev().take(NOTICED_AFTER + 1);
     let near = near.flatten().next();

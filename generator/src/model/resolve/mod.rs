@@ -34,6 +34,7 @@ use super::{
 };
 use crate::description::force::Attachment as WrittenEnd;
 use crate::description::load::{Header, Loaded, load, read_file, read_model, shown};
+use crate::description::mend::item_mentions;
 use crate::description::output::Column;
 use crate::description::place::At;
 use crate::description::point::Point;
@@ -226,6 +227,7 @@ impl<'a> Resolver<'a> {
             &mut headings,
         );
         let run = run::run(&self, header.run.as_ref(), top.key("run"));
+        self.forget_consequences(loaded);
         if sound {
             check_regularity(&self, loaded);
             check_belts(&self, loaded);
@@ -278,6 +280,18 @@ impl<'a> Resolver<'a> {
                 "shorten it; comments (`# …`) hold what is longer",
             ));
         }
+    }
+
+    /// Forgets what may be reported only because 0 stands for a parameter whose declaration is wrong.
+    fn forget_consequences(&self, loaded: &Loaded) {
+        if self.failed_parameters.is_empty() {
+            return;
+        }
+        self.problems.retain(|problem| {
+            let of = loaded.files.iter().map(|file| &file.source);
+            let mut of = of.filter(|source| source.name == problem.file);
+            !of.any(|source| item_mentions(source, problem, &self.failed_parameters))
+        });
     }
 
     /// Enters parameters and named curves.

@@ -8,7 +8,6 @@ use crate::description::expression::{self, Expression, Function, Kind, Operator}
 use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
 use crate::description::slip;
-use crate::description::tree::{Kind as NodeKind, Node};
 use crate::description::unit::Dimension;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Number, Requirement};
@@ -216,10 +215,6 @@ impl Resolver<'_> {
                 continue;
             }
             let place = at.path(&path);
-            // 0 stands for a parameter whose declaration is wrong
-            if self.mentions_failed(place.node) {
-                continue;
-            }
             let but = match written {
                 true => format!(", but is {found}"),
                 false => String::new(),
@@ -230,19 +225,6 @@ impl Resolver<'_> {
                 self.problems.add(problem);
             }
             reported.push(path);
-        }
-    }
-
-    /// Whether a parameter whose declaration is wrong stands in a value.
-    fn mentions_failed(&self, node: &Node) -> bool {
-        match &node.kind {
-            _ if self.failed_parameters.is_empty() => false,
-            NodeKind::Scalar { text, .. } => {
-                let mut words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
-                words.any(|word| self.failed_parameters.iter().any(|p| p == word))
-            }
-            NodeKind::List(items) => items.iter().any(|item| self.mentions_failed(item)),
-            NodeKind::Map(entries) => entries.iter().any(|e| self.mentions_failed(&e.value)),
         }
     }
 
