@@ -127,6 +127,31 @@ impl<P: Number> EndDifference<P> {
     }
 }
 
+/// How two results of a step differ in the continuous states of laws, which follow a first-order equation: Σ d², Σ D², Σ y².
+#[derive(Default)]
+pub(crate) struct LawDifference([f64; 3]);
+
+impl LawDifference {
+    /// Adds a state of size `y`, with d and D.
+    pub fn add(&mut self, y: f64, [d, rate]: [f64; 2]) {
+        let [apart, rates, size] = &mut self.0;
+        *apart += d * d;
+        *rates += rate * rate;
+        *size += y * y;
+    }
+
+    /// (h|λ|)⁴ of a step of length `h`, with |λ| = ‖D‖/‖d‖; 0 where the results differ by rounding alone.
+    pub fn reach(&self, h: f64, epsilon: f64) -> f64 {
+        let [apart, rates, size] = self.0;
+        let least = ROUNDINGS * ROUNDINGS * epsilon * epsilon * size + 1e-250;
+        let squared = h * h * rates / apart;
+        match apart > least && squared.is_finite() {
+            true => squared * squared,
+            false => 0.0,
+        }
+    }
+}
+
 /// The control of accelerations of a single run or of each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Accelerations<P: Number> {

@@ -29,9 +29,13 @@ use crate::{Info, Real};
 const WAIT: u32 = 1000;
 /// Steps in a row below the limit after which the count begins anew (6 in DOPRI5).
 const CALM: u32 = 6;
-/// The share of the limit from which on a step is at it. An oscillation of more than a few hundredths of the largest acceleration holds steps below 0.6 of
-/// it (`acceleration`).
-const AT: f64 = 0.9;
+/// The share of the limit from which on a step is at it. The smaller the share of accelerations that is allowed, the further below the limit it is that steps
+/// settle.
+const AT: f64 = 0.6;
+/// The share of the limit from which on an oscillation has at most a few hundredths of the largest acceleration (`acceleration`), and the share of the steps
+/// at the limit that must be so before an implicit method may begin with far longer steps, which damp it.
+const STRICT: f64 = 0.9;
+const MOST: f64 = 0.8;
 /// Tries of implicit steps after which it is asked whether they pay.
 const TRIAL: u64 = 20;
 /// How many times cheaper the implicit method must be.
@@ -66,6 +70,8 @@ struct Rule {
     /// Steps at the limit, and steps in a row below; of the implicit method those in a row within the limit.
     at_limit: u32,
     calm: u32,
+    /// Steps at the limit that are close to it.
+    strict: u32,
     /// Time gone \[s\] and tries since the count began.
     gone: f64,
     tries: u64,
@@ -75,7 +81,8 @@ struct Rule {
 
 impl Rule {
     fn count_anew(&mut self) {
-        (self.at_limit, self.calm, self.gone, self.tries) = (0, 0, 0.0, 0);
+        (self.at_limit, self.calm, self.strict) = (0, 0, 0);
+        (self.gone, self.tries) = (0.0, 0);
     }
 
     fn add(&mut self, length: f64, rejected: u64) {
@@ -85,9 +92,13 @@ impl Rule {
 
     /// An explicit step was accepted, of (h|λ|)⁴ = `reach`. Whether the implicit method is to be tried.
     fn is_stiff(&mut self, reach: f64, limit: f64) -> bool {
-        let at = (AT * limit) * (AT * limit);
-        if reach >= at * at {
+        let is_at = |share: f64| {
+            let squared = (share * limit) * (share * limit);
+            reach >= squared * squared
+        };
+        if is_at(AT) {
             (self.at_limit, self.calm) = (self.at_limit + 1, 0);
+            self.strict += u32::from(is_at(STRICT));
         } else {
             self.calm += 1;
             if self.calm >= CALM {
@@ -154,6 +165,7 @@ impl<'w, T: Real> Switching<'w, T> {
                 wait: WAIT,
                 at_limit: 0,
                 calm: 0,
+                strict: 0,
                 gone: 0.0,
                 tries: 0,
                 stride: 0.0,
@@ -391,10 +403,11 @@ impl<T: Real> Stepper<T> for Switching<'_, T> {
             return None;
         }
         self.rule.stride = self.rule.gone / self.rule.tries as f64;
+        let close = f64::from(self.rule.strict) >= MOST * f64::from(self.rule.at_limit);
         self.rule.count_anew();
         (self.implicit, self.fastest) = (true, 0.0);
         Some(Turn {
-            leaps: self.rule.wait > WAIT,
+            leaps: close && self.rule.wait > WAIT,
             longest: f64::INFINITY,
         })
     }

@@ -28,7 +28,9 @@ use super::standing::Standing;
 use super::watch::Watch;
 use super::{Cause, Observer, Pace, Receiver, Report, Settings};
 use crate::failure::Reason;
-use crate::integrate::acceleration::{Accelerations, EndDifference, effect_accelerations, kind};
+use crate::integrate::acceleration::{
+    Accelerations, EndDifference, LawDifference, effect_accelerations, kind,
+};
 use crate::integrate::control::{Allowed, Basic, Controller, Tolerances, first_step};
 use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper, first_non_finite};
@@ -644,6 +646,13 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         let of = [span.h, 1.0];
         let epsilon = epsilon_of::<T>();
         self.fastness = difference.reach(span.h, epsilon);
+        // states of laws have no share in accelerations, but may be what bounds the steps
+        let mut laws = LawDifference::default();
+        for i in coordinates + self.info.velocities.len()..self.info.varying_length() {
+            let between = [span.end[i] - self.inside[i], last[i] - near[i]].map(size);
+            laws.add(size(span.end[i]), between);
+        }
+        self.fastness = self.fastness.max(laws.reach(span.h, epsilon));
         if !self.accelerations.controlled() {
             return 0.0;
         }
