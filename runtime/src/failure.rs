@@ -201,7 +201,8 @@ impl Failure {
                  rounding"
             }
             Reason::TooManySteps { .. } => {
-                "a force too stiff for the mass it acts on, a tight tolerance, or a limit too low for so long a run"
+                "a force too stiff for the mass it acts on (the method rodas5 takes long steps there), a tight tolerance, or a limit too low for \
+                 so long a run"
             }
             Reason::InvalidSettings(_) => "the settings of the run",
             Reason::Refused(_) => "the parameters of the run",

@@ -9,9 +9,13 @@
 //! then its bound, and its relative error does not count. The same holds for an output that consists of [rounding
 //! errors](super::conditioning).
 //!
+//! The second run changes to the Rosenbrock method where the scene is stiff, as the first one does: there both are of the same family, at a tenth of the
+//! tolerance.
+//!
 //! If the user chose the method, the run makes no such promise. It is not repeated, and only a difference beyond [`FAR`] says that it
 //! cannot be trusted.
 
+use super::cause::{self, Cause};
 use super::conditioning;
 use super::run;
 use super::setting::{Curves, Pace, Setting};
@@ -21,7 +25,7 @@ use bryant_runtime::Formula;
 use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::program::{ErrorKind, Job, Scalar};
 use bryant_runtime::response::Answer;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// The error of every output that a run promises unless the user asks for another accuracy, relative to the output's largest magnitude.
 pub const PROMISED: f64 = 1e-3;
@@ -52,6 +56,8 @@ pub struct Checked {
     pub limit: f64,
     /// Whether there was not enough time for sharper runs.
     pub out_of_time: bool,
+    /// Why the run is not as accurate as promised, although sharper runs followed.
+    pub cause: Option<Cause>,
 }
 
 /// What a second run says.
@@ -81,10 +87,12 @@ pub fn run(
         check: None,
         limit: if chosen { FAR } else { PROMISED },
         out_of_time: false,
+        cause: None,
     };
-    if checked.recording.result.is_err() {
+    let Ok(report) = &checked.recording.result else {
         return checked;
-    }
+    };
+    checked.setting = checked.setting.as_run(report);
     let begin = Instant::now();
     let wall = checked.recording.wall.as_secs_f64();
     let end = LONGEST[0].max(LONGEST[1] * wall);
@@ -100,6 +108,10 @@ pub fn run(
         let opinion = sharper(&checked.setting);
         let mut hear = |t: f64| progress(checked.runs, t);
         let second = second(model, job, &opinion, patience, &mut hear);
+        let opinion = second
+            .result
+            .as_ref()
+            .map_or(opinion, |report| opinion.as_run(report));
         let answers = (asked, &first[..]);
         let mut verdict = Verdict::of(&checked.recording, &second, &floors, answers, patience);
         checked.runs += 1;
@@ -135,6 +147,12 @@ pub fn run(
         patience = end - begin.elapsed().as_secs_f64();
         checked.out_of_time = patience <= 0.0 && !close && !finest;
         if close || finest || checked.out_of_time {
+            if let (false, Some((_, Verdict::Apart(difference)))) = (close, &checked.check) {
+                let patience = Duration::try_from_secs_f64(end).unwrap_or(Duration::MAX);
+                let job = checked.setting.job(job);
+                let of = (&checked.recording, difference);
+                checked.cause = Some(cause::find(model, &job, of, &rounding, patience));
+            }
             return checked;
         }
     }
@@ -201,6 +219,8 @@ fn sharper(setting: &Setting) -> Setting {
             Formula::Tsit5 => Formula::Dopri5,
             _ => Formula::Tsit5,
         },
+        // what takes the explicit method too long is done by the other one, where it can
+        switches: true,
         pace: Pace::Tolerance(tolerance),
         scalar: Scalar::F64,
         locate: setting.locate || tolerance < LOCATED,
@@ -222,6 +242,7 @@ mod tests {
             ] {
                 let setting = Setting {
                     formula,
+                    switches: false,
                     pace,
                     scalar: Scalar::F64,
                     locate: false,

@@ -2,7 +2,7 @@
 
 use super::front::{self, Cost, Digits};
 use super::point::{Point, Status};
-use super::report::text::formulas;
+use super::report::text::schemes;
 use super::setting::{Curves, Pace, time, two_digits};
 use super::study::Study;
 
@@ -88,10 +88,14 @@ fn rests_on(study: &Study) -> String {
 
 /// The methods with the largest share of skipped settings, at most three: "rodas5 (31 of 33)".
 fn most_skipped(study: &Study) -> Vec<String> {
-    let counts = formulas(study).into_iter().map(|formula| {
-        let all = study.points.iter().filter(|p| p.setting.formula == formula);
+    let counts = schemes(study).into_iter().map(|scheme| {
+        let all = study.points.iter().filter(|p| p.setting.scheme() == scheme);
         let skipped = |p: &&Point| matches!(p.status, Status::Skipped(_));
-        (formula, all.clone().filter(skipped).count(), all.count())
+        (
+            scheme.name(),
+            all.clone().filter(skipped).count(),
+            all.count(),
+        )
     });
     let mut counts: Vec<_> = counts.filter(|(_, skipped, _)| *skipped > 0).collect();
     counts.sort_by(|a, b| (b.1 * a.2).cmp(&(a.1 * b.2)));

@@ -43,6 +43,7 @@ pub fn fastest(engine: &Engine, job: &Job, parameters: &[f64], patience: f64) ->
     let duration = job.duration.unwrap_or(info.duration);
     let setting = Setting {
         formula: Formula::Dopri5,
+        switches: false,
         pace: Pace::Tolerance(1e-5),
         scalar: Scalar::F64,
         locate: false,

@@ -17,8 +17,10 @@
 //! | [`report`] | table, CSV, JSON, Markdown |
 //! | [`target`] | a run as accurate as wanted |
 //! | [`check`] | a run as accurate as promised, checked by a second one |
+//! | [`cause`] | why two runs do not agree |
 //! | [`exchange`], [`operations`], [`environment`] | cubics in place of lines; the cost of an evaluation; what times depend on |
 
+pub mod cause;
 pub mod check;
 pub mod closed_form;
 pub mod conclusion;

@@ -4,21 +4,22 @@
 //! |---|---|---|---|
 //! | every formula with fixed steps | half decades | `f64`, and decades in `f32` | located and, by decades, passed |
 //! | every pair with control of its error | half decades | as above, in `f32` not below its rounding | as above |
+//! | the pair that runs have by default, changed for the Rosenbrock method where the scene is stiff | tolerances, half decades | `f64` | as above |
 //! | some, with fast sine and cosine | decades | `fast` | located |
 //! | the same, with curves exchanged | decades | `f64` | located |
 //!
 //! Nothing is run twice that cannot differ: kinks are passed only if the scene comes to a kink, sines are fast only if there are sines, and
 //! curves are exchanged only if there are curves.
 
-use super::setting::{Curves, Pace, Setting};
+use super::setting::{Curves, Pace, Scheme, Setting};
 use bryant_runtime::Formula;
 use bryant_runtime::program::Scalar;
 
 /// The request of the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    /// Formulas, each once.
-    pub formulas: Vec<Formula>,
+    /// Formulas, each once, alone or changed where the scene is stiff.
+    pub schemes: Vec<Scheme>,
     /// Tolerances from the largest to the smallest.
     pub tolerances: Range,
     /// Steps from the longest to the shortest \[s\].
@@ -153,7 +154,7 @@ impl Range {
 /// All series of a plan.
 pub fn series(request: &Request, scene: Scene) -> Vec<Series> {
     let mut all = Vec::new();
-    for &formula in &request.formulas {
+    for &Scheme { formula, switches } in &request.schemes {
         for (scalar, locate) in [
             (Scalar::F64, true),
             (Scalar::F64, false),
@@ -163,8 +164,12 @@ pub fn series(request: &Request, scene: Scene) -> Vec<Series> {
             if !locate && (!scene.kinks || request.quick && scalar == Scalar::F32) {
                 continue;
             }
+            if switches && scalar != Scalar::F64 {
+                continue;
+            }
             let of = Setting {
                 formula,
+                switches,
                 pace: Pace::Tolerance(1.0),
                 scalar,
                 locate,
@@ -174,9 +179,10 @@ pub fn series(request: &Request, scene: Scene) -> Vec<Series> {
             all.extend(both(request, of, halves));
         }
     }
-    for formula in compared(&request.formulas) {
+    for formula in compared(&request.schemes) {
         let of = |scalar, curves| Setting {
             formula,
+            switches: false,
             pace: Pace::Tolerance(1.0),
             scalar,
             locate: true,
@@ -193,11 +199,13 @@ pub fn series(request: &Request, scene: Scene) -> Vec<Series> {
 }
 
 /// The formulas for which arithmetic and curves are compared: a usual one of each kind, or those that the user asks for.
-fn compared(formulas: &[Formula]) -> Vec<Formula> {
+fn compared(schemes: &[Scheme]) -> Vec<Formula> {
+    let alone = schemes.iter().filter(|scheme| !scheme.switches);
+    let formulas: Vec<Formula> = alone.map(|scheme| scheme.formula).collect();
     let usual = [Formula::Rk4, Formula::Tsit5, Formula::Dop853];
     let found: Vec<Formula> = usual.into_iter().filter(|f| formulas.contains(f)).collect();
     match found.is_empty() {
-        true => formulas.to_vec(),
+        true => formulas,
         false => found,
     }
 }
@@ -205,10 +213,13 @@ fn compared(formulas: &[Formula]) -> Vec<Formula> {
 /// A series of fixed steps and, if the formula estimates its error, a series of tolerances.
 fn both(request: &Request, of: Setting, halves: bool) -> Vec<Series> {
     let steps = request.steps.ladder(halves).into_iter().map(Pace::Step);
-    let mut all = vec![Series {
-        of,
-        paces: steps.collect(),
-    }];
+    let mut all = Vec::new();
+    if !of.switches {
+        all.push(Series {
+            of,
+            paces: steps.collect(),
+        });
+    }
     let tolerances = match of.scalar {
         Scalar::F32 => request.tolerances.above(SINGLE),
         _ => Some(request.tolerances),
@@ -240,7 +251,7 @@ mod tests {
 
     fn request(quick: bool) -> Request {
         Request {
-            formulas: Formula::ALL.to_vec(),
+            schemes: Scheme::all(),
             tolerances: Range::new(1e-1, 1e-12).unwrap(),
             steps: Range::of_steps(2e-3, 0.16),
             quick,
@@ -289,6 +300,7 @@ mod tests {
                     for adaptive in [false, true] {
                         let found = series.iter().any(|s| {
                             (s.of.formula, s.of.scalar, s.of.locate) == (formula, scalar, locate)
+                                && !s.of.switches
                                 && matches!(s.paces[0], Pace::Tolerance(_)) == adaptive
                         });
                         assert_eq!(found, !adaptive || formula.estimates_error());

@@ -213,6 +213,7 @@ pub(crate) mod tests {
         Point {
             setting: Setting {
                 formula: Formula::Rk4,
+                switches: false,
                 pace,
                 scalar: Scalar::F64,
                 locate: true,
@@ -235,6 +236,7 @@ pub(crate) mod tests {
                     rejected: 1,
                     evaluations: 40,
                     jacobians: 0,
+                    stiff: 0,
                     events: 2,
                     samples: 11,
                     largest_step: pace.value(),

@@ -198,6 +198,7 @@ struct Solution {
 fn setting(scalar: Scalar, tolerance: f64) -> Setting {
     Setting {
         formula: Formula::Dop853,
+        switches: false,
         pace: Pace::Tolerance(tolerance),
         scalar,
         locate: true,

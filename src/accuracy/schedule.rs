@@ -251,6 +251,7 @@ mod tests {
         Series {
             of: Setting {
                 formula,
+                switches: false,
                 pace: Pace::Step(1.0),
                 scalar: Scalar::F64,
                 locate: true,

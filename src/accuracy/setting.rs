@@ -1,13 +1,15 @@
 //! One way to compute a motion: formula, pace, scalar, kinks, curves.
 
 use bryant_runtime::program::{Job, Scalar};
-use bryant_runtime::{Adaptive, Formula, Method, Tolerances};
+use bryant_runtime::{Adaptive, Formula, Method, Report, Tolerances};
 
 /// How a run is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// The formula of a step.
     pub formula: Formula,
+    /// Whether runs change to the Rosenbrock method where the scene is stiff.
+    pub switches: bool,
     /// How long steps are.
     pub pace: Pace,
     /// The type of its numbers.
@@ -36,12 +38,74 @@ pub enum Curves {
     Exchanged,
 }
 
+/// A formula, or a formula that changes to the Rosenbrock method where the scene is stiff.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scheme {
+    /// The formula that it begins with.
+    pub formula: Formula,
+    /// Whether it changes.
+    pub switches: bool,
+}
+
+impl Scheme {
+    /// The one that runs have by default.
+    pub const DEFAULT: Scheme = Scheme {
+        formula: Formula::Dopri5,
+        switches: true,
+    };
+
+    /// All that are compared: every formula, and the one that runs have by default.
+    pub fn all() -> Vec<Scheme> {
+        let alone = |formula| Scheme {
+            formula,
+            switches: false,
+        };
+        let formulas = Formula::ALL.into_iter().map(alone);
+        formulas.chain([Scheme::DEFAULT]).collect()
+    }
+
+    /// Its name in commands and files: "dopri5", "dopri5+rodas5".
+    pub fn name(self) -> String {
+        let more = match self.switches {
+            true => format!("+{}", Formula::Rodas5.name()),
+            false => String::new(),
+        };
+        format!("{}{more}", self.formula.name())
+    }
+
+    /// Its name for people.
+    pub fn title(self) -> String {
+        let more = match self.switches {
+            true => ", changed for Rosenbrock 5(4) where the scene is stiff",
+            false => "",
+        };
+        format!("{}{more}", self.formula.title())
+    }
+}
+
 impl Setting {
+    /// Its formula, and whether it changes.
+    pub fn scheme(&self) -> Scheme {
+        Scheme {
+            formula: self.formula,
+            switches: self.switches,
+        }
+    }
+
+    /// The setting as a run by it turned out: a run that had no reason to change its formula is one by its formula alone.
+    pub fn as_run(self, report: &Report) -> Setting {
+        Setting {
+            switches: self.switches && report.stiff > 0,
+            ..self
+        }
+    }
+
     /// The setting of a job: what it says about method and kinks, and defaults for the rest.
     pub fn of(job: &Job) -> Self {
-        let method = job.method.unwrap_or_default();
+        let method = job.method();
         Setting {
             formula: method.formula,
+            switches: method.switches(),
             pace: match method.pace {
                 bryant_runtime::Pace::Fixed(step) => Pace::Step(step),
                 bryant_runtime::Pace::Adaptive(adaptive) => {
@@ -59,8 +123,8 @@ impl Setting {
         let pace = match self.pace {
             Pace::Step(step) => bryant_runtime::Pace::Fixed(step),
             Pace::Tolerance(relative) => bryant_runtime::Pace::Adaptive(Adaptive {
-                tolerances: Tolerances::of(relative),
-                ..Adaptive::default()
+                switches: self.switches,
+                ..Adaptive::of(Tolerances::of(relative))
             }),
         };
         Method {
@@ -99,7 +163,7 @@ impl Setting {
 
     /// "dop853 at tolerance 3e-4 in f64"; settings that are not the usual ones follow.
     pub fn name(&self) -> String {
-        let mut name = format!("{} at {}", self.formula.name(), self.pace.name());
+        let mut name = format!("{} at {}", self.scheme().name(), self.pace.name());
         if self.scalar != Scalar::F64 {
             name += &format!(" in {}", self.scalar.name());
         }

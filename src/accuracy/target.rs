@@ -8,8 +8,7 @@
 //! estimate is never less than the estimate before over √10, and there is always one before.
 //!
 //! The choice of the method follows the diagrams of `bryant accuracy` for the bundled models. Tsitouras 5(4) is on the front down to about
-//! 1e-7, Dormand–Prince 8(5,3) with kinks located below. If stability and not the tolerance bounds the steps, the Rosenbrock method takes
-//! over.
+//! 1e-7, Dormand–Prince 8(5,3) with kinks located below. Where the scene is stiff, either changes to the Rosenbrock method.
 
 use super::conditioning;
 use super::setting::{Curves, Pace, Setting};
@@ -238,6 +237,7 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         } else {
             Formula::Tsit5
         },
+        switches: true,
         pace: Pace::Tolerance(rounded(wanted).clamp(100.0 * FINEST, COARSEST)),
         scalar: Scalar::F64,
         locate: wanted < HIGH,
@@ -264,24 +264,16 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         if refused || good || tolerance <= FINEST {
             break;
         }
-        let mut next = Setting {
+        let next = Setting {
             pace: Pace::Tolerance(rounded(0.1 * tolerance).max(FINEST)),
             ..setting
         };
-        let mut sharper = simulation::run(model, &next.job(job), progress);
+        let sharper = simulation::run(model, &next.job(job), progress);
         if interrupted(&sharper) {
             // the run before is complete
             break;
         }
         runs += 1;
-        if setting.formula == Formula::Tsit5 && bound_by_stability(&recording, &sharper) {
-            next.formula = Formula::Rodas5;
-            sharper = simulation::run(model, &next.job(job), progress);
-            if interrupted(&sharper) {
-                break;
-            }
-            runs += 1;
-        }
         estimate = match (&recording.result, &sharper.result) {
             (Ok(_), Ok(_)) => {
                 let mut apart = Difference::of(&recording.table, &sharper.table);
@@ -320,17 +312,6 @@ fn interrupted(recording: &Recording) -> bool {
     matches!(&recording.result, Err(error) if error.kind == ErrorKind::Stopped)
 }
 
-/// Whether an explicit method took about as many steps at a tenth of the tolerance: stability then needs that many.
-fn bound_by_stability(coarse: &Recording, sharp: &Recording) -> bool {
-    match (&coarse.result, &sharp.result) {
-        (Ok(coarse), Ok(sharp)) => {
-            // a method of order 5 should take 1.58 times as many steps
-            coarse.steps > 2000 && (sharp.steps as f64) < 1.15 * coarse.steps as f64
-        }
-        _ => false,
-    }
-}
-
 /// Another setting that computes the run, sharper and by another formula, with kinks located.
 pub fn second_opinion(setting: &Setting) -> Setting {
     let tolerance = match setting.pace {
@@ -343,6 +324,7 @@ pub fn second_opinion(setting: &Setting) -> Setting {
             Formula::Dop853 => Formula::Tsit5,
             _ => Formula::Dop853,
         },
+        switches: true,
         pace: Pace::Tolerance(rounded(1e-2 * tolerance).clamp(FINEST, 1e-6)),
         scalar: Scalar::F64,
         locate: true,
@@ -417,6 +399,7 @@ mod tests {
         for formula in Formula::ALL {
             let setting = Setting {
                 formula,
+                switches: false,
                 pace: Pace::Tolerance(1e-4),
                 scalar: Scalar::F64,
                 locate: false,

@@ -15,13 +15,12 @@ use crate::accuracy::point::Measure;
 use crate::accuracy::reading::Reading;
 use crate::accuracy::reference::ReferenceError;
 use crate::accuracy::report::{csv, diagram, json, markdown, text};
-use crate::accuracy::setting::time;
+use crate::accuracy::setting::{Scheme, time};
 use crate::accuracy::study::{Effort, Stage, Study, StudyError, Subject, study};
 use crate::own::Kind;
 use crate::picture::Format;
 use crate::{files, interrupt, quantity};
 use bryant_generator::model::Model;
-use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, RunError};
 use clap::Args;
 use std::path::{Component, Path, PathBuf};
@@ -130,7 +129,7 @@ pub struct Arguments {
 
 /// Methods, each once.
 #[derive(Clone, Debug)]
-struct Methods(Vec<Formula>);
+struct Methods(Vec<Scheme>);
 
 /// The places where results go.
 struct Places {
@@ -246,10 +245,12 @@ impl Arguments {
             true => (3, 10.0),
             false => (11, 40.0),
         };
-        let all = || Formula::ALL.to_vec();
         Ok(Effort {
             request: Request {
-                formulas: self.methods.as_ref().map_or_else(all, |m| m.0.clone()),
+                schemes: self
+                    .methods
+                    .as_ref()
+                    .map_or_else(Scheme::all, |m| m.0.clone()),
                 tolerances: match self.tolerances {
                     Some(tolerances) => tolerances,
                     None => Range::new(1e-1, 1e-12).map_err(Error::input)?,
@@ -432,7 +433,7 @@ impl Arguments {
 
 impl Methods {
     fn text(&self) -> String {
-        let names: Vec<&str> = self.0.iter().map(|f| f.name()).collect();
+        let names: Vec<String> = self.0.iter().map(|s| s.name()).collect();
         names.join(",")
     }
 }
@@ -471,8 +472,12 @@ fn methods(text: &str) -> Result<Methods, String> {
         .map(str::trim)
         .filter(|name| !name.is_empty())
     {
-        let Some(formula) = Formula::named(name) else {
-            let names: Vec<&str> = Formula::ALL.iter().map(|f| f.name()).collect();
+        let found = Scheme::all()
+            .into_iter()
+            .find(|scheme| scheme.name() == name);
+        let Some(scheme) = found else {
+            let names: Vec<String> = Scheme::all().iter().map(|s| s.name()).collect();
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
             let near = match nearest(name, &names) {
                 Some(near) => format!("did you mean \"{near}\"? There are"),
                 None => "there are".to_owned(),
@@ -482,8 +487,8 @@ fn methods(text: &str) -> Result<Methods, String> {
                 names.join(", ")
             ));
         };
-        if !methods.contains(&formula) {
-            methods.push(formula);
+        if !methods.contains(&scheme) {
+            methods.push(scheme);
         }
     }
     match methods.is_empty() {
@@ -527,6 +532,7 @@ fn unknown_of(name: &str, all: &[&str]) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bryant_runtime::Formula;
 
     #[test]
     fn bad_input_is_told_what_is_possible() {
@@ -543,8 +549,14 @@ mod tests {
         assert!(accuracy("0").is_err() && accuracy("2").is_err());
         assert_eq!(accuracy("1 %"), Ok(0.01));
         assert_eq!(
-            methods("rk4, dop853,rk4").unwrap().0,
-            [Formula::Rk4, Formula::Dop853]
+            methods("rk4, dopri5+rodas5,rk4").unwrap().0,
+            [
+                Scheme {
+                    formula: Formula::Rk4,
+                    switches: false
+                },
+                Scheme::DEFAULT
+            ]
         );
     }
 

@@ -1,9 +1,10 @@
 //! What is known about the error of a run, for people and as JSON.
 
 use super::Error;
+use crate::accuracy::cause::Cause;
 use crate::accuracy::check::{Checked, FAR, PROMISED, Verdict};
 use crate::accuracy::conclusion::percent;
-use crate::accuracy::setting::{Pace, Setting, time};
+use crate::accuracy::setting::{Setting, time};
 use crate::accuracy::target::{Accurate, Difference};
 use bryant_runtime::program::{ErrorKind, Header, RunError};
 use serde_json::{Value, json};
@@ -31,6 +32,8 @@ pub struct ErrorReport {
     limit: f64,
     /// Whether there was not enough time for sharper runs.
     out_of_time: bool,
+    /// Why sharper runs did not agree.
+    cause: Option<Cause>,
 }
 
 impl ErrorReport {
@@ -46,6 +49,7 @@ impl ErrorReport {
             check: None,
             limit: if chosen { FAR } else { PROMISED },
             out_of_time: false,
+            cause: None,
         }
     }
 
@@ -70,6 +74,7 @@ impl ErrorReport {
             check: checked.check.clone(),
             limit: checked.limit,
             out_of_time: checked.out_of_time,
+            cause: checked.cause.clone(),
             ..ErrorReport::new(&checked.recording.header, false)
         }
     }
@@ -220,19 +225,14 @@ impl ErrorReport {
             Some((opinion, Verdict::Apart(difference)))
                 if difference.worst > self.limit || difference.worst.is_nan() =>
             {
-                let help = match opinion.pace {
-                    _ if self.limit == FAR => {
+                let help = match (self.limit == FAR, self.out_of_time) {
+                    (true, _) => {
                         "give a smaller --step or --tolerance, or leave the choice of the method to the program".into()
                     }
-                    _ if self.out_of_time => {
+                    (false, true) => {
                         format!("--accuracy {} repeats the run as long as necessary", percent(PROMISED))
                     }
-                    Pace::Tolerance(tolerance) if self.first.is_some() => format!(
-                        "errors of {tolerance:e} in a step have grown by a factor of {:.0e}: the motion is chaotic, or about \
-                         to tip over; shorten the run, or ask for outputs that do not depend on it",
-                        difference.worst / tolerance
-                    ),
-                    _ => "look at `bryant accuracy`".into(),
+                    (false, false) => self.explained(),
                 };
                 error(format!(
                     "the outputs are not as accurate as {}: a run by {} differs by {}\n  help: {help}",
@@ -247,6 +247,26 @@ impl ErrorReport {
                 opinion.name()
             )),
             _ => Ok(()),
+        }
+    }
+
+    /// What to do where sharper runs do not agree, by the cause that was measured.
+    fn explained(&self) -> String {
+        match &self.cause {
+            Some(Cause::Rounding { coordinate, size }) => format!(
+                "rounding explains this: \"{coordinate}\" is {} from the origin, where a double tells {:.0e} m apart, and that adds up from step to \
+                 step; describe the motion from a moving origin: leave the velocity and the distance away that all bodies have in common",
+                length(*size),
+                size * f64::EPSILON
+            ),
+            Some(Cause::Growth(factor)) => format!(
+                "errors grow: a change of the start grows by a factor of {factor:.0e}: the motion is chaotic, or about to tip over; shorten the run, \
+                 or ask for outputs that do not depend on it"
+            ),
+            Some(Cause::Stiff) => "errors do not grow, but the scene is stiff: the output may be that of a force that is far stiffer than the rest; \
+                 `bryant accuracy` compares all methods"
+                .into(),
+            _ => "look at `bryant accuracy`, which compares all methods".into(),
         }
     }
 
@@ -285,6 +305,14 @@ impl ErrorReport {
             "before": self.first.as_ref().map(errors),
             "verified": verified,
         })
+    }
+}
+
+/// A length in metres or kilometres.
+fn length(metres: f64) -> String {
+    match metres >= 1e4 {
+        true => format!("{:.0} km", metres / 1e3),
+        false => format!("{metres:.0} m"),
     }
 }
 

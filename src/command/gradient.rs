@@ -22,6 +22,7 @@ use bryant_runtime::{Tolerances, Width};
 use bryant_study::facts::ModelFacts;
 use bryant_study::quantity;
 use slopes::{Accurate, Problem, TOLERANCE, by_size};
+use std::cell::Cell;
 use std::time::Duration;
 use table::{AGREE, Table};
 
@@ -128,6 +129,7 @@ impl Arguments {
             job: &job,
             parameters: &parameters,
             row: &row,
+            stiff: Cell::new(false),
         };
         let what = format!("differentiating {}", model.name);
         let whole = Whole::Count(row.len() as u64, "parameters");
@@ -166,6 +168,11 @@ impl Arguments {
         match missing(&parameters, done, compared) {
             Some(missing) => Err(Error::Interrupted(missing)),
             None => {
+                if problem.stiff.get() {
+                    terminal.note(
+                        "the scene is stiff: the derivatives are differences of runs, not dual numbers through a run",
+                    );
+                }
                 self.conclude(&found, terminal)?;
                 match table.worst() {
                     Some(worst) if worst.is_nan() || worst > self.limit() => Err(disagree(worst)),

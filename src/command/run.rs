@@ -8,6 +8,7 @@ mod outcome;
 mod remarks;
 mod report;
 mod responses;
+mod rings;
 
 use super::Error;
 use super::accuracy::accuracy;
@@ -23,7 +24,7 @@ use super::terminal::Terminal;
 use crate::accuracy::check::{self, Verdict};
 use crate::accuracy::conditioning;
 use crate::accuracy::fastest::fastest;
-use crate::accuracy::setting::Setting;
+use crate::accuracy::setting::{Scheme, Setting};
 use crate::accuracy::target;
 use crate::build_on_demand::RustcModel;
 use crate::equations::Engine;
@@ -68,7 +69,7 @@ pub struct Arguments {
     /// Name of a bundled model, or path of a YAML file
     model: String,
 
-    /// Integrator [default: dopri5; rk4 where --step is given]
+    /// Integrator [default: dopri5, and rodas5 where the scene is stiff; rk4 where --step is given]
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Formula::ALL.map(Formula::name)))]
     method: Option<String>,
 
@@ -379,7 +380,11 @@ impl Arguments {
     /// Looks for what made a run slow, or for a joint in a singular position.
     fn look_for_cause(&self, engine: &Engine, model: &Model, job: &Job, recording: &mut Recording) {
         match &recording.result {
-            Ok(_) => doubt_singular_start(model, job, recording),
+            Ok(_) => {
+                doubt_singular_start(model, job, recording);
+                let notes = rings::notes(model, job, recording);
+                recording.notes.extend(notes);
+            }
             Err(error) if error.kind == ErrorKind::Time => {
                 let looking = LOOKING.min(self.time_limit.unwrap_or(TIME_LIMIT));
                 let fastest = fastest(engine, job, &recording.parameters(job), looking);
@@ -485,10 +490,13 @@ impl Arguments {
                 }
                 Some(Method::fixed(formula, CUSTOMARY_STEP))
             }
-            (formula, None, tolerance) => Some(Method::adaptive(
-                formula.unwrap_or(Method::default().formula),
-                tolerance.map_or_else(Tolerances::default, Tolerances::of),
-            )),
+            (formula, None, tolerance) => {
+                let tolerances = tolerance.map_or_else(Tolerances::default, Tolerances::of);
+                Some(match formula {
+                    Some(formula) => Method::adaptive(formula, tolerances),
+                    None => Method::switching(Scheme::DEFAULT.formula, tolerances),
+                })
+            }
         })
     }
 
@@ -538,6 +546,10 @@ impl Arguments {
                 let opinion = target::second_opinion(&errors.setting().unwrap_or(Setting::of(job)));
                 let patience = f64::INFINITY;
                 let second = check::second(engine, job, &opinion, patience, &mut hear);
+                let opinion = second
+                    .result
+                    .as_ref()
+                    .map_or(opinion, |report| opinion.as_run(report));
                 let answers = (&job.reading.asked[..], &[][..]);
                 let verdict = Verdict::of(&recording, &second, &[], answers, patience);
                 let verdict = match &verdict {

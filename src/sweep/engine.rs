@@ -1,12 +1,14 @@
 //! Runs the rows of a study: a model in lanes, in this process, on any number of threads.
 
+use super::alone::Alone;
 use crate::accuracy::conclusion::percent;
 use crate::accuracy::fastest::fastest;
 use crate::accuracy::setting::time;
 use crate::equations::Engine as Equations;
 use crate::interrupt;
+use bryant_runtime::batch::Pace;
 use bryant_runtime::batch::Status as Ended;
-use bryant_runtime::batch::rows::{Job, Lingers, Row};
+use bryant_runtime::batch::rows::{Job, Lingers, Results, Row};
 use bryant_runtime::program::Job as Single;
 use bryant_runtime::response::Channel;
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
@@ -17,6 +19,11 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+/// A run in lanes that takes more steps than this is looked into: where its scene is stiff, it is run alone by a method that changes. Others are run
+/// again without this limit. The heaviest bundled scene takes 16 000 steps.
+pub const FEW: u32 = 50_000;
+/// A sharper run of a row takes at most so many times the steps: 10^(5/5) at a hundred-thousandth of the tolerances.
+const SHARPER: u32 = 10;
 /// The fastest motion is searched for this many runs that came to a standstill, for at most this time each \[s\].
 const LOOKED_INTO: usize = 3;
 const LOOKING: f64 = 3.0;
@@ -213,6 +220,56 @@ impl<'a> Lanes<'a> {
     }
 }
 
+impl Lanes<'_> {
+    /// Runs rows in lanes.
+    fn in_lanes(
+        &self,
+        job: &Job,
+        rows: &[f64],
+        hear: &dyn Fn(Lingers),
+    ) -> Result<Results, EngineError> {
+        let results = match self.precision {
+            Precision::Double => self.equations.rows_heard(job, rows, hear),
+            Precision::Single => self.equations.rows_of_singles_heard(job, rows, hear),
+        };
+        results.map_err(|error| EngineError(error.to_string()))
+    }
+
+    /// Whether a row, or a sharper or coarser run of it, may have come to the limit of [`FEW`] steps.
+    fn takes_many(&self, row: &Row) -> bool {
+        let adaptive = matches!(self.job.settings.pace, Pace::Adaptive(_));
+        let good = !self.job.estimate || row.error <= self.job.wanted;
+        adaptive
+            && match row.status {
+                Ended::TooManySteps => true,
+                Ended::Done => !good && row.steps >= FEW / SHARPER,
+                _ => false,
+            }
+    }
+
+    /// Hands over a row of a stiff scene that was run alone.
+    fn push_alone(&self, alone: Alone, outcomes: &mut Outcomes) {
+        let trusted = alone.doubt.is_none();
+        let row = Row {
+            status: if trusted {
+                Ended::Done
+            } else {
+                Ended::Doubtful
+            },
+            t: self.job.settings.duration,
+            steps: u32::try_from(alone.steps).unwrap_or(u32::MAX),
+            rejected: 0,
+            step: f64::NAN,
+            error: alone.error,
+            sharpened: alone.sharpened,
+            doubt: None,
+        };
+        let remark = self.job.estimate.then(|| self.remark(&row)).flatten();
+        let reason = alone.doubt.or(remark);
+        outcomes.push_because(outcome(&row), &alone.responses, reason.map(Into::into));
+    }
+}
+
 impl Engine for Lanes<'_> {
     fn worker(&self) -> Result<Box<dyn Worker + '_>, EngineError> {
         Ok(Box::new(self))
@@ -254,13 +311,46 @@ impl Worker for &Lanes<'_> {
     fn run(&mut self, rows: &[f64], outcomes: &mut Outcomes) -> Result<(), EngineError> {
         let varied = self.job.varied.len();
         let hear = |lingers: Lingers| self.linger(&rows[lingers.row * varied..][..varied], lingers);
-        let results = match self.precision {
-            Precision::Double => self.equations.rows_heard(&self.job, rows, &hear),
-            Precision::Single => self.equations.rows_of_singles_heard(&self.job, rows, &hear),
-        };
-        let results = results.map_err(|error| EngineError(error.to_string()))?;
+        let mut first = self.job.clone();
+        first.settings.max_steps = first.settings.max_steps.min(FEW);
+        let mut results = self.in_lanes(&first, rows, &hear)?;
         let width = self.job.responses.len();
+        let many: Vec<usize> = (0..results.rows.len())
+            .filter(|index| self.takes_many(&results.rows[*index]))
+            .collect();
+        let mut alone: BTreeMap<usize, Alone> = BTreeMap::new();
+        for &index in &many {
+            let given = &rows[index * varied..][..varied];
+            if results.rows[index].status == Ended::TooManySteps
+                && !interrupt::asked()
+                && let Some(found) = super::alone(self.equations, &self.job, given)
+            {
+                alone.insert(index, found);
+            }
+        }
+        let again: Vec<usize> = many
+            .into_iter()
+            .filter(|i| !alone.contains_key(i))
+            .collect();
+        if !again.is_empty() && self.job.settings.max_steps > FEW {
+            let given = again
+                .iter()
+                .flat_map(|index| &rows[index * varied..][..varied]);
+            let given: Vec<f64> = given.copied().collect();
+            let hear =
+                |lingers: Lingers| self.linger(&given[lingers.row * varied..][..varied], lingers);
+            let found = self.in_lanes(&self.job, &given, &hear)?;
+            for (place, &index) in again.iter().enumerate() {
+                results.rows[index] = found.rows[place];
+                results.responses[index * width..][..width]
+                    .copy_from_slice(&found.responses[place * width..][..width]);
+            }
+        }
         for (index, row) in results.rows.iter().enumerate() {
+            if let Some(alone) = alone.remove(&index) {
+                self.push_alone(alone, outcomes);
+                continue;
+            }
             let reason = self.reason(row, &rows[index * varied..][..varied]);
             outcomes.push_because(
                 outcome(row),

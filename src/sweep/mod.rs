@@ -4,15 +4,18 @@
 //! |---|---|
 //! | `plan` | the settings of a study for the runtime: duration, accuracy, responses |
 //! | `engine` | runs rows of a model |
+//! | `alone` | a row whose scene is stiff |
 //! | `refusal` | why a row of parameters is refused, or why its run cannot be trusted |
 //! | `kept` | the data that a folder of results needs for merging |
 
+mod alone;
 mod engine;
 mod kept;
 mod plan;
 mod refusal;
 
-pub use engine::Lanes;
+pub use alone::{Alone, alone};
+pub use engine::{FEW, Lanes};
 pub use kept::{Kept, KeptError, keep};
 pub use plan::{job, response_of};
 pub use refusal::{doubt, refusal};

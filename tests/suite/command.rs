@@ -24,6 +24,7 @@ mod resting;
 mod scenes;
 mod slipping;
 mod slopes;
+mod stiff;
 #[cfg(unix)]
 mod streams;
 mod tables;

@@ -22,6 +22,9 @@
 //! same from what is even in velocities, so |Q_i·w|/(w·S w) is an acceleration that it causes. These are evaluated when a step is to be rejected for
 //! the first, second, fourth, eighth, … time, and not before.
 //!
+//! **Implicit steps** damp what is too fast for them, and have no such stages. The slope of their interpolant is compared with the derivative instead
+//! ([`Accelerations::share`]): the two differ by the acceleration of a decay or an oscillation that is still there.
+//!
 //! **Where it does not help.** If x is due to rounding, or to a force that jumps, shorter steps do not make it smaller. If x is still more than half of
 //! what it was when the step is at most half as long, the step is accepted, and x is left out for [`ASLEEP`] steps.
 //! Where the error allowed is not above [`RESOLVED`] roundings of the coordinates, no promise can be kept, and x is left out.
@@ -39,6 +42,13 @@ const ROUNDINGS: f64 = 16.0;
 /// Roundings of coordinates that the allowed error must be above: where fewer of them make as large an acceleration, no promise can be kept, and a
 /// motion that is half controlled would look as if it were right.
 const RESOLVED: f64 = 300.0;
+
+/// The h|λ| below which an implicit step resolves the fastest motion.
+const RESOLVED_REACH: f64 = 0.5;
+/// What the control of explicit steps makes of the share allowed (docs of [`Tolerances`](crate::Tolerances)).
+const AIM: f64 = 3.0;
+/// The largest share of accelerations that implicit steps may lose, whatever the tolerances: the accuracy promised for outputs.
+const LOST: f64 = 1e-3;
 
 /// η and P(η) of a method; `None` of one that has no two stages at the end of a step, or takes fixed steps only.
 pub(crate) const fn limits(formula: Formula) -> Option<[f64; 2]> {
@@ -103,7 +113,7 @@ impl<P: Number> EndDifference<P> {
 
     /// (h|λ|)⁴ of a step of length `h`; 0 where the results differ by rounding alone.
     #[inline(always)]
-    fn reach(&self, h: P, epsilon: f64) -> P {
+    pub fn reach(&self, h: P, epsilon: f64) -> P {
         let c = P::from_f64;
         let least = c(ROUNDINGS * ROUNDINGS * epsilon * epsilon);
         let mut product = (h * h) * (h * h);
@@ -114,6 +124,31 @@ impl<P: Number> EndDifference<P> {
             product = product * (rates / P::select(tells, apart, c(1.0)));
         }
         P::select(tells.and(product.lt(c(f64::INFINITY))), product, c(0.0))
+    }
+}
+
+/// How two results of a step differ in the continuous states of laws, which follow a first-order equation: Σ d², Σ D², Σ y².
+#[derive(Default)]
+pub(crate) struct LawDifference([f64; 3]);
+
+impl LawDifference {
+    /// Adds a state of size `y`, with d and D.
+    pub fn add(&mut self, y: f64, [d, rate]: [f64; 2]) {
+        let [apart, rates, size] = &mut self.0;
+        *apart += d * d;
+        *rates += rate * rate;
+        *size += y * y;
+    }
+
+    /// (h|λ|)⁴ of a step of length `h`, with |λ| = ‖D‖/‖d‖; 0 where the results differ by rounding alone.
+    pub fn reach(&self, h: f64, epsilon: f64) -> f64 {
+        let [apart, rates, size] = self.0;
+        let least = ROUNDINGS * ROUNDINGS * epsilon * epsilon * size + 1e-250;
+        let squared = h * h * rates / apart;
+        match apart > least && squared.is_finite() {
+            true => squared * squared,
+            false => 0.0,
+        }
     }
 }
 
@@ -243,6 +278,18 @@ impl<P: Number> Accelerations<P> {
         }
     }
 
+    /// Forgets the largest accelerations.
+    pub fn forget(&mut self) {
+        let c = P::from_f64;
+        (self.largest, self.next) = ([c(0.0); 2], c(1.0));
+        self.due = c(0.0);
+    }
+
+    /// Takes accelerations that were seen.
+    pub fn see(&mut self, found: [P; 2]) {
+        self.learn(P::Mask::of_lanes(0).not(), found);
+    }
+
     /// Leaves a try of a step of length `h`: where it was `accepted`, and where it was `rejected` for x.
     #[inline(always)]
     pub fn leave(
@@ -263,6 +310,22 @@ impl<P: Number> Accelerations<P> {
         for (before, now) in self.before.iter_mut().zip([self.x, h]) {
             *before = P::select(first, now, *before);
             *before = P::select(accepted, c(0.0), *before);
+        }
+    }
+}
+
+impl Accelerations<f64> {
+    /// What the slope of an implicit step is wrong by in a velocity, over what is allowed. `reach` is h|λ| of the step: below [`RESOLVED_REACH`] the
+    /// fastest motion is resolved as the tolerances ask. Rounding makes `noise` of the acceleration.
+    pub fn share(&self, kind: usize, [apart, noise]: [f64; 2], reach: f64) -> f64 {
+        let largest = match self.largest[kind] {
+            none if none <= 0.0 => 1.0,
+            largest => largest,
+        };
+        let allowed = (self.share / AIM).min(LOST) * largest;
+        match reach < RESOLVED_REACH {
+            true => 0.0,
+            false => apart / (allowed + RESOLVED * noise),
         }
     }
 }

@@ -10,6 +10,7 @@
 //! | `explicit` | a step of any of them |
 //! | `euler` | a step of the semi-implicit Euler method |
 //! | `rosenbrock` | a step of the Rosenbrock method for stiff models, over `linear`, elimination |
+//! | `switching` | a step of an explicit method, or of that one where the scene is stiff |
 //! | `workspace` | the memory of steps and runs |
 //! | [`march`](march()) | many steps of one length and nothing else, by Runge–Kutta methods |
 //! | `adams` | the same by a multistep method |
@@ -24,6 +25,7 @@ pub(crate) mod explicit;
 pub(crate) mod linear;
 mod march;
 pub(crate) mod rosenbrock;
+mod switching;
 pub(crate) mod tableau;
 pub(crate) mod workspace;
 
@@ -31,6 +33,7 @@ pub(crate) mod workspace;
 mod order;
 
 use crate::failure::Reason;
+use crate::simulate::Method;
 use crate::{Dynamics, Info, Model, Real, Task, Vector};
 pub use adams::march_adams;
 use core::fmt;
@@ -38,6 +41,8 @@ use euler::SemiImplicitEuler;
 use explicit::Explicit;
 pub use march::{march, march_dop853};
 use rosenbrock::Rosenbrock;
+use switching::Switching;
+pub(crate) use switching::Turn;
 use tableau::dormand_prince::{Dop853, Dopri5};
 use tableau::kutta::{Heun, Merson, Rk4};
 use tableau::tsitouras::Tsit5;
@@ -140,6 +145,12 @@ impl Formula {
         }
     }
 
+    /// Whether runs by this method may change to the Rosenbrock method where the scene is stiff: explicit methods that tell how fast the fastest
+    /// motion is by two stages at the end of each step.
+    pub const fn may_switch(self) -> bool {
+        acceleration::limits(self).is_some()
+    }
+
     /// Whether the method estimates its error and so can choose its steps.
     pub const fn estimates_error(self) -> bool {
         !matches!(self, Formula::SemiImplicitEuler | Formula::Rk4)
@@ -197,6 +208,22 @@ pub(crate) trait Stepper<T: Real> {
     /// Writes a state near the end of the step into `state` and returns the derivative there. Compared with the end, the two tell how fast the
     /// fastest motion is. The state is that of the last stage at the time of the end, or the beginning. `None` where nobody needs it.
     fn neighbour(&self, state: &mut [T]) -> Option<&[T]>;
+    /// Whether the method was changed to one that is implicit.
+    fn switched(&self) -> bool {
+        false
+    }
+    /// Where it was: writes the derivative of the interpolant at t + θh by the time.
+    fn slope(&self, _theta: f64, _slope: &mut [T]) {}
+    /// Where it was: writes what rounding of the state makes of each entry of the derivative where the step begins. Returns h|λ| of the fastest motion
+    /// there.
+    fn noise(&self, _noise: &mut [T]) -> f64 {
+        0.0
+    }
+    /// Hears of an accepted step of this length, which follows this many rejected tries. `reach` is its (h|λ|)⁴ where the step is explicit. Says whether the
+    /// next step is by another formula. Not before [`Stepper::begin`] is another formula used.
+    fn turn(&mut self, _length: f64, _rejected: u64, _reach: f64) -> Option<Turn> {
+        None
+    }
 }
 
 /// Where a step begins, its length, and where it ends.
@@ -230,9 +257,13 @@ impl<'w, T: Real> Span<'w, T> {
 }
 
 /// Number of scalars of workspace that a step of a method needs for this model.
-pub(crate) const fn step_length(formula: Formula, info: &Info) -> usize {
+pub(crate) const fn step_length(method: &Method, info: &Info) -> usize {
     let state = info.state_length();
-    match formula {
+    let more = match method.switches() {
+        true => Switching::<()>::more(state),
+        false => 0,
+    };
+    more + match method.formula {
         Formula::SemiImplicitEuler => SemiImplicitEuler::<()>::length(state),
         Formula::Heun => Explicit::<(), Heun>::length(state),
         Formula::Rk4 => Explicit::<(), Rk4>::length(state),
@@ -254,11 +285,20 @@ pub(crate) enum AnyStepper<'w, T> {
     Tsit5(Explicit<'w, T, Tsit5>),
     Dop853(Explicit<'w, T, Dop853>),
     Rodas5(Rosenbrock<'w, T>),
+    Switching(Switching<'w, T>),
 }
 
 impl<'w, T: Real> AnyStepper<'w, T> {
     /// A step of a method for this model that has not begun.
-    pub fn new(formula: Formula, info: &'static Info, workspace: &mut Workspace<'w, T>) -> Self {
+    pub fn new(method: &Method, info: &'static Info, workspace: &mut Workspace<'w, T>) -> Self {
+        match method.switches() {
+            true => AnyStepper::Switching(Switching::new(method.formula, info, workspace)),
+            false => AnyStepper::by(method.formula, info, workspace),
+        }
+    }
+
+    /// A step by one formula.
+    fn by(formula: Formula, info: &'static Info, workspace: &mut Workspace<'w, T>) -> Self {
         let state = info.state_length();
         let coordinates = info.coordinates.len();
         match formula {
@@ -286,6 +326,7 @@ impl<'w, T: Real> AnyStepper<'w, T> {
             AnyStepper::Tsit5(step) => step,
             AnyStepper::Dop853(step) => step,
             AnyStepper::Rodas5(step) => step,
+            AnyStepper::Switching(step) => step,
         }
     }
 }

@@ -15,6 +15,7 @@ use super::linear::Factored;
 use super::workspace::Workspace;
 use super::{Evaluator, Formula, Span, Stepper};
 use crate::failure::Reason;
+use crate::simulate::epsilon_of;
 use crate::{Info, Real};
 
 const STAGES: usize = 8;
@@ -207,8 +208,57 @@ impl<'w, T: Real> Rosenbrock<'w, T> {
         }
     }
 
+    /// Number of entries of the state that change during a step.
+    pub fn varying(&self) -> usize {
+        self.varying
+    }
+
+    /// f at the beginning, before the step is taken.
+    pub fn rate(&self) -> &[T] {
+        self.rate
+    }
+
+    /// Whether ∂f/∂y is that at the beginning.
+    pub fn knows_jacobian(&self) -> bool {
+        self.has_jacobian
+    }
+
+    /// ∂f/∂y at the beginning, by rows.
+    pub fn jacobian(&self) -> &[T] {
+        self.jacobian
+    }
+
+    /// Writes what rounding of the state at the beginning makes of each entry of f: ε Σ |∂f/∂y_j| |y_j|.
+    pub fn rounded(&self, noise: &mut [T]) {
+        let y = &*self.span.y;
+        let epsilon = T::from_f64(epsilon_of::<T>());
+        for (noise, row) in noise.iter_mut().zip(self.jacobian.chunks_exact(y.len())) {
+            let mut sum = T::from_f64(0.0);
+            for (entry, y) in row.iter().zip(y) {
+                sum = entry.abs().mul_add(y.abs(), sum);
+            }
+            *noise = epsilon * sum;
+        }
+    }
+
+    /// Writes the derivative of the interpolant at t + θh by the time.
+    pub fn derive(&self, theta: f64, slope: &mut [T]) {
+        slope.fill(T::from_f64(0.0));
+        for (j, weight) in slopes(theta).iter().enumerate() {
+            add(
+                slope,
+                1.0 / self.span.h,
+                *weight,
+                &self.u[j * slope.len()..][..slope.len()],
+            );
+        }
+    }
+
     /// Evaluates ∂f/∂y and ∂f/∂t at the beginning.
-    fn differentiate(&mut self, f: &mut Evaluator<'_, T>) -> Result<(), Reason> {
+    ///
+    /// # Errors
+    /// [`Reason::NoJacobian`] of a model without them.
+    pub fn differentiate(&mut self, f: &mut Evaluator<'_, T>) -> Result<(), Reason> {
         let t = T::from_f64(f.time(self.span.t));
         if !f
             .model
@@ -314,6 +364,16 @@ fn weights(theta: f64) -> [f64; STAGES] {
     })
 }
 
+/// Their derivatives by θ.
+fn slopes(theta: f64) -> [f64; STAGES] {
+    let rest = 1.0 - theta;
+    core::array::from_fn(|j| {
+        let [first, second, third] = H.map(|row| row[j]);
+        let bend = first + theta * (second + theta * third);
+        M[j] + (rest - theta) * bend + theta * rest * (second + 2.0 * theta * third)
+    })
+}
+
 /// α, Γ, and the weights b(θ) of the method in the form of Hairer & Wanner, whose order conditions are known: Γ⁻¹ = I/γ − C, α = a Γ,
 /// b = m Γ.
 #[cfg(test)]
@@ -360,5 +420,25 @@ pub(crate) mod original {
     /// The nodes c, and d.
     pub fn nodes() -> ([f64; STAGES], [f64; STAGES]) {
         (super::NODES, super::D)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{slopes, weights};
+
+    /// The weights are polynomials of order 4, for which a central difference of 1e-4 is exact to its square and to rounding over it.
+    #[test]
+    fn slopes_are_the_derivatives_of_the_weights() {
+        for theta in [0.0, 0.1, 0.5, 0.9, 1.0] {
+            let [before, after] = [-1e-4, 1e-4].map(|by| weights(theta + by));
+            for (j, slope) in slopes(theta).into_iter().enumerate() {
+                let quotient = (after[j] - before[j]) / 2e-4;
+                assert!(
+                    (slope - quotient).abs() < 1e-5,
+                    "{j} at {theta}: {slope} {quotient}"
+                );
+            }
+        }
     }
 }

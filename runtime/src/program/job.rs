@@ -5,7 +5,7 @@ use super::ErrorKind;
 use super::Named;
 use super::Reading;
 use crate::simulate::{Method, Settings};
-use crate::{Adjustable, Info, Real};
+use crate::{Adjustable, Formula, Info, Real, Tolerances};
 use std::fmt;
 use std::time::Duration;
 
@@ -20,7 +20,7 @@ pub struct Job {
     pub every: Option<f64>,
     /// The responses to evaluate over the whole run.
     pub reading: Reading,
-    /// The integrator, and how it chooses its steps.
+    /// The integrator, and how it chooses its steps; see [`Job::method`].
     pub method: Option<Method>,
     /// Whether steps end on the kinks of force laws.
     pub locate: Option<bool>,
@@ -138,6 +138,13 @@ pub enum JobError {
 }
 
 impl Job {
+    /// The method of a run with this job: if it says none, Dormand & Prince's pair at the default tolerances, which changes to the Rosenbrock method
+    /// where the scene is stiff.
+    pub fn method(&self) -> Method {
+        let default = Method::switching(Formula::Dopri5, Tolerances::default());
+        self.method.unwrap_or(default)
+    }
+
     /// The settings of a run of the model with this job. The run itself checks them.
     pub fn settings(&self, info: &Info) -> Settings {
         let of_model = Settings::of(info);
@@ -146,7 +153,7 @@ impl Job {
             duration: self.duration.unwrap_or(of_model.duration),
             every: self.every.unwrap_or(of_model.every),
             parts: self.reading.parts(),
-            method: self.method.unwrap_or(of_model.method),
+            method: self.method(),
             locate: self.locate.unwrap_or(of_model.locate),
             max_steps: self.max_steps.unwrap_or(of_model.max_steps),
         }

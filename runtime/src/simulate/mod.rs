@@ -37,6 +37,7 @@ pub(crate) use diagnostic::OutOfRange;
 pub(crate) use diagnostic::Time;
 pub use diagnostic::{Diagnostic, Problem};
 pub use settings::{Adaptive, Method, Pace, Settings};
+pub(crate) use time_loop::epsilon_of;
 #[cfg(feature = "std")]
 pub use watch::History;
 pub use watch::{ENERGY_LIMIT, Left, Watch};
@@ -99,6 +100,8 @@ pub struct Report {
     pub events: u64,
     /// Samples delivered, but for those at the ends of [parts](Settings::parts).
     pub samples: u64,
+    /// Steps accepted of the Rosenbrock method, where the run changed to it because the scene is stiff.
+    pub stiff: u64,
     /// Smallest step accepted \[s\].
     pub smallest_step: f64,
     /// Where it begins \[s\].
@@ -308,5 +311,5 @@ pub fn run_in<T: Real>(
 
 /// How many scalars a run of this model takes as its workspace.
 pub const fn workspace_length(info: &Info, settings: &Settings) -> usize {
-    time_loop::length(info) + crate::integrate::step_length(settings.method.formula, info)
+    time_loop::length(info) + crate::integrate::step_length(&settings.method, info)
 }

@@ -96,7 +96,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         let mut workspace = Workspace::new(workspace);
         Ok(Run {
             time_loop: TimeLoop::new(model, initial, settings, watch, &mut workspace),
-            step: AnyStepper::new(settings.method.formula, info, &mut workspace),
+            step: AnyStepper::new(&settings.method, info, &mut workspace),
             info,
             failed: None,
             duration: settings.duration,

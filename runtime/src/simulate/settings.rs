@@ -51,14 +51,27 @@ impl Method {
         Method { formula, pace }
     }
 
-    /// With steps as the tolerances allow.
-    pub const fn adaptive(formula: Formula, tolerances: Tolerances) -> Method {
+    /// With steps as the tolerances allow, by this formula, and by [`Formula::Rodas5`] for as long as the scene is stiff
+    /// ([`Adaptive::switches`]).
+    pub const fn switching(formula: Formula, tolerances: Tolerances) -> Method {
         let pace = Pace::Adaptive(Adaptive {
-            tolerances,
-            first_step: None,
-            largest_step: f64::INFINITY,
-            smallest_step: 1e-14,
+            switches: true,
+            ..Adaptive::of(tolerances)
         });
+        Method { formula, pace }
+    }
+
+    /// Whether the method may change to the Rosenbrock method and back.
+    pub const fn switches(&self) -> bool {
+        match self.pace {
+            Pace::Adaptive(adaptive) => adaptive.switches && self.formula.may_switch(),
+            Pace::Fixed(_) => false,
+        }
+    }
+
+    /// With steps as the tolerances allow, by one formula from the start to the end.
+    pub const fn adaptive(formula: Formula, tolerances: Tolerances) -> Method {
+        let pace = Pace::Adaptive(Adaptive::of(tolerances));
         Method { formula, pace }
     }
 }
@@ -74,17 +87,29 @@ pub struct Adaptive {
     pub largest_step: f64,
     /// Smallest step \[s\]: a run that needs a smaller one fails. Never less than 16 units in the last place of time.
     pub smallest_step: f64,
+    /// Whether the run changes to [`Formula::Rodas5`] where the scene is stiff, and back where it is not. It has no effect on a formula that does
+    /// not [estimate its error at the end of a step](Formula::may_switch), and on a model without its Jacobian. The run needs more workspace, see
+    /// [`workspace_length`](crate::simulate::workspace_length).
+    pub switches: bool,
 }
 
-impl Default for Adaptive {
-    /// [`Tolerances::default`], steps from 10⁻¹⁴ s upwards.
-    fn default() -> Self {
+impl Adaptive {
+    /// With these tolerances, steps from 10⁻¹⁴ s upwards, by one formula.
+    pub const fn of(tolerances: Tolerances) -> Adaptive {
         Adaptive {
-            tolerances: Tolerances::default(),
+            tolerances,
             first_step: None,
             largest_step: f64::INFINITY,
             smallest_step: 1e-14,
+            switches: false,
         }
+    }
+}
+
+impl Default for Adaptive {
+    /// [`Adaptive::of`] the default tolerances.
+    fn default() -> Self {
+        Adaptive::of(Tolerances::default())
     }
 }
 

@@ -679,14 +679,20 @@ fn what_memory_holds_before_does_not_matter() {
 fn a_workspace_is_as_long_as_it_is_said_to_be() {
     fn check<M: Model<f64>>() {
         for formula in Formula::ALL {
-            let settings = of::<M>(Method::fixed(formula, 0.01));
-            let model = M::new(crate::ParameterSet::defaults());
-            let mut memory = vec![0.0; workspace_length(M::INFO, &settings)];
-            let mut workspace = Workspace::new(&mut memory);
-            let (direct, start) = (Direct(&model), model.initial_state());
-            TimeLoop::new(&direct, start.as_ref(), &settings, None, &mut workspace);
-            AnyStepper::new(formula, M::INFO, &mut workspace);
-            assert_eq!(workspace.left(), 0, "{} by {formula}", M::INFO.name);
+            let methods = [
+                Method::fixed(formula, 0.01),
+                Method::switching(formula, Tolerances::default()),
+            ];
+            for method in methods {
+                let settings = of::<M>(method);
+                let model = M::new(crate::ParameterSet::defaults());
+                let mut memory = vec![0.0; workspace_length(M::INFO, &settings)];
+                let mut workspace = Workspace::new(&mut memory);
+                let (direct, start) = (Direct(&model), model.initial_state());
+                TimeLoop::new(&direct, start.as_ref(), &settings, None, &mut workspace);
+                AnyStepper::new(&settings.method, M::INFO, &mut workspace);
+                assert_eq!(workspace.left(), 0, "{} by {formula}", M::INFO.name);
+            }
         }
     }
     check::<Oscillator>();

@@ -28,7 +28,9 @@ use super::standing::Standing;
 use super::watch::Watch;
 use super::{Cause, Observer, Pace, Receiver, Report, Settings};
 use crate::failure::Reason;
-use crate::integrate::acceleration::{Accelerations, EndDifference, effect_accelerations, kind};
+use crate::integrate::acceleration::{
+    Accelerations, EndDifference, LawDifference, effect_accelerations, kind,
+};
 use crate::integrate::control::{Allowed, Basic, Controller, Tolerances, first_step};
 use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper, first_non_finite};
@@ -38,6 +40,14 @@ use onset::{END, KEPT, Onsets};
 use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, matters};
 #[cfg(feature = "std")]
 pub(crate) use search::{EASY, SEARCHES};
+
+/// Tries of an implicit method, and the h|λ| of the fastest motion, until what the explicit method has let grow is damped. That is an oscillation within the
+/// share of accelerations that is allowed, or one that is lost in roundings of the coordinates, or of which nobody can say more than the tolerances do.
+const SETTLES: u32 = 20;
+const SETTLED: f64 = 1e3;
+/// The first step that is tried of an implicit method, over the last one of the explicit method. Where h|λ| is about 1, what the explicit method has let grow
+/// is an error as large as is allowed, and is damped slowly; in a step that is far longer it makes an error that falls like 1/(h|λ|), and is gone.
+const LEAP: f64 = 1e5;
 
 /// Why the time loop is left before the end of the run.
 pub(crate) enum End {
@@ -114,7 +124,7 @@ fn finest_of<T: Real>(t: f64) -> f64 {
 }
 
 /// The distance from 1 to the next number of a scalar: of doubles, or of singles.
-pub(super) fn epsilon_of<T: Real>() -> f64 {
+pub(crate) fn epsilon_of<T: Real>() -> f64 {
     match T::from_f64(1.0 + 1e-10).to_f64() == 1.0 {
         true => f64::from(f32::EPSILON),
         false => f64::EPSILON,
@@ -158,6 +168,11 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     /// Errors allowed, which count where steps are chosen by them.
     allowed: Allowed<'a, T>,
     accelerations: Accelerations<f64>,
+    /// (h|λ|)⁴ of the last try by an explicit method that may be changed, and tries of this step that were rejected.
+    fastness: f64,
+    retries: u64,
+    /// Tries left in which an implicit method may damp what the explicit one has let grow.
+    settles: u32,
     /// Room for the powers of all effects, twice.
     powers: [&'a mut [T]; 2],
 
@@ -238,6 +253,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 events: 0,
                 evaluations: 0,
                 jacobians: 0,
+                stiff: 0,
                 samples: 0,
                 smallest_step: f64::INFINITY,
                 smallest_step_at: 0.0,
@@ -268,6 +284,9 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             ),
             allowed: Allowed::new(&tolerances, info, workspace),
             accelerations: Accelerations::new(settings.method.formula, tolerances.accelerations),
+            fastness: 0.0,
+            retries: 0,
+            settles: 0,
             powers: [(); 2].map(|()| workspace.part(info.powers.len())),
             h: 0.0,
             controller: Controller::new(0),
@@ -383,6 +402,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             step.take(&mut self.f, reach.length).map_err(End::Failed)?;
             if !self.good(step, &reach, hop)? {
                 self.report.rejected += 1;
+                self.retries += 1;
                 continue;
             }
             let landing = self.land(step, &reach);
@@ -431,9 +451,27 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             self.f.latest = next;
         }
         if goes_on {
+            self.turn(step, &landing);
             step.begin(self.report.t, self.y, self.rate);
         }
         Ok(())
+    }
+
+    /// Lets a step change its formula, where the scene has become stiff or is no longer.
+    fn turn(&mut self, step: &mut dyn Stepper<T>, landing: &Landing) {
+        let retries = core::mem::take(&mut self.retries);
+        let Some(turn) = step.turn(landing.length, retries, self.fastness) else {
+            return;
+        };
+        self.h = self.h.min(turn.longest);
+        if turn.leaps {
+            self.h *= LEAP;
+            self.settles = SETTLES;
+            self.accelerations.forget();
+        }
+        self.controller = Controller::new(step.order_of_estimate());
+        // the derivative at the end of the last step is no longer at hand
+        self.past = 0.0;
     }
 
     /// How far the next step goes.
@@ -567,11 +605,12 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
     fn error(&mut self, step: &mut dyn Stepper<T>) -> Option<f64> {
         match self.settings.method.pace {
             Pace::Fixed(_) => first_non_finite(step.span().end).is_none().then_some(0.0),
-            Pace::Adaptive(_) => {
+            Pace::Adaptive(adaptive) => {
                 step.estimate(self.spare);
                 let span = step.span();
                 let error = self.allowed.error(span.y, span.end, self.spare)?;
-                Some(match error <= 1.0 && self.accelerations.controlled() {
+                let controlled = self.accelerations.controlled() || adaptive.switches;
+                Some(match error <= 1.0 && controlled {
                     true => error.max(self.error_of_accelerations(step)),
                     false => error,
                 })
@@ -581,6 +620,10 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
 
     /// Of a step that is good otherwise: the error of the accelerations at its end over what is allowed.
     fn error_of_accelerations(&mut self, step: &mut dyn Stepper<T>) -> f64 {
+        if step.switched() {
+            return self.error_of_slopes(step);
+        }
+        self.fastness = 0.0;
         step.finish(&mut self.f);
         let (Some(near), Some(last)) = (step.neighbour(self.inside), step.end_rate()) else {
             return 0.0;
@@ -602,6 +645,17 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
         let of = [span.h, 1.0];
         let epsilon = epsilon_of::<T>();
+        self.fastness = difference.reach(span.h, epsilon);
+        // states of laws have no share in accelerations, but may be what bounds the steps
+        let mut laws = LawDifference::default();
+        for i in coordinates + self.info.velocities.len()..self.info.varying_length() {
+            let between = [span.end[i] - self.inside[i], last[i] - near[i]].map(size);
+            laws.add(size(span.end[i]), between);
+        }
+        self.fastness = self.fastness.max(laws.reach(span.h, epsilon));
+        if !self.accelerations.controlled() {
+            return 0.0;
+        }
         let mut error = self.accelerations.error::<Basic>(&difference, of, epsilon);
         if error > 1.0 && self.accelerations.asks(true) {
             let t = T::from_f64(self.f.time(span.t));
@@ -612,6 +666,62 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
         self.accelerations
             .leave(&difference, span.h, error <= 1.0, error > 1.0);
+        error
+    }
+
+    /// The same of an implicit step, which damps what is too fast for it: the slope of its interpolant is compared with the derivative there, where the step
+    /// begins, in its middle and where it ends. The slope at the beginning is not the derivative for as long as a decay or an oscillation goes on that
+    /// is faster than the step.
+    fn error_of_slopes(&mut self, step: &mut dyn Stepper<T>) -> f64 {
+        step.finish(&mut self.f);
+        if self.settles > 0 {
+            let settled = step.noise(self.spare) >= SETTLED;
+            self.settles = if settled { 0 } else { self.settles - 1 };
+            return 0.0;
+        }
+        let (t, h) = (step.span().t, step.span().h);
+        let first = self.info.coordinates.len();
+        let velocities = first..first + self.info.velocities.len();
+        let size = |value: T| value.abs().to_f64();
+        let mut largest = [0.0f64; 2];
+        // neither state is needed before the step is accepted
+        let (apart, between) = (&mut *self.renewed, &mut *self.ahead);
+        apart.fill(T::from_f64(0.0));
+        for theta in [0.0, 0.5, 1.0] {
+            step.slope(theta, self.spare);
+            let rate = match (theta, step.end_rate()) {
+                (0.0, _) => &*self.rate,
+                (1.0, Some(rate)) => rate,
+                _ => {
+                    step.interpolate(theta, self.inside);
+                    self.f.at(t + theta * h, self.inside, between);
+                    &*between
+                }
+            };
+            for i in velocities.clone() {
+                let largest = &mut largest[kind(self.info, i)];
+                *largest = largest.max(size(rate[i]));
+                apart[i] = apart[i].max((self.spare[i] - rate[i]).abs());
+            }
+        }
+        let reach = step.noise(self.spare);
+        self.accelerations.see(largest);
+        let [apart, noise] = [&*self.renewed, &*self.spare];
+        let share = |accelerations: &Accelerations<f64>| {
+            velocities.clone().fold(0.0f64, |worst, i| {
+                let of = [size(apart[i]), size(noise[i])];
+                worst.max(accelerations.share(kind(self.info, i), of, reach))
+            })
+        };
+        let mut error = share(&self.accelerations);
+        if error > 1.0 && self.accelerations.asks(true) {
+            let [one, other] = &mut self.powers;
+            let y = &*step.span().y;
+            let at = T::from_f64(self.f.time(t));
+            let found = effect_accelerations(self.model, at, y, self.inside, [one, other]);
+            self.accelerations.learn(true, found.map(T::to_f64));
+            error = share(&self.accelerations);
+        }
         error
     }
 

@@ -103,7 +103,7 @@ fn record(study: &Study, point: &Point, front: bool) -> Vec<String> {
         Pace::Tolerance(tolerance) => ("controlled error", String::new(), number(tolerance)),
     };
     record.extend([
-        setting.formula.name().to_owned(),
+        setting.scheme().name(),
         pace.to_owned(),
         step,
         tolerance,

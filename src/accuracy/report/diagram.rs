@@ -1,6 +1,6 @@
 //! The work–precision diagram of a study.
 
-use super::text::formulas;
+use super::text::schemes;
 use crate::accuracy::conclusion::{Conclusion, cost};
 use crate::accuracy::point::Point;
 use crate::accuracy::setting::{Curves, Pace, Setting};
@@ -10,7 +10,7 @@ use bryant_runtime::program::Scalar;
 
 /// The diagram of a study: runs of this scene, without those with exchanged curves.
 pub fn diagram(study: &Study, conclusion: &Conclusion) -> Diagram {
-    let formulas = formulas(study);
+    let schemes = schemes(study);
     let drawn = |point: &&Point| point.setting.curves == Curves::Written;
     let points: Vec<&Point> = study.points.iter().filter(drawn).collect();
     let there = |variant: &&(Scalar, bool)| points.iter().any(|p| of(&p.setting) == **variant);
@@ -19,7 +19,7 @@ pub fn diagram(study: &Study, conclusion: &Conclusion) -> Diagram {
     for point in &points {
         let setting = &point.setting;
         let (Some(method), Some(variant)) = (
-            formulas.iter().position(|f| *f == setting.formula),
+            schemes.iter().position(|s| *s == setting.scheme()),
             variants.iter().position(|v| *v == of(setting)),
         ) else {
             continue;
@@ -55,7 +55,7 @@ pub fn diagram(study: &Study, conclusion: &Conclusion) -> Diagram {
             super::super::setting::time(study.duration)
         ),
         error: study.of.name(&study.reference.readings),
-        methods: formulas.iter().map(|f| f.name().to_owned()).collect(),
+        methods: schemes.iter().map(|s| s.name()).collect(),
         variants: variants.iter().map(|v| name(*v, &variants)).collect(),
         lines: lines.into_iter().map(|(_, line)| line).collect(),
         front: front.collect(),

@@ -85,7 +85,7 @@ pub fn json(study: &Study, conclusion: &Conclusion) -> Value {
 fn point(study: &Study, point: &Point, front: bool) -> Value {
     let setting = &point.setting;
     let mut value = json!({
-        "method": setting.formula.name(),
+        "method": setting.scheme().name(),
         "scalar": setting.scalar.name(),
         "kinks": setting.kinks(),
         "curves": setting.curves.name(),

@@ -2,9 +2,8 @@
 
 use crate::accuracy::conclusion::{Conclusion, bounded_by_stability};
 use crate::accuracy::point::{Done, Known, Measure, Point, Status};
-use crate::accuracy::setting::{Curves, Pace, time, two_digits};
+use crate::accuracy::setting::{Curves, Pace, Scheme, time, two_digits};
 use crate::accuracy::study::Study;
-use bryant_runtime::Formula;
 use std::fmt::Write as _;
 
 /// The mark in front of a point on the front.
@@ -38,18 +37,18 @@ pub fn text(study: &Study, conclusion: &Conclusion) -> String {
             lengths.max().unwrap_or(0)
         })
         .collect();
-    for formula in formulas(study) {
+    for scheme in schemes(study) {
         let _ = writeln!(
             text,
             "\n{}, {}, order {}",
-            formula.name(),
-            formula.title(),
-            formula.order()
+            scheme.name(),
+            scheme.title(),
+            scheme.formula.order()
         );
         line(&heading, &widths, &mut text);
         line(&units, &widths, &mut text);
         for (index, row) in &rows {
-            if study.points[*index].setting.formula == formula {
+            if study.points[*index].setting.scheme() == scheme {
                 line(row, &widths, &mut text);
             }
         }
@@ -75,9 +74,9 @@ pub fn text(study: &Study, conclusion: &Conclusion) -> String {
 }
 
 /// The formulas of a study, in their order.
-pub fn formulas(study: &Study) -> Vec<Formula> {
-    let there = |formula: &Formula| study.points.iter().any(|p| p.setting.formula == *formula);
-    Formula::ALL.into_iter().filter(there).collect()
+pub fn schemes(study: &Study) -> Vec<Scheme> {
+    let there = |scheme: &Scheme| study.points.iter().any(|p| p.setting.scheme() == *scheme);
+    Scheme::all().into_iter().filter(there).collect()
 }
 
 /// The subject of the study and its reference.

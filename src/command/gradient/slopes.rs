@@ -1,4 +1,7 @@
 //! The derivatives of responses: by dual numbers through the run, and by differences of runs for comparison.
+//!
+//! Dual numbers go through an explicit method in lanes. A stiff scene would take it too many steps; there the derivatives are differences of runs by the
+//! method that changes ([`sweep::alone`]).
 
 use super::table::AGREE;
 use crate::accuracy::check::PROMISED;
@@ -6,12 +9,13 @@ use crate::command::Error;
 use crate::command::progress::Progress;
 use crate::equations::Engine;
 use crate::interrupt;
-use crate::sweep;
+use crate::sweep::{self, FEW};
 use bryant_generator::model::Parameter;
 use bryant_runtime::Tolerances;
 use bryant_runtime::batch::rows::{Gradients, Job, Row};
 use bryant_runtime::batch::{Doubt, Pace, Status};
 use bryant_runtime::program::{ErrorKind, RunError};
+use std::cell::Cell;
 use std::time::Instant;
 
 /// Tolerance if the user gives none.
@@ -41,11 +45,20 @@ pub(super) fn by_size(slopes: &[f64], sizes: &[f64], responses: usize) -> Vec<f6
         .collect()
 }
 
-/// Responses, and slopes along these directions.
-fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<Gradients, Error> {
+/// Responses, and slopes along these directions. `None` if that takes more than [`FEW`] steps, where no more are allowed.
+fn ask(
+    engine: &Engine,
+    job: &Job,
+    given: &[f64],
+    directions: &[f64],
+) -> Result<Option<Gradients>, Error> {
     let mut gradients = engine
         .gradients(job, given, directions)
         .map_err(Error::system)?;
+    let stopped = |row: &Row| row.status == Status::TooManySteps;
+    if job.settings.max_steps <= FEW && gradients.rows.iter().any(stopped) {
+        return Ok(None);
+    }
     let tied = |row: &Row| row.status == Status::Doubtful && row.doubt == Some(Doubt::Tied);
     for k in 0..gradients.rows.len() {
         if tied(&gradients.rows[k]) {
@@ -54,7 +67,7 @@ fn ask(engine: &Engine, job: &Job, given: &[f64], directions: &[f64]) -> Result<
         }
     }
     check(engine, job, given, &gradients)?;
-    Ok(gradients)
+    Ok(Some(gradients))
 }
 
 /// Puts in place of a direction in which several events happen at the same time what its slopes are on both sides of the point, where they do not.
@@ -150,6 +163,8 @@ pub(super) struct Problem<'a> {
     pub parameters: &'a [&'a Parameter],
     /// Their values.
     pub row: &'a [f64],
+    /// Whether the scene was found to be stiff.
+    pub stiff: Cell<bool>,
 }
 
 /// Responses and their derivatives, with an estimate of their error.
@@ -177,10 +192,78 @@ impl Problem<'_> {
     }
 
     fn at(&self, tolerance: f64, progress: &Progress) -> Result<Gradients, Error> {
+        let directions = each_alone(&self.sizes());
         let mut job = self.job.clone();
         job.settings.pace = Pace::Adaptive(Tolerances::of(tolerance));
-        let sizes = self.sizes();
-        slopes(self.engine, &job, self.row, &each_alone(&sizes), progress)
+        let most = job.settings.max_steps;
+        if !self.stiff.get() {
+            job.settings.max_steps = most.min(FEW);
+            if let Some(found) = slopes(self.engine, &job, self.row, &directions, progress)? {
+                return Ok(found);
+            }
+            job.settings.max_steps = most;
+            self.stiff
+                .set(sweep::alone(self.engine, &job, self.row).is_some());
+        }
+        match self.stiff.get() {
+            true => self.by_differences(tolerance, progress),
+            false => slopes(self.engine, &job, self.row, &directions, progress)?
+                .ok_or_else(|| Error::failed("the runs take too many steps".to_owned())),
+        }
+    }
+
+    /// Responses of a stiff scene at parameters that are moved, by a run alone.
+    fn alone(&self, tolerance: f64, moved: &[f64]) -> Result<sweep::Alone, Error> {
+        let mut job = self.job.clone();
+        job.settings.pace = Pace::Adaptive(Tolerances::of(tolerance));
+        let Some(alone) = sweep::alone(self.engine, &job, moved) else {
+            return Err(Error::failed(
+                "a run with parameters nearby does not come to its end\n  help: `bryant run` with --set says more".to_owned(),
+            ));
+        };
+        match &alone.doubt {
+            Some(why) => Err(Error::failed(format!(
+                "the simulation cannot be trusted: {why}\n  help: `bryant run` with the same parameters says more"
+            ))),
+            None => Ok(alone),
+        }
+    }
+
+    /// Slopes of a stiff scene by differences of runs at a thousandth of the tolerance.
+    fn by_differences(&self, tolerance: f64, progress: &Progress) -> Result<Gradients, Error> {
+        let tolerance = (1e-3 * tolerance).max(SHARP);
+        let here = self.alone(tolerance, self.row)?;
+        let done = Row {
+            status: Status::Done,
+            t: self.job.settings.duration,
+            steps: u32::try_from(here.steps).unwrap_or(u32::MAX),
+            rejected: 0,
+            step: f64::NAN,
+            error: f64::NAN,
+            sharpened: 0,
+            doubt: None,
+        };
+        let mut all = Gradients {
+            rows: Vec::new(),
+            values: here.responses,
+            slopes: Vec::new(),
+        };
+        for (i, (parameter, size)) in self.parameters.iter().zip(self.sizes()).enumerate() {
+            if interrupt::asked() {
+                break;
+            }
+            let at = |by: f64| {
+                let mut moved = self.row.to_vec();
+                moved[i] += by;
+                self.alone(tolerance, &moved).map(|alone| alone.responses)
+            };
+            let bounds = [parameter.min, parameter.max];
+            let found = difference(at, self.row[i], MOVED * size, bounds)?;
+            all.slopes.extend(found.iter().map(|slope| slope * size));
+            all.rows.push(done);
+            progress.set(all.rows.len() as f64);
+        }
+        Ok(all)
     }
 
     /// Slopes at a tolerance, compared with those at ten times the tolerance. If they are not as accurate as promised and the user gave no
@@ -237,13 +320,23 @@ impl Problem<'_> {
             let at = |by: f64| {
                 let mut moved = self.row.to_vec();
                 moved[i] += by;
-                ask(self.engine, &job, &moved, &still).map(|gradients| gradients.values)
+                if self.stiff.get() {
+                    return self.alone(SHARP, &moved).map(|alone| alone.responses);
+                }
+                let found = ask(self.engine, &job, &moved, &still)?;
+                Ok(found.map_or_else(Vec::new, |found| found.values))
             };
             if interrupt::asked() {
                 break;
             }
             let bounds = [parameter.min, parameter.max];
-            slopes.extend(difference(at, self.row[i], MOVED * size, bounds)?);
+            // the derivatives of a stiff scene are differences themselves, over other steps
+            let step = if self.stiff.get() {
+                10.0 * MOVED
+            } else {
+                MOVED
+            };
+            slopes.extend(difference(at, self.row[i], step * size, bounds)?);
             progress.set((i + 1) as f64);
         }
         Ok(slopes)
@@ -293,14 +386,14 @@ fn each_alone(sizes: &[f64]) -> Vec<f64> {
     directions
 }
 
-/// Responses, and slopes in as many of the directions as time allows; as many run side by side as a register holds.
+/// Responses, and slopes in as many of the directions as time allows, `None` as [`ask`]; as many run side by side as a register holds.
 fn slopes(
     engine: &Engine,
     job: &Job,
     row: &[f64],
     directions: &[f64],
     progress: &Progress,
-) -> Result<Gradients, Error> {
+) -> Result<Option<Gradients>, Error> {
     let mut all = Gradients {
         rows: Vec::new(),
         values: Vec::new(),
@@ -310,13 +403,15 @@ fn slopes(
         if interrupt::asked() {
             break;
         }
-        let found = ask(engine, job, row, some)?;
+        let Some(found) = ask(engine, job, row, some)? else {
+            return Ok(None);
+        };
         all.values = found.values;
         all.rows.extend(found.rows);
         all.slopes.extend(found.slopes);
         progress.set(all.rows.len() as f64);
     }
-    Ok(all)
+    Ok(Some(all))
 }
 
 /// Difference quotients of the function `at` of a parameter's change, of second order in the step, within the bounds of the parameter.

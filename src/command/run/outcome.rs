@@ -48,6 +48,7 @@ pub fn json(
                 "rejected": report.rejected,
                 "evaluations": report.evaluations,
                 "jacobians": report.jacobians,
+                "stiff": report.stiff,
                 "events": report.events,
                 "samples": report.samples,
                 "smallest_step_s": report.smallest_step,
@@ -118,8 +119,13 @@ pub fn report(recording: &Recording) -> String {
         0 => String::new(),
         count => format!(" ({count} more rejected)"),
     };
+    let stiff = match report.stiff {
+        0 => String::new(),
+        count if count == report.steps => ", all by rodas5 as the scene is stiff".to_owned(),
+        count => format!(", {count} by rodas5 where the scene is stiff"),
+    };
     format!(
-        "{} steps{rejected}, the smallest {} at {} ({}), {} evaluations; {} simulated in {}, {} × real time",
+        "{} steps{rejected}{stiff}, the smallest {} at {} ({}), {} evaluations; {} simulated in {}, {} × real time",
         report.steps,
         duration(report.smallest_step),
         duration(report.smallest_step_at),
@@ -147,7 +153,8 @@ pub fn failure(error: &RunError, recording: &Recording) -> String {
     }
     if error.kind == ErrorKind::Time {
         lines.push(
-            "  help: make that force softer or smoother, or move the start away from where it is stiff; --time-limit gives the run more time"
+            "  help: leave --method away, or give --method rodas5, which takes long steps where a scene is stiff; or make that force softer or smoother; \
+             --time-limit gives the run more time"
                 .to_owned(),
         );
     }

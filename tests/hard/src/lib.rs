@@ -33,6 +33,7 @@ mod non_smoothness;
 mod orientation;
 mod passing;
 mod precision;
+mod stiff_chains;
 mod stiffness;
 mod tree;
 
@@ -47,6 +48,7 @@ pub fn cases() -> Vec<Case> {
         mass_and_shape::CASES,
         hinges::CASES,
         stiffness::CASES,
+        stiff_chains::CASES,
         non_smoothness::CASES,
         passing::CASES,
         meeting::CASES,

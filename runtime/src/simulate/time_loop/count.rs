@@ -47,6 +47,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         }
         let report = &mut self.report;
         report.steps += 1;
+        report.stiff += u64::from(step.switched());
         report.largest_step = report.largest_step.max(length);
     }
 

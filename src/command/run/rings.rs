@@ -1,0 +1,80 @@
+//! A note on rings of belts whose resistance, not their friction, rules the tensions.
+//!
+//! The tension on the tight side of a ring is E T₋ + c s': E = e^(μθ) is that of the friction, and c s' is the resistance c times the rate of slip. The
+//! default of c is made for webbing of some kilonewtons. On a light rope it may hold back more than the friction does.
+
+use crate::equations;
+use crate::simulation::Recording;
+use bryant_generator::model::{
+    Asked, BeltOutput, BeltQuantity, ForceKind, Model, Number, Output, Quantity,
+};
+use bryant_runtime::program::Job;
+
+/// The resistance of a ring that writes none \[N s/m\].
+const DEFAULT: f64 = 50.0;
+/// The share of the tension on the tight side that is told of, and the share that a resistance has that is proposed.
+const SHARE: f64 = 0.1;
+const PROPOSED: f64 = 0.001;
+
+/// A note for each ring with the default resistance that takes a large share of the tension where the run ended.
+pub fn notes(model: &Model, job: &Job, recording: &Recording) -> Vec<String> {
+    let mut rings = Vec::new();
+    let mut asked = model.clone();
+    asked.outputs.clear();
+    for (force, one) in model.forces.iter().enumerate() {
+        let ForceKind::Belt(belt) = &one.kind else {
+            continue;
+        };
+        for (part, ring) in belt.rings.iter().enumerate() {
+            if ring.resistance != Number::Constant(DEFAULT) {
+                continue;
+            }
+            rings.push((&one.name, &ring.name));
+            for part in [part, part + 1] {
+                asked.outputs.push(Output {
+                    name: asked.outputs.len().to_string(),
+                    quantity: Quantity::OfForce {
+                        force,
+                        what: Asked::Belt(BeltOutput {
+                            part,
+                            what: BeltQuantity::Force,
+                        }),
+                    },
+                    unit: "N".to_owned(),
+                    code: None,
+                    filter: None,
+                });
+            }
+        }
+    }
+    let (t, state) = (recording.last_time(), &recording.last_state);
+    if rings.is_empty() || state.is_empty() {
+        return Vec::new();
+    }
+    let Ok(engine) = equations::of(&asked) else {
+        return Vec::new();
+    };
+    let info = engine.info();
+    let mut evaluated = engine.in_double();
+    evaluated.set_parameters(&recording.parameters(job));
+    let (mut tensions, mut rates) = (vec![0.0; info.outputs.len()], vec![0.0; state.len()]);
+    evaluated.outputs(t, state, &mut tensions);
+    evaluated.derivative(t, state, &mut rates);
+    let told = rings.into_iter().zip(tensions.chunks(2));
+    told.filter_map(|((belt, ring), sides)| {
+        let slip = format!("belt {belt}: slip through {ring}");
+        let index = (0..state.len()).find(|i| info.state_name(*i) == Some(slip.as_str()))?;
+        let resistance = DEFAULT * rates[index].abs();
+        let tight = sides.iter().copied().fold(0.0, f64::max);
+        (resistance > SHARE * tight).then(|| {
+            // one digit, as a person would write it
+            let proposed = DEFAULT * PROPOSED * tight / resistance;
+            format!(
+                "belt {belt}, ring {ring}: at t = {t} s its resistance to slip, 50 N*s/m by default, takes {:.0} % of the {tight:.3} N on the \
+                 tight side; write `resistance: {proposed:.0e}` for the ratio of tensions of the friction alone",
+                100.0 * resistance / tight
+            )
+        })
+    })
+    .collect()
+}

@@ -1,0 +1,127 @@
+//! A row of a stiff scene, which lanes would take too long for: it is run alone, by the method that changes where the scene is stiff.
+//!
+//! Its error is estimated as that of a row in lanes ([`rows`](bryant_runtime::batch::rows)): by a run at ten times the tolerances, and by runs at a tenth
+//! for as long as that is needed and helps.
+
+use super::refusal::parameters;
+use crate::accuracy::setting::{Curves, Pace as OfSetting, Scheme, Setting};
+use crate::equations::Engine;
+use crate::simulation::{self, Recording};
+use bryant_runtime::batch::Pace;
+use bryant_runtime::batch::rows::Job;
+use bryant_runtime::program::{Job as Single, Reading, Scalar};
+use bryant_runtime::response::Answer;
+
+/// A run of a row, alone.
+pub struct Alone {
+    /// The responses; NaN where the run cannot be trusted.
+    pub responses: Vec<f64>,
+    /// Steps accepted.
+    pub steps: u64,
+    /// Estimated relative error, the largest of all responses; NaN if it is not known, or not to be estimated.
+    pub error: f64,
+    /// How often the tolerances were taken to a tenth.
+    pub sharpened: u32,
+    /// Why it cannot be trusted.
+    pub doubt: Option<String>,
+}
+
+/// The factor between the tolerances of two runs that are compared; what they differ by is so many times the error of the finer one, √10 − 1 (as in lanes).
+const APART: f64 = 10.0;
+const SURELY: f64 = 2.16;
+/// How often the tolerances are taken to a tenth.
+const AGAIN: u32 = 5;
+
+/// Runs a row alone; `None` if its steps are fixed, its scene is not stiff, or the run does not reach its end.
+pub fn alone(engine: &Engine, job: &Job, row: &[f64]) -> Option<Alone> {
+    let Pace::Adaptive(tolerances) = job.settings.pace else {
+        return None;
+    };
+    let at = |tolerance: f64| run(engine, job, row, tolerance);
+    let mut fine = at(tolerances.relative)?;
+    let (mut error, mut sharpened) = (f64::NAN, 0);
+    if job.estimate {
+        let mut coarse = at(APART * tolerances.relative);
+        loop {
+            error = coarse
+                .as_ref()
+                .map_or(f64::NAN, |coarse| apart(&fine, coarse) / SURELY);
+            let good = error <= job.wanted || job.wanted == f64::INFINITY;
+            if good || sharpened == AGAIN || !fine.doubts.is_empty() {
+                break;
+            }
+            let tolerance = tolerances.relative * APART.powi(-(sharpened as i32) - 1);
+            let Some(sharper) = at(tolerance) else {
+                break;
+            };
+            coarse = Some(std::mem::replace(&mut fine, sharper));
+            sharpened += 1;
+        }
+    }
+    let report = fine.result.as_ref().ok()?;
+    let doubt = fine.doubts.first().map(|doubt| doubt.message.clone());
+    let value = |answer: &Answer| {
+        if doubt.is_none() {
+            answer.value
+        } else {
+            f64::NAN
+        }
+    };
+    Some(Alone {
+        responses: match fine.answers.is_empty() {
+            true => vec![f64::NAN; job.responses.len()],
+            false => fine.answers.iter().map(value).collect(),
+        },
+        steps: report.steps,
+        error,
+        sharpened,
+        doubt,
+    })
+}
+
+/// A run at a tolerance that reached its end by the implicit method, at least in a part.
+fn run(engine: &Engine, job: &Job, row: &[f64], tolerance: f64) -> Option<Recording> {
+    let settings = &job.settings;
+    let setting = Setting {
+        formula: Scheme::DEFAULT.formula,
+        switches: Scheme::DEFAULT.switches,
+        pace: OfSetting::Tolerance(tolerance),
+        scalar: Scalar::F64,
+        locate: settings.locate,
+        curves: Curves::Written,
+    };
+    let names = engine
+        .info()
+        .parameters
+        .iter()
+        .map(|one| one.name.to_owned());
+    let single = setting.job(&Single {
+        duration: Some(settings.duration),
+        // nobody reads the rows
+        every: Some(settings.duration),
+        max_steps: Some(settings.max_steps.into()),
+        time_limit: settings.time_limit,
+        energy_limit: Some(settings.energy_limit),
+        parameters: names.zip(parameters(engine, job, row)).collect(),
+        reading: Reading {
+            intervals: settings.samples as u64 - 1,
+            asked: job.responses.clone(),
+            ..Reading::default()
+        },
+        ..Single::default()
+    });
+    let recording = simulation::run(engine, &single, &mut |_| {});
+    let stiff = matches!(&recording.result, Ok(report) if report.stiff > 0);
+    stiff.then_some(recording)
+}
+
+/// The largest relative difference of the responses; NaN where one is.
+fn apart(fine: &Recording, coarse: &Recording) -> f64 {
+    let pairs = fine.answers.iter().zip(&coarse.answers);
+    pairs
+        .map(|(fine, coarse)| fine.apart(coarse))
+        .fold(0.0, |worst, apart| match apart <= worst {
+            true => worst,
+            false => apart,
+        })
+}

@@ -1,0 +1,436 @@
+//! Random chains of sliders whose time scales differ by up to a factor of 10⁹, against an implicit method of the test's own.
+//!
+//! Masses m_i move on a line. Joint i carries mass i on mass i − 1, the first on the frame, with the force
+//!
+//! f_i = P_i − k_i q_i − c_i q'_i − F_i clamp(q'_i/v_i, −1, 1),   m_i x''_i = f_i − f_{i+1},   x_i = q_0 + … + q_i
+//!
+//! The reference is the Radau IIA method of order 5 (Hairer & Wanner, *Solving ODEs II*, IV.8) with Newton's iteration on all stages at once, and
+//! steps chosen by comparison with two steps of half the length. It shares nothing with the program.
+
+use crate::bench::{Bench, Run, Trouble};
+use crate::case::{Case, Group};
+use crate::random::Random;
+use crate::scene::Scene;
+use bryant_runtime::program::Job;
+use std::fmt::Write;
+
+/// The case of this file.
+pub const CASES: &[Case] = &[Case {
+    group: Group::Stiffness,
+    name: "random chains with time scales from 1 s to 1 ns",
+    law: "Springs, dampers and friction on masses from 1 mg to 1 t: the motion is that of a Radau IIA method of order 5, computed apart.",
+    run: chains,
+}];
+
+/// Number of scenes.
+const SCENES: u64 = 300;
+/// Length of each run and time between samples \[s\].
+const DURATION: f64 = 1.0;
+const EVERY: f64 = 0.01;
+/// The relative error of a step of the reference.
+const SHARP: f64 = 1e-8;
+
+/// A joint of a chain, and the mass that it carries \[SI\].
+#[derive(Clone, Copy, Debug)]
+struct Joint {
+    mass: f64,
+    stiffness: f64,
+    damping: f64,
+    friction: f64,
+    friction_speed: f64,
+    load: f64,
+}
+
+/// The coordinates of all joints, then their speeds.
+type State = Vec<f64>;
+
+fn joints(random: &mut Random) -> Vec<Joint> {
+    let count = 2 + random.below(2);
+    let mut before = f64::INFINITY;
+    (0..count)
+        .map(|i| {
+            let mass = 10f64.powf(random.uniform(-6.0, 3.0));
+            // what moves fastest against its neighbour
+            let lighter = mass.min(before);
+            before = mass;
+            let slow = random.uniform(0.5, 5.0);
+            let rate = match i {
+                0 => slow,
+                _ => 10f64.powf(random.uniform(0.0, 9.0)),
+            };
+            let load = lighter.min(mass) * random.uniform(-10.0, 10.0);
+            let least = if rate > 1e3 { 0.3 } else { 0.0 };
+            let ratio = random.uniform(least, 1.5);
+            let soft = Joint {
+                mass,
+                stiffness: lighter * slow * slow,
+                damping: 0.0,
+                friction: 0.0,
+                friction_speed: 1.0,
+                load,
+            };
+            match random.below(3) {
+                _ if i == 0 => Joint {
+                    damping: 2.0 * ratio * lighter * slow,
+                    ..soft
+                },
+                0 => Joint {
+                    stiffness: lighter * rate * rate,
+                    damping: 2.0 * ratio * lighter * rate,
+                    ..soft
+                },
+                1 => Joint {
+                    damping: lighter * rate,
+                    ..soft
+                },
+                _ => {
+                    let friction = lighter * random.uniform(0.1, 10.0);
+                    Joint {
+                        friction,
+                        friction_speed: friction / (lighter * rate),
+                        ..soft
+                    }
+                }
+            }
+        })
+        .collect()
+}
+
+fn scene(name: &str, joints: &[Joint]) -> Scene {
+    let mut elements = String::new();
+    let mut forces = String::new();
+    let mut outputs = String::new();
+    for (i, joint) in joints.iter().enumerate() {
+        let on = if i == 0 {
+            String::new()
+        } else {
+            format!("on: e{}, at: [0, 0], ", i - 1)
+        };
+        let Joint {
+            mass,
+            stiffness,
+            damping,
+            friction,
+            friction_speed,
+            load,
+        } = *joint;
+        let _ = writeln!(
+            elements,
+            "      - {{ name: e{i}, {on}joint: {{ slider: x }}, mass: {mass:e}, cg: [0, 0], inertia: {mass:e} }}"
+        );
+        let _ = write!(
+            forces,
+            "  - {{ joint: c/e{i}, motor: {load:e}, elastic: {{ points: [[-1, {:e}], [1, {stiffness:e}]], extrapolate: linear }}",
+            -stiffness
+        );
+        if damping > 0.0 {
+            let _ = write!(forces, ", damping: {damping:e}");
+        }
+        if friction > 0.0 {
+            let _ = write!(
+                forces,
+                ", friction: {friction:e}, friction_speed: {friction_speed:e}"
+            );
+        }
+        forces.push_str(" }\n");
+        let _ = writeln!(
+            outputs,
+            "  - {{ name: a{i}, of: c/e{i}, what: acceleration, component: x }}"
+        );
+    }
+    Scene::new(
+        name,
+        format!(
+            "model: chain\ndimension: 2\nsystems:\n  - name: c\n    reference: fixed\n    elements:\n{elements}forces:\n{forces}outputs:\n{outputs}\
+             run: {{ duration: {DURATION} s, every: {EVERY} s }}\n"
+        ),
+    )
+}
+
+/// The derivative of a state.
+fn rate(joints: &[Joint], y: &[f64]) -> State {
+    let n = joints.len();
+    let forces: Vec<f64> = (0..n)
+        .map(|i| {
+            let joint = &joints[i];
+            let (q, v) = (y[i], y[n + i]);
+            let slip = (v / joint.friction_speed).clamp(-1.0, 1.0);
+            joint.load - joint.stiffness * q - joint.damping * v - joint.friction * slip
+        })
+        .collect();
+    let mut rate = y[n..].to_vec();
+    rate.extend((0..n).map(|i| absolute(joints, &forces, i) - before(joints, &forces, i)));
+    rate
+}
+
+/// The acceleration of mass `i` in space.
+fn absolute(joints: &[Joint], forces: &[f64], i: usize) -> f64 {
+    (forces[i] - forces.get(i + 1).copied().unwrap_or(0.0)) / joints[i].mass
+}
+
+/// That of the mass before.
+fn before(joints: &[Joint], forces: &[f64], i: usize) -> f64 {
+    if i == 0 {
+        0.0
+    } else {
+        absolute(joints, forces, i - 1)
+    }
+}
+
+/// The derivatives of [`rate`] by the state, by columns of a unit change: it is linear but for the clamp.
+fn jacobian(joints: &[Joint], y: &[f64]) -> Vec<State> {
+    let n = joints.len();
+    (0..2 * n)
+        .map(|column| {
+            let mut forces = vec![0.0; n];
+            let mut of = vec![0.0; 2 * n];
+            if column < n {
+                forces[column] = -joints[column].stiffness;
+            } else {
+                let i = column - n;
+                of[i] = 1.0;
+                let joint = &joints[i];
+                let slips = y[column].abs() >= joint.friction_speed;
+                let viscous = if slips {
+                    0.0
+                } else {
+                    joint.friction / joint.friction_speed
+                };
+                forces[i] = -joint.damping - viscous;
+            }
+            for i in 0..n {
+                of[n + i] = absolute(joints, &forces, i) - before(joints, &forces, i);
+            }
+            of
+        })
+        .collect()
+}
+
+/// a_ij of the Radau IIA method with three stages.
+fn radau() -> [[f64; 3]; 3] {
+    let s = 6f64.sqrt();
+    [
+        [
+            (88.0 - 7.0 * s) / 360.0,
+            (296.0 - 169.0 * s) / 1800.0,
+            (-2.0 + 3.0 * s) / 225.0,
+        ],
+        [
+            (296.0 + 169.0 * s) / 1800.0,
+            (88.0 + 7.0 * s) / 360.0,
+            (-2.0 - 3.0 * s) / 225.0,
+        ],
+        [(16.0 - s) / 36.0, (16.0 + s) / 36.0, 1.0 / 9.0],
+    ]
+}
+
+/// A step of the reference; `None` where Newton's iteration does not end.
+fn step(joints: &[Joint], y: &[f64], h: f64) -> Option<State> {
+    let (a, n) = (radau(), y.len());
+    let mut stages = vec![y.to_vec(); 3];
+    for _ in 0..12 {
+        let rates: Vec<State> = stages.iter().map(|stage| rate(joints, stage)).collect();
+        let slopes: Vec<Vec<State>> = stages.iter().map(|stage| jacobian(joints, stage)).collect();
+        let size = 3 * n;
+        let mut matrix = vec![vec![0.0; size + 1]; size];
+        for (i, row) in a.iter().enumerate() {
+            for k in 0..n {
+                let line = &mut matrix[i * n + k];
+                let mut residual = stages[i][k] - y[k];
+                for (j, weight) in row.iter().enumerate() {
+                    residual -= h * weight * rates[j][k];
+                    for (l, column) in slopes[j].iter().enumerate() {
+                        line[j * n + l] -= h * weight * column[k];
+                    }
+                }
+                line[i * n + k] += 1.0;
+                line[size] = -residual;
+            }
+        }
+        let change = solve(matrix)?;
+        let mut moved = 0.0f64;
+        for (k, change) in change.iter().enumerate() {
+            stages[k / n][k % n] += change;
+            let scale = y[k % n].abs() + stages[k / n][k % n].abs();
+            moved = moved.max(change.abs() / (1e-13 * scale + 1e-18));
+        }
+        if moved <= 1.0 {
+            return stages.pop();
+        }
+    }
+    None
+}
+
+/// Solves a system, given with its right-hand side, by elimination; rows are scaled by their largest entry.
+fn solve(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+    let n = rows.len();
+    for row in &mut rows {
+        let largest = row[..n].iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        row.iter_mut().for_each(|x| *x /= largest);
+    }
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
+        rows.swap(k, pivot);
+        let (above, below) = rows.split_at_mut(k + 1);
+        for row in below {
+            let factor = row[k] / above[k][k];
+            if factor != 0.0 {
+                for (x, p) in row[k..].iter_mut().zip(&above[k][k..]) {
+                    *x -= factor * p;
+                }
+            }
+        }
+    }
+    for k in (0..n).rev() {
+        let sum: f64 = (k + 1..n).map(|j| rows[k][j] * rows[j][n]).sum();
+        rows[k][n] = (rows[k][n] - sum) / rows[k][k];
+    }
+    let x: Vec<f64> = rows.iter().map(|row| row[n]).collect();
+    x.iter().all(|x| x.is_finite()).then_some(x)
+}
+
+/// The states of the reference at the samples, and the largest acceleration of each mass at the end of any of its steps.
+fn reference(joints: &[Joint]) -> Option<(Vec<State>, f64)> {
+    let n = joints.len();
+    let mut y = vec![0.0; 2 * n];
+    let mut largest_of = vec![0.0f64; 2 * n];
+    let accelerations = |y: &[f64]| {
+        rate(joints, y)[n..]
+            .iter()
+            .fold(0.0f64, |m, a| m.max(a.abs()))
+    };
+    let mut largest = accelerations(&y);
+    let (mut all, mut t, mut h) = (vec![y.clone()], 0.0, 1e-12);
+    for sample in 1..=(DURATION / EVERY).round() as usize {
+        let end = sample as f64 * EVERY;
+        while t < end {
+            let last = t + 1.01 * h >= end;
+            let length = if last { end - t } else { h };
+            let whole = step(joints, &y, length);
+            let halves =
+                step(joints, &y, 0.5 * length).and_then(|half| step(joints, &half, 0.5 * length));
+            let error = match (&whole, &halves) {
+                (Some(whole), Some(halves)) => {
+                    let scale = |k: usize| SHARP * largest_of[k].max(halves[k].abs()) + 1e-24;
+                    (0..2 * n).fold(0.0f64, |m, k| {
+                        m.max((whole[k] - halves[k]).abs() / scale(k))
+                    })
+                }
+                _ => f64::INFINITY,
+            };
+            let factor = (0.8 * error.max(1e-9).powf(-0.2)).clamp(0.2, 5.0);
+            if error <= 1.0 {
+                y = halves?;
+                t = if last { end } else { t + length };
+                for (largest, entry) in largest_of.iter_mut().zip(&y) {
+                    *largest = largest.max(entry.abs());
+                }
+                largest = largest.max(accelerations(&y));
+                h = if last {
+                    h.max(length * factor)
+                } else {
+                    length * factor
+                };
+            } else {
+                h = length * factor;
+                if h < 1e-20 {
+                    return None;
+                }
+            }
+        }
+        all.push(y.clone());
+    }
+    Some((all, largest))
+}
+
+/// The largest errors of a run: of coordinates \[m\], of speeds \[m/s\], of accelerations as a share of the largest acceleration.
+fn errors(run: &Run, joints: &[Joint]) -> Result<[f64; 3], Trouble> {
+    let n = joints.len();
+    let (states, largest) = reference(joints)
+        .ok_or_else(|| Trouble::Case("the reference does not come to its end".into()))?;
+    let mut worst = [0.0f64; 3];
+    if run.states.len() != states.len() {
+        return Err(Trouble::Case("samples are missing".into()));
+    }
+    for (found, exact) in run.states.iter().zip(&states) {
+        for k in 0..2 * n {
+            let of = &mut worst[k / n];
+            *of = of.max((found[k] - exact[k]).abs());
+        }
+        // the accelerations that the state found has, by the laws of the test
+        let [found, exact] = [found, exact].map(|y| rate(joints, y));
+        for k in n..2 * n {
+            worst[2] = worst[2].max((found[k] - exact[k]).abs() / largest);
+        }
+    }
+    Ok(worst)
+}
+
+fn chains(bench: &mut Bench<'_>) -> Result<(), Trouble> {
+    let (mut worst, mut which, mut switched, mut most) = ([0.0f64; 3], [0; 3], 0, 0.0f64);
+    let scenes = if bench.full() { SCENES } else { SCENES / 5 };
+    for seed in 0..scenes {
+        let joints = joints(&mut Random::new(seed));
+        let run = bench.succeed(&scene(&format!("chain-{seed}"), &joints), &Job::default())?;
+        let report = run.report()?;
+        switched += u64::from(report.stiff > 0);
+        let steps = (report.steps + report.rejected) as f64;
+        most = most.max(steps);
+        let speed = run
+            .states
+            .iter()
+            .flat_map(|y| &y[joints.len()..2 * joints.len()]);
+        let speed = speed.fold(0.0f64, |m, v| m.max(v.abs()));
+        // a step errs by 1e-8 m and by 1e-7 (1 + v) of speed; every motion is damped or oscillates, and is over or seen within a second
+        let allowed = steps * (1e-8 + 1e-7 * (1.0 + speed));
+        let found = errors(&run, &joints)?;
+        let found = [found[0] / allowed, found[1] / (5.0 * allowed), found[2]];
+        for k in 0..3 {
+            if found[k] > worst[k] || found[k].is_nan() {
+                (worst[k], which[k]) = (found[k], seed);
+            }
+        }
+    }
+    bench.variant(format!(
+        "{scenes} chains, {switched} of which change the method"
+    ));
+    let because = "steps × (a_x + (r v + a_v) × 1 s), for a motion that does not amplify errors";
+    bench.at_most(
+        format!(
+            "error of coordinates over what is allowed, in chain {}",
+            which[0]
+        ),
+        worst[0],
+        1.0,
+        "",
+        because,
+    );
+    bench.at_most(
+        format!(
+            "error of speeds over what is allowed, in chain {}",
+            which[1]
+        ),
+        worst[1],
+        1.0,
+        "",
+        "the same times 5 1/s, the fastest of the slow motions",
+    );
+    bench.at_most(
+        format!(
+            "error of accelerations over the largest, in chain {}",
+            which[2]
+        ),
+        worst[2],
+        3e-3,
+        "",
+        "the share of accelerations that tolerances of 1e-7 allow",
+    );
+    bench.at_most(
+        "steps of a chain",
+        most,
+        2e5,
+        "",
+        "a thousand oscillations of 1e3 1/s, and what each layer takes",
+    );
+    Ok(())
+}
