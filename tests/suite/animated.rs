@@ -259,7 +259,7 @@ fn fast_turns_are_played_as_they_are() {
         );
     }
     // what no number of keyframes can show is said
-    let fast = space("[0, 0, 1e5]")
+    let fast = space("[0, 0, 3e4]")
         .replace("DURATION", "1 s")
         .replace("EVERY", "0.1 s");
     fs::write(path.join("top.yaml"), fast).unwrap();

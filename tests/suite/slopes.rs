@@ -44,7 +44,7 @@ fn slopes(
         .collect();
     let mut all = vec!["gradient", "scene.yaml", "--json"];
     for of in &of {
-        all.extend(["--of", of]);
+        all.extend(["--of", of.as_str()]);
     }
     all.extend(more);
     let (stdout, stderr) = call(here, &all, code);
