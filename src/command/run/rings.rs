@@ -42,6 +42,7 @@ pub fn notes(model: &Model, job: &Job, recording: &Recording) -> Vec<String> {
                     },
                     unit: "N".to_owned(),
                     code: None,
+                    channel: None,
                     filter: None,
                 });
             }

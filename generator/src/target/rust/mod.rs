@@ -46,7 +46,7 @@ pub(crate) use user::pasted;
 pub use user::{Adapter, Apart, apart, skeleton};
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
-pub const GENERATED_CODE_VERSION: u32 = 15;
+pub const GENERATED_CODE_VERSION: u32 = 16;
 
 /// The text of a model's module. It depends on nothing but the arguments and the version of this crate.
 pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {
