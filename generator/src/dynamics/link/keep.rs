@@ -272,12 +272,5 @@ impl Numbers {
 
 /// The symmetric matrix with these entries, of which those with i ≤ j are asked for as in [`Sym3::from_fn`].
 fn symmetric(of: impl Fn(usize, usize) -> f64) -> Matrix {
-    let mut m = [[0.0; 3]; 3];
-    for i in 0..3 {
-        for j in i..3 {
-            m[i][j] = of(i, j);
-            m[j][i] = m[i][j];
-        }
-    }
-    m
+    std::array::from_fn(|i| std::array::from_fn(|j| of(i.min(j), i.max(j))))
 }
