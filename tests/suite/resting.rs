@@ -312,12 +312,27 @@ fn a_state_of_rest_becomes_the_start_of_a_model() {
         error.contains("\"man/torso\" rests 0.58 m from its start: is this what you want?"),
         "{error}"
     );
-    let off = ["settle", "sitter.yaml", "--distance", "off", "-o", "rest.json"];
+    let off = [
+        "settle",
+        "sitter.yaml",
+        "--distance",
+        "off",
+        "-o",
+        "rest.json",
+    ];
     call(path, &off, 0);
     let by_state = first_row(path, "sitter.yaml");
     call(
         path,
-        &["settle", "sitter.yaml", "--distance", "off", "--yaml", "-o", "rest.yaml"],
+        &[
+            "settle",
+            "sitter.yaml",
+            "--distance",
+            "off",
+            "--yaml",
+            "-o",
+            "rest.yaml",
+        ],
         0,
     );
     let start = fs::read_to_string(path.join("rest.yaml")).unwrap();

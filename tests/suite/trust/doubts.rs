@@ -103,7 +103,9 @@ fn an_edge_that_fades_over_less_than_the_depth_says_so() {
     let doubts = go(&narrow, &job()).doubts;
     assert!(doubts.len() == 1 && doubts[0].kind == "edge", "{doubts:?}");
     assert!(
-        doubts[0].message.contains("the edge of \"contact foam\" pushes harder than the surface")
+        doubts[0]
+            .message
+            .contains("the edge of \"contact foam\" pushes harder than the surface")
             && doubts[0].amount > 2.0,
         "{doubts:?}"
     );
