@@ -377,6 +377,7 @@ mod tests {
                 energy: None,
                 doubts: vec![],
                 notes: vec![],
+                nearest: vec![],
             },
             Duration::ZERO,
         );

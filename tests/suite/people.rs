@@ -539,7 +539,7 @@ run: {{ duration: 150 ms, every: 1 ms }}
     let told: Value = serde_json::from_str(&told).unwrap();
     let rows = told["rows"].as_array().unwrap().iter();
     let nod = rows.map(|row| row[1].as_f64().unwrap()).fold(0.0, f64::min);
-    assert!(nod < -100f64.to_radians(), "{nod}");
+    assert!(nod < -std::f64::consts::FRAC_PI_2, "{nod}");
     // the singular law of before took 3.8 million
     let evaluations = told["report"]["evaluations"].as_u64().unwrap();
     assert!(evaluations < 20_000, "{evaluations}");

@@ -253,7 +253,7 @@ systems:
     start: {{ position: [0, 0, 1], velocity: [0.5, 0, 0], angles: {{ torso: [20 deg, 60 deg, -40 deg] }}, rates: {{ torso: [1, 2, 3] }} }}
 forces:
   - {{ field: gravity, acceleration: [0, 0, -1 gn] }}
-  - {{ belt: lap, enabled: {belt}, from: {{ on: man/torso, at: [0, 0, 0] }}, to: {{ on: frame, at: [0, 0, 2] }}, stiffness: 1 kN, slack: 1 m, retractor: {{ lock: late, spool: 5 N }} }}
+  - {{ belt: lap, enabled: {belt}, from: {{ on: man/torso, at: [0, 0, 0] }}, to: {{ on: frame, at: [0, 0, 2] }}, stiffness: 1 kN, retractor: {{ lock: late, spool: 5 N }} }}
 switches: [{{ switch: late, when: {{ time: 1 ms }} }}]
 outputs: [{{ name: turn, of: man/torso, what: angle, component: [x, y, z] }}, {{ name: spin, of: man/torso, what: angular_velocity, component: [x, y, z] }}, {{ name: late, of: switch late, what: acts }}]
 run: {{ duration: 0.2 s, every: 0.1 s }}

@@ -222,14 +222,14 @@ fn what_does_not_rest_is_said_and_nothing_is_written() {
 const SLOPE: &str = "model: slope
 dimension: 2
 systems:
-  - name: box
+  - name: block
     elements: [{ name: body, mass: 5, cg: [0, 0], inertia: 0.02 }]
     start: { position: [0, 0.14] }
 surfaces:
   slope: { on: frame, at: [0, 0], normal: [1, 1] }
 forces:
   - { field: earth, acceleration: [0, -9.81] }
-  - { contact: slope, ellipsoid: { on: box/body, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: slope, stiffness: 100 kN/m, damping: 500, FRICTION }
+  - { contact: slope, ellipsoid: { on: block/body, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: slope, stiffness: 100 kN/m, damping: 500, FRICTION }
 run: { duration: 1 s, every: 0.1 s }
 ";
 
@@ -242,22 +242,22 @@ fn what_slides_away_is_said_with_what_does_not_hold_it() {
     fs::write(path.join("slope.yaml"), &slides).unwrap();
     let (_, error) = call(path, &["settle", "slope.yaml", "-o", "rest.json"], 3);
     for said in [
-        "\"box/body\" is 0.6",
+        "\"block/body\" is 0.6",
         "from there",
         "contact \"slope\"",
         "friction by speed does not hold; give it `friction_displacement`",
     ] {
         assert!(error.contains(said), "{said}\n{error}");
     }
-    // it slides into a trough 1 m away, where it would rest
+    // it slides into a trough, where it would rest: 0.1 m from both planes, at (0.4, 0.1 √2 − 0.4) from (0, 0.14), which is 0.565 m, less the dents
     let trough = slides.replace(
         "run:",
-        "  - { contact: stop, ellipsoid: { on: box/body, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0.4, -0.4], normal: [-1, 1] }, stiffness: 100 kN/m, damping: 500 }\nrun:",
+        "  - { contact: stop, ellipsoid: { on: block/body, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0.4, -0.4], normal: [-1, 1] }, stiffness: 100 kN/m, damping: 500 }\nrun:",
     );
     fs::write(path.join("slope.yaml"), &trough).unwrap();
     let (_, error) = call(path, &["settle", "slope.yaml", "-o", "rest.json"], 3);
     assert!(
-        error.contains("\"box/body\" rests 0.4") && error.contains("is this what you want?"),
+        error.contains("\"block/body\" rests 0.57 m") && error.contains("is this what you want?"),
         "{error}"
     );
     assert!(!path.join("rest.json").exists());
@@ -271,7 +271,7 @@ fn what_slides_away_is_said_with_what_does_not_hold_it() {
     ];
     let (told, _) = call(path, &allowed, 0);
     assert!(
-        told.contains("farthest from its start is \"box/body\", 0.4"),
+        told.contains("farthest from its start is \"block/body\", 0.565 m"),
         "{told}"
     );
     for wrong in ["0", "-1 m", "3 kg", "far"] {

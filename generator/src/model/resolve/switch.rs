@@ -175,8 +175,13 @@ fn written_in(quantity: &Quantity) -> Option<(String, f64)> {
     let Quantity::Text(text) = quantity else {
         return None;
     };
-    let Ok(Kind::Quantity(_, unit)) = parse(text).map(|expression| expression.kind) else {
-        return None;
+    let unit = match parse(text).ok()?.kind {
+        Kind::Quantity(_, unit) => unit,
+        Kind::Negative(positive) => match positive.kind {
+            Kind::Quantity(_, unit) => unit,
+            _ => return None,
+        },
+        _ => return None,
     };
     let number = |c: char| c.is_ascii_digit() || ".+-eE ".contains(c);
     Some((
