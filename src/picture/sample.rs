@@ -105,6 +105,7 @@ pub fn child() -> Model {
             interpolate: Interpolate::Linear,
             extrapolate: Extrapolate::Linear,
             told: true,
+            thinned: None,
         }],
         vehicles: Vec::new(),
         systems: vec![System {

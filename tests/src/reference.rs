@@ -98,6 +98,7 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
         parameters: vec![],
         curves: vec![],
         vehicles: vec![],
+        shown: vec![],
         systems: vec![System {
             name: "tree".into(),
             elements,

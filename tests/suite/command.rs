@@ -527,9 +527,8 @@ fn a_robot_is_known_by_the_content_of_its_file() {
     }
     call(directory.path(), &["check", "ARM.URDF"], 0);
     // other encodings of XML: UTF-16 as PowerShell writes it, and ISO 8859-1 where the file says so
-    let utf16 = format!("\u{feff}{ARM}")
-        .encode_utf16()
-        .flat_map(u16::to_le_bytes);
+    let marked = format!("\u{feff}{ARM}");
+    let utf16 = marked.encode_utf16().flat_map(u16::to_le_bytes);
     let latin = format!("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><!-- \u{fc} -->\n{ARM}");
     let latin = latin.chars().map(|c| c as u8);
     for (name, bytes) in [

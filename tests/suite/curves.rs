@@ -167,6 +167,7 @@ fn the_kinks_of_a_curve_are_the_same_to_the_interpreter() {
             interpolate,
             extrapolate: beyond,
             told: true,
+            thinned: None,
         };
         let (lines, cubics) = (read(Interpolate::Linear), read(Interpolate::Cubic));
         let slopes = [0, 1, 2, 3, 4, 5].map(|k| [points[k][0], points[k][1], cubics.tangent(k)]);

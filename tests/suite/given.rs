@@ -64,6 +64,7 @@ pub(crate) fn wave(random: &mut Random, name: &str, interpolate: Interpolate) ->
         interpolate,
         extrapolate: Extrapolate::Linear,
         told: true,
+        thinned: None,
     }
 }
 
@@ -141,6 +142,7 @@ fn part_that_is_over() -> Curve {
         interpolate: Interpolate::Linear,
         extrapolate: Extrapolate::Hold,
         told: true,
+        thinned: None,
     }
 }
 

@@ -204,8 +204,11 @@ fn a_criterion_is_refused_where_it_would_be_wrong() {
     );
 }
 
-/// A test in ISO-MME: channels by code, unit, status and values at 10 kHz.
-fn test_of(path: &Path, channels: &[(&str, &str, &str, &dyn Fn(f64) -> f64)]) {
+/// A channel: its code, unit and status, and its values over time.
+type Recorded<'a> = (&'a str, &'a str, &'a str, &'a dyn Fn(f64) -> f64);
+
+/// A test in ISO-MME, with values at 10 kHz.
+fn test_of(path: &Path, channels: &[Recorded<'_>]) {
     let inner = path.join("test/Channel");
     fs::remove_dir_all(path.join("test")).ok();
     fs::create_dir_all(&inner).unwrap();

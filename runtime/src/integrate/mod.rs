@@ -276,6 +276,7 @@ pub(crate) const fn step_length(method: &Method, info: &Info) -> usize {
 }
 
 /// A step of any method.
+#[expect(clippy::large_enum_variant, reason = "a run has one of them")]
 pub(crate) enum AnyStepper<'w, T> {
     SemiImplicitEuler(SemiImplicitEuler<'w, T>),
     Heun(Explicit<'w, T, Heun>),

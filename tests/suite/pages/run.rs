@@ -215,7 +215,7 @@ impl Page<'_> {
         for i in part.lines.clone() {
             let line = self.lines[i].trim();
             if !line.is_empty() && !line.starts_with('#') {
-                self.command(&line.to_owned(), 0, i);
+                self.command(line, 0, i);
             }
         }
     }

@@ -310,9 +310,7 @@ pub fn rules_hold() -> Result<(), String> {
         return Err(format!("{now:?}, asked as {asked:?}"));
     }
     let out = "       lap  cushion\n time  force    force\n  [s]    [N]      [N]\n0.000      0        1\n0.010     12        3\n";
-    let out = out
-        .replace("       lap  cushion", "        lap  cushion")
-        .replace(" time  force", " time  force");
+    let out = out.replace("       lap  cushion", "        lap  cushion");
     let now = part(
         &["cushion", "time  force", " [s]  [N]", "0.010  7"].map(|line| line),
         &out,

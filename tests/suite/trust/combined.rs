@@ -187,7 +187,7 @@ fn laws_that_act_together_are_as_accurate_as_promised_or_said_not_to_be() {
         for seed in 0..SCENES {
             let text = format!("model: {name}\n{}", shape(&mut Random::new(seed)));
             let (_, engine) = sound(&text);
-            let checked = check::run(&engine, &Job::default(), false, &mut |_| {});
+            let checked = check::run(&engine, &Job::default(), false, &mut |_, _| {});
             let run = &checked.recording;
             let close =
                 matches!(&checked.check, Some((_, Verdict::Apart(d))) if d.worst <= checked.limit);
