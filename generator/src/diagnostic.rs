@@ -177,6 +177,11 @@ impl std::error::Error for Diagnostics {}
 
 /// The user's text in quotation marks: cut where it is long, control characters escaped.
 pub fn quoted(text: &str) -> String {
+    format!("\"{}\"", excerpt(text))
+}
+
+/// The user's text: cut where it is long, control characters escaped.
+pub fn excerpt(text: &str) -> String {
     let mut shown: String = text
         .chars()
         .take(LONGEST_QUOTE)
@@ -196,7 +201,7 @@ pub fn quoted(text: &str) -> String {
     if text.chars().count() > LONGEST_QUOTE {
         shown.push('…');
     }
-    format!("\"{shown}\"")
+    shown
 }
 
 /// The candidate that `word` was probably meant to be: at most a third of its letters wrong.

@@ -66,6 +66,7 @@ files! {
     "integrate/mod.rs",
     "integrate/order.rs",
     "integrate/rosenbrock.rs",
+    "integrate/switching.rs",
     "integrate/tableau/dormand_prince.rs",
     "integrate/tableau/kutta.rs",
     "integrate/tableau/mod.rs",

@@ -141,7 +141,7 @@ mod tests {
         let message = told("--picture", "./a.csv");
         assert!(message.starts_with("--csv and --picture both write to ./a.csv"));
         assert!(told("--markdown", "./model.yaml").contains("model.yaml, which is read"));
-        assert_eq!(told("--json", "-") + &told("--plot", "b.svg"), "");
+        assert_eq!(told("--json", "-") + &told("--plot", "b.csv"), "");
         assert!(
             told("--csv", "/dev/stdout").contains("--json and --csv both write to standard output")
         );

@@ -17,7 +17,9 @@ struct Signal {
 impl Signal {
     fn of(scene: &str, every: &str, name: &str, factor: f64) -> Signal {
         let (table, told) = run(scene, &["--every", every]);
-        assert!(!told.contains("warning"), "{scene}: {told}");
+        // gravity is left out of some scenes
+        let warnings = told.matches("warning").count() - told.matches("no field acts").count();
+        assert_eq!(warnings, 0, "{scene}: {told}");
         Signal {
             t: column(&table, "time").to_vec(),
             y: column(&table, name).iter().map(|y| factor * y).collect(),

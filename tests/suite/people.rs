@@ -365,15 +365,15 @@ fn parts_of_a_car_hold_who_meets_them() {
         let knee = super::tables::largest(&usual, "knee");
         assert!(knee > 0.0);
         assert!(super::tables::largest(&usual, "seat") > 0.0);
-        // the column gives way, does not go beyond its end, and stays there except for the elastic return of its unloading with 2 MN/m: 20
-        // mm of 40 kN
+        // the column gives way, does not go beyond its end, and keeps most of that: the wheel springs back by the elastic part of the unloading
+        // with 2 MN/m, 20 mm of 40 kN at most, and goes on against its damping alone where nobody holds it
         let column = super::tables::column(&usual, "column");
         let (most, last) = (
             super::tables::largest(&usual, "column"),
             column[column.len() - 1],
         );
         assert!(
-            (0.01..0.13).contains(&most) && last > most - 0.02,
+            (0.01..0.13).contains(&most) && last > most / 2.0,
             "{most} {last}"
         );
         let hard = run(&["--set", "stiff=3"]);

@@ -29,7 +29,7 @@ fn a_repeated_run_replaces_its_files() {
     let directory = directory();
     let at = directory.path();
     let edited = PENDULUM
-        .replace("swing", "angle, of the rod")
+        .replace("name: swing", "name: angle")
         .replace("a rod", "a long rod")
         .replace("every: 0.1 s", "every: 0.05 s");
     for (option, file) in FILES {
@@ -188,7 +188,7 @@ fn a_file_that_is_something_else_is_told_so() {
         ("./t.csv", ["a table (CSV)", "help"]),
         ("./s.json", ["a state of a run", "--start"]),
         ("./p.png", ["a picture (PNG)", "help"]),
-        ("./r.html", ["a page of HTML", "help"]),
+        ("./r.html", ["a page of the web (HTML)", "help"]),
         ("man.yaml", ["a part that models include", "include:"]),
     ] {
         for command in ["run", "check"] {

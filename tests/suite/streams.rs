@@ -131,20 +131,17 @@ fn two_results_in_one_place_are_refused() {
     for (arguments, said) in [
         (
             "run clock.yaml --csv a.svg --picture a.svg",
-            "--csv and --picture both write to a.svg",
+            "says otherwise",
         ),
         (
             "run clock.yaml --csv a.svg --picture ./sub/../a.svg",
-            "--csv and --picture",
+            "says otherwise",
         ),
         (
             "run clock.yaml --csv a.svg --picture link.svg",
-            "--csv and --picture",
+            "says otherwise",
         ),
-        (
-            "run clock.yaml --csv clock.svg",
-            "--csv and --picture both write to clock.svg",
-        ),
+        ("run clock.yaml --csv clock.svg", "says otherwise"),
         (
             "run clock.yaml --out sub --picture sub/clock-swing-over-time.svg --plot swing",
             "--picture and --plot 'swing over time'",
@@ -166,7 +163,7 @@ fn two_results_in_one_place_are_refused() {
             "standard output",
         ),
         (
-            "run clock.yaml --csv a.svg --final-state ./a.svg",
+            "run clock.yaml --csv a --final-state ./a",
             "--csv and --final-state both",
         ),
         (
@@ -187,7 +184,7 @@ fn two_results_in_one_place_are_refused() {
         ),
         (
             "accuracy clock.yaml --csv a.svg --picture a.svg",
-            "--csv and --picture both write to a.svg",
+            "says otherwise",
         ),
         (
             "accuracy clock.yaml --picture a.svg --picture ./a.svg",

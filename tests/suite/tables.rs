@@ -12,7 +12,9 @@ pub type Columns = Vec<(String, Vec<f64>)>;
 pub fn read(path: &Path) -> Columns {
     let text = fs::read_to_string(path).unwrap();
     let mut rows = text.lines();
-    let names = rows.next().unwrap().split(',').map(str::to_owned);
+    // the first heading is in quotation marks
+    let names = rows.next().unwrap().split(',');
+    let names = names.map(|name| name.trim_matches('"').to_owned());
     let mut columns: Columns = names.map(|name| (name, Vec::new())).collect();
     for row in rows {
         for (cell, column) in row.split(',').zip(&mut columns) {

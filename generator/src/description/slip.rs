@@ -3,6 +3,7 @@
 
 use super::place::At;
 use super::tree::{Kind, Span};
+use crate::diagnostic::excerpt;
 
 /// A slip: where it is, what it is, and what would be right.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -137,8 +138,8 @@ fn key_with_value(word: &[char]) -> Option<usize> {
 fn no_space(word: &str, length: usize) -> (String, String) {
     let (key, value) = word.split_at(length);
     (
-        format!("a space is missing behind the colon of `{key}:`"),
-        format!("write `{key}: {}`", &value[1..]),
+        format!("a space is missing behind the colon of `{}:`", excerpt(key)),
+        format!("write `{}: {}`", excerpt(key), excerpt(&value[1..])),
     )
 }
 
@@ -183,7 +184,7 @@ pub fn in_word(word: &str) -> Option<(String, String)> {
         "" => Some((message, help)),
         usual => Some((
             message.replace("stands here", "stands in it"),
-            format!("{help}; or write `{usual}`"),
+            format!("{help}; or write `{}`", excerpt(usual)),
         )),
     }
 }
@@ -239,7 +240,7 @@ pub fn in_list(at: At<'_>) -> Option<String> {
         if numbers.len() > 1 && numbers.iter().all(|n| n.parse::<f64>().is_ok()) {
             return Some(format!(
                 "write a comma between two numbers: `{}`",
-                numbers.join(", ")
+                excerpt(&numbers.join(", "))
             ));
         }
         let (Some(next), Some(behind)) = (items.get(index + 1), text(index + 1)) else {
@@ -249,7 +250,9 @@ pub fn in_list(at: At<'_>) -> Option<String> {
             && next.span.column == item.span.column + word.chars().count() + 1;
         if adjacent && is_decimal_comma(word, behind) {
             return Some(format!(
-                "the decimal sign is a point: write `{word}.{behind}` where `{word},{behind}` is one number"
+                "the decimal sign is a point: write `{0}.{1}` where `{0},{1}` is one number",
+                excerpt(word),
+                excerpt(behind)
             ));
         }
     }

@@ -45,11 +45,20 @@ const fn stop(damping: f64, between: [f64; 2], [stiffness, damping_of_stop]: [f6
     }
 }
 
+/// The order of the turns of a joint of the spine. The lumbar spine nods first, a neck last, about the axis of the head, as its load cell reads. The
+/// middle one is not to nod: its angle may not come to 90°.
+fn order(joint: &str) -> &'static str {
+    match joint {
+        "head" => "xzy",
+        _ => "yxz",
+    }
+}
+
 /// How far the joints of the spine bend aside, and turn about the long axis, before a stop pushes back \[deg\], with its stiffness and damping. A healthy
 /// neck bends aside by 45° (clinical norm) to 63°, and turns by 73° to 100° (NASA-STD-3000, 95th percentile: from memory, unverified). Those of the
 /// lumbar spine and all stiffnesses are assumed: they end what no spine does, and keep the middle turn away from 90°.
 const NECK_ASIDE: Stop = ends(60.0);
-const NECK_TWIST: Stop = ends(90.0);
+const NECK_TWIST: Stop = ends(70.0);
 const LUMBAR_ASIDE: Stop = ends(40.0);
 const LUMBAR_TWIST: Stop = ends(40.0);
 
@@ -493,7 +502,8 @@ impl Scene<'_> {
                     let aside = aside.keys(factor);
                     let [x, z] = stops.each_ref().map(|stop| stop.key(factor));
                     format!(
-                        "about: {{ order: yxz, x: {{ {aside}, {x} }}, y: {{ {forward} }}, z: {{ {aside}, {z} }} }}"
+                        "about: {{ order: {}, x: {{ {aside}, {x} }}, y: {{ {forward} }}, z: {{ {aside}, {z} }} }}",
+                        order(joint)
                     )
                 }
             };

@@ -135,8 +135,12 @@ fn a_file_holds_every_point() {
     assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
     assert_eq!(png[16..20], (width as u32).to_be_bytes());
     assert_eq!(png[20..24], (height as u32).to_be_bytes());
-    let block = &png[33..];
-    let length = u32::from_be_bytes([block[0], block[1], block[2], block[3]]) as usize;
+    let length = |block: &[u8]| u32::from_be_bytes([block[0], block[1], block[2], block[3]]);
+    // a text names the program
+    let text = &png[33..];
+    assert_eq!(&text[4..8], b"tEXt");
+    let block = &text[length(text) as usize + 12..];
+    let length = length(block) as usize;
     assert_eq!(&block[4..8], b"IDAT");
     let compressed = &block[8..8 + length];
     let rows = miniz_oxide::inflate::decompress_to_vec_zlib(compressed).unwrap();

@@ -167,7 +167,14 @@ fn depth(normal: [f64; 2], along: [f64; 2], r: f64, e: f64) -> Option<f64> {
     }
     let deepest = deep(from).max(deep(to));
     let long = (to - from) * along[1].abs().max(falls.abs()) > 0.02 * e.min(r);
-    (long || deepest < 0.0).then_some(deepest)
+    // within half of the width over which it fades, the plate pushes with less than half of its force
+    let inner = e - r.clamp(0.01, 1.0).min(e) / 2.0;
+    let (from, to) = {
+        let [from, to] = while_between(along[0], along[1], [-inner, inner]);
+        (from.max(0.0), to.min(1.0))
+    };
+    let firm = from < to && deep(from).max(deep(to)) > deepest / 2.0;
+    (deepest < 0.0 || long && firm).then_some(deepest)
 }
 
 fn plates(random: &mut Random, corner: bool) -> Case {
