@@ -96,6 +96,8 @@ fn joints(random: &mut Random) -> Vec<Joint> {
         .collect()
 }
 
+/// The springs are numbers and not curves: a curve through points at ±1 m rounds its argument to 10⁻¹⁶ m, and a spring of 10¹⁷ N/m would jump by 10 N, more
+/// than what loads it.
 fn scene(name: &str, joints: &[Joint]) -> Scene {
     let mut elements = String::new();
     let mut forces = String::new();
@@ -120,8 +122,7 @@ fn scene(name: &str, joints: &[Joint]) -> Scene {
         );
         let _ = write!(
             forces,
-            "  - {{ joint: c/e{i}, motor: {load:e}, elastic: {{ points: [[-1, {:e}], [1, {stiffness:e}]], extrapolate: linear }}",
-            -stiffness
+            "  - {{ joint: c/e{i}, motor: {load:e}, stiffness: {stiffness:e}"
         );
         if damping > 0.0 {
             let _ = write!(forces, ", damping: {damping:e}");
