@@ -127,28 +127,30 @@ impl<P: Number> EndDifference<P> {
     }
 }
 
-/// How two results of a step differ in the continuous states of laws, which follow a first-order equation: Σ d², Σ D², Σ y².
+/// How two results of a step differ, entry by entry: Σ d² and Σ D² of the entries that differ by more than rounding, of coordinates, of velocities, and of
+/// continuous states of laws, which follow a first-order equation. A light part has a small fast motion beside the large slow one of what it is fixed to, so
+/// rounding of a large entry says nothing of a small one.
 #[derive(Default)]
-pub(crate) struct LawDifference([f64; 3]);
+pub(crate) struct Fastest([[f64; 2]; 3]);
 
-impl LawDifference {
-    /// Adds a state of size `y`, with d and D.
-    pub fn add(&mut self, y: f64, [d, rate]: [f64; 2]) {
-        let [apart, rates, size] = &mut self.0;
-        *apart += d * d;
-        *rates += rate * rate;
-        *size += y * y;
+impl Fastest {
+    /// Adds an entry of size `y` of coordinates (0), velocities (1) or states of laws (2), with d and D.
+    pub fn add(&mut self, group: usize, y: f64, [d, rate]: [f64; 2], epsilon: f64) {
+        if d > ROUNDINGS * epsilon * y && d > 1e-125 {
+            let [apart, rates] = &mut self.0[group];
+            *apart += d * d;
+            *rates += rate * rate;
+        }
     }
 
-    /// (h|λ|)⁴ of a step of length `h`, with |λ| = ‖D‖/‖d‖; 0 where the results differ by rounding alone.
-    pub fn reach(&self, h: f64, epsilon: f64) -> f64 {
-        let [apart, rates, size] = self.0;
-        let least = ROUNDINGS * ROUNDINGS * epsilon * epsilon * size + 1e-250;
-        let squared = h * h * rates / apart;
-        match apart > least && squared.is_finite() {
-            true => squared * squared,
-            false => 0.0,
-        }
+    /// (h|λ|)⁴ of a step of length `h`, with |λ|² = ‖D_q‖‖D_v‖/(‖d_q‖‖d_v‖), or |λ| = ‖D‖/‖d‖ of states of laws, whichever is more; 0 where the
+    /// results differ by rounding alone.
+    pub fn reach(&self, h: f64) -> f64 {
+        let [coordinates, velocities, laws] = self.0.map(|[apart, rates]| {
+            let squared = h * h * rates / apart;
+            if squared.is_finite() { squared } else { 0.0 }
+        });
+        (coordinates * velocities).max(laws * laws)
     }
 }
 

@@ -90,13 +90,14 @@ impl Rule {
         self.tries += 1 + rejected;
     }
 
-    /// An explicit step was accepted, of (h|λ|)⁴ = `reach`. Whether the implicit method is to be tried.
-    fn is_stiff(&mut self, reach: f64, limit: f64) -> bool {
+    /// An explicit step was accepted, of (h|λ|)⁴ = `reach`, after so many tries that were `rejected`. Whether the implicit method is to be tried. A step
+    /// that had to be shortened was not short enough before: at the corner of a law of friction |λ| changes from step to step.
+    fn is_stiff(&mut self, [reach, limit]: [f64; 2], rejected: u64) -> bool {
         let is_at = |share: f64| {
             let squared = (share * limit) * (share * limit);
             reach >= squared * squared
         };
-        if is_at(AT) {
+        if is_at(AT) || rejected > 0 {
             (self.at_limit, self.calm) = (self.at_limit + 1, 0);
             self.strict += u32::from(is_at(STRICT));
         } else {
@@ -399,7 +400,7 @@ impl<T: Real> Stepper<T> for Switching<'_, T> {
                 longest: self.limit() / self.fastest,
             });
         }
-        if !self.rule.is_stiff(reach, self.limit()) {
+        if !self.rule.is_stiff([reach, self.limit()], rejected) {
             return None;
         }
         self.rule.stride = self.rule.gone / self.rule.tries as f64;

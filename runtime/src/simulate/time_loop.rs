@@ -29,7 +29,7 @@ use super::watch::Watch;
 use super::{Cause, Observer, Pace, Receiver, Report, Settings};
 use crate::failure::Reason;
 use crate::integrate::acceleration::{
-    Accelerations, EndDifference, LawDifference, effect_accelerations, kind,
+    Accelerations, EndDifference, Fastest, effect_accelerations, kind,
 };
 use crate::integrate::control::{Allowed, Basic, Controller, Tolerances, first_step};
 use crate::integrate::workspace::Workspace;
@@ -645,14 +645,15 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
         let of = [span.h, 1.0];
         let epsilon = epsilon_of::<T>();
-        self.fastness = difference.reach(span.h, epsilon);
         // states of laws have no share in accelerations, but may be what bounds the steps
-        let mut laws = LawDifference::default();
-        for i in coordinates + self.info.velocities.len()..self.info.varying_length() {
+        let mut fastest = Fastest::default();
+        for i in 0..self.info.varying_length() {
+            let group = usize::from(i >= coordinates)
+                + usize::from(i >= coordinates + self.info.velocities.len());
             let between = [span.end[i] - self.inside[i], last[i] - near[i]].map(size);
-            laws.add(size(span.end[i]), between);
+            fastest.add(group, size(span.end[i]), between, epsilon);
         }
-        self.fastness = self.fastness.max(laws.reach(span.h, epsilon));
+        self.fastness = fastest.reach(span.h);
         if !self.accelerations.controlled() {
             return 0.0;
         }

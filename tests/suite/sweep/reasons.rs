@@ -223,28 +223,29 @@ fn ellipsoids_that_sink_through_each_other_are_told_in_lanes() {
     }
 }
 
-/// A wheel with such strong damping that explicit steps are bounded by 10⁹ 1/s.
-const CREEPS: &str = "\
-model: creep
+/// A wheel that swings at ω = √(k/J) for ever, so that no method may take longer steps than the motion asks for. With J = 10⁻⁹ kg m² and k = 1000 N m/rad that
+/// is 10⁶ 1/s, and a million steps are over within the run.
+const SWINGS_ON: &str = "\
+model: swing
 dimension: 2
-parameters: { brake: 1 N*m*s }
+parameters: { spring: 1000 N*m/rad }
 systems:
   - name: wheel
     reference: fixed
     elements: [{ name: body, mass: 1, cg: [0, 0], inertia: 1e-9 }]
-    start: { rates: { body: 1 } }
+    start: { rates: { body: 1e3 } }
 forces:
-  - { joint: wheel/body, damping: brake, elastic: { points: [[-1, -1], [1, 1]], extrapolate: linear } }
+  - { joint: wheel/body, stiffness: spring }
 outputs: [{ name: angle, of: joint wheel/body, what: angle }]
-run: { duration: 1 s, every: 0.1 s }
+run: { duration: 10 s, every: 0.1 s }
 ";
 
 #[test]
-fn rows_that_creep_say_what_bounds_their_steps() {
+fn rows_that_swing_fast_say_what_bounds_their_steps() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
-    std::fs::write(at.join("creep.yaml"), CREEPS).unwrap();
-    let study = "model: creep.yaml\ndesign: list\nrows: [{ brake: 1 }, { brake: 1e-9 }]\nresponses: [{ of: angle, what: final }]\n\
+    std::fs::write(at.join("swing.yaml"), SWINGS_ON).unwrap();
+    let study = "model: swing.yaml\ndesign: list\nrows: [{ spring: 1000 }, { spring: 1e-9 }]\nresponses: [{ of: angle, what: final }]\n\
                  tables: [csv]\n";
     std::fs::write(at.join("study.yaml"), study).unwrap();
     let mut tables = Vec::new();
@@ -258,12 +259,12 @@ fn rows_that_creep_say_what_bounds_their_steps() {
             threads,
         ];
         let (stdout, stderr) = call(at, &arguments, 0);
-        let why = "1 because the limit of 1000000 steps is reached, with steps of some 1 ns at the time reached";
+        let why = "1 because the limit of 1000000 steps is reached, with steps of some 100 ns at the time reached";
         assert!(stdout.contains(why), "{stdout}");
-        // λ = c/J
-        let fastest = "the fastest motion reaches about 1000000000 1/s";
-        let force = "most in \"wheel/body.omega\", by \"joint wheel/body: damping\"";
-        let said = stderr.contains("the run with brake = 1 is at t = ");
+        // √(k/J), and steps of 0.1 to 1 of its inverse
+        let fastest = "the fastest motion reaches about 1000000 1/s";
+        let force = "most in \"wheel/body.omega\", by \"joint wheel/body: elastic\"";
+        let said = stderr.contains("the run with spring = 1000 is at t = ");
         assert!(
             said && stderr.contains(fastest) && stderr.contains(force),
             "{stderr}"
@@ -280,14 +281,9 @@ fn rows_that_creep_say_what_bounds_their_steps() {
 fn rows_that_take_too_long_are_given_up_and_run_again() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
-    // λ = c/J: 10⁹ 1/s for one row, and 1 1/s for the other
-    let creeps = CREEPS.replace("inertia: 1e-9", "inertia: 1");
-    std::fs::write(
-        at.join("creep.yaml"),
-        creeps.replace("brake: 1 N*m*s", "brake: 1e9 N*m*s"),
-    )
-    .unwrap();
-    let study = "model: creep.yaml\ndesign: list\nrows: [{ brake: 1 }, { brake: 1e9 }]\nresponses: [{ of: angle, what: final }]\n\
+    // ω of one row is 10⁶ 1/s, that of the other 1 1/s
+    std::fs::write(at.join("swing.yaml"), SWINGS_ON).unwrap();
+    let study = "model: swing.yaml\ndesign: list\nrows: [{ spring: 1e-9 }, { spring: 1000 }]\nresponses: [{ of: angle, what: final }]\n\
                  tables: [csv]\n";
     std::fs::write(at.join("study.yaml"), study).unwrap();
     let sweep = ["sweep", "study.yaml", "--out", "out"];
@@ -305,11 +301,11 @@ fn rows_that_take_too_long_are_given_up_and_run_again() {
         "{stdout}"
     );
     assert!(
-        stderr.contains("the run with brake = 1000000000 is at t = "),
+        stderr.contains("the run with spring = 1000 is at t = "),
         "{stderr}"
     );
     assert!(
-        stderr.contains("by \"joint wheel/body: damping\""),
+        stderr.contains("by \"joint wheel/body: elastic\""),
         "{stderr}"
     );
     assert_eq!(table().words("status"), ["done", "slow"]);
@@ -323,11 +319,11 @@ fn rows_that_take_too_long_are_given_up_and_run_again() {
     // a derivative is given up, too
     let gradient = [
         "gradient",
-        "creep.yaml",
+        "swing.yaml",
         "--of",
         "final angle",
         "--wrt",
-        "brake",
+        "spring",
         "--time-limit",
         "50 ms",
     ];
