@@ -444,6 +444,23 @@ impl CurveInfo {
         (axis(first) && axis(middle) && axis(last)).then(|| middle.chars().next())?
     }
 
+    /// Whether this [angle](CurveKind::HalfTurn) belongs to the same law as a [bearing](CurveKind::Bearing): it leaps where the bearing does, because it is
+    /// not defined there. "bushing m about x" is of "bushing m", "joint man/head about x" of "joint man/head about x, y and z", "joint man/head torsion" of
+    /// "joint man/head".
+    pub(crate) fn leaps_with(&self, bearing: &CurveInfo) -> bool {
+        let owner = |name: &'static str| match name.strip_suffix(" torsion") {
+            Some(owner) => Some(owner),
+            None => name.rsplit_once(" about ").map(|(owner, _)| owner),
+        };
+        let of_bearing = match bearing.is_of_angles() {
+            true => owner(bearing.name),
+            false => Some(bearing.name),
+        };
+        self.kind == CurveKind::HalfTurn
+            && bearing.kind == CurveKind::Bearing
+            && owner(self.name).is_some_and(|owner| of_bearing == Some(owner))
+    }
+
     /// Of a [bearing](CurveKind::Bearing), an angle or a direction of a bushing that leapt, what became of its law.
     pub fn singular(&self) -> &'static str {
         match (self.kind, self.middle()) {

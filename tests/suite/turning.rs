@@ -135,6 +135,48 @@ fn a_torque_that_jumps_at_half_a_turn_is_no_result() {
     }
 }
 
+/// Where the angle about y goes through ±90°, those about x and z leap by half a turn: that is one thing, not three. The same at the middle angle of another
+/// order, and an angle about x alone still goes through ±180° by itself.
+#[test]
+fn what_leaps_with_the_middle_angle_is_told_once() {
+    let directory = directory();
+    let here = directory.path();
+    let law = "x: { stiffness: 0.001 }, y: { damping: 0.001 }, z: { stiffness: 0.001 }";
+    let joint = |rates: &str, law: &str| {
+        format!(
+            "model: joint\ndimension: 3\nsystems:\n  - name: top\n    reference: fixed\n    elements: [{{ name: body, mass: 1, cg: [0, 0, 0], \
+             inertia: [0.01, 0.01, 0.01] }}]\n    start: {{ rates: {{ body: {rates} }} }}\nforces: [{{ joint: top/body, about: {{ {law} }} }}]\n\
+             outputs: [{{ name: w, of: top/body, what: angular_velocity, component: z }}]\nrun: {{ duration: 0.2 s, every: 10 ms }}\n"
+        )
+    };
+    for (scene, told) in [
+        (
+            mount("[0, 10, 0]", law, "x"),
+            "\"bushing m\" is turned through ±90° about y",
+        ),
+        (
+            mount("[0, -10, 0]", law, "x"),
+            "\"bushing m\" is turned through ±90° about y",
+        ),
+        (
+            mount("[20, 0, 0]", law, "x"),
+            "\"bushing m about x\" is turned through ±180°",
+        ),
+        (
+            joint("[0, 10, 0]", law),
+            "\"joint top/body about x, y and z\" is turned through ±90° about y",
+        ),
+        (
+            joint("[0, 0, 20]", law),
+            "\"joint top/body about z\" is turned through ±180°",
+        ),
+    ] {
+        let (_, said) = run(here, &scene, 3);
+        assert!(said.contains(told), "{told}: {said}");
+        assert_eq!(said.matches("is turned through").count(), 1, "{said}");
+    }
+}
+
 /// A joint with coordinates of its own counts turns, a ball joint does not.
 #[test]
 fn joints_that_wrap_say_so() {

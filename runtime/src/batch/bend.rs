@@ -201,7 +201,10 @@ impl<T: Several> Run<'_, T> {
                         apart = curve.half(apart, (middle, self.bends.now[k][i]));
                         halvings += 1;
                     }
-                    if curve.leaps(apart) && self.bends.leapt[i].is_none() {
+                    // a cause counts before what follows from it
+                    let free = self.bends.leapt[i]
+                        .is_none_or(|found| self.info.curves[found].leaps_with(curve));
+                    if free && curve.leaps(apart) {
                         self.bends.leapt[i] = Some(first);
                     }
                 }

@@ -26,6 +26,24 @@ pub fn changed<T: Several>(zero: Zero, before: &[T], after: &[T]) -> T::Mask {
     T::from_f64(0.0).lt(change(zero, before, after))
 }
 
+/// Where a function is not zero where the step begins. One that begins on its zero leaves it at once, or when another function changes its sign: that it
+/// has left is seen when rounding shows it, at a time that means nothing.
+#[inline(always)]
+fn begins_apart<T: Several>(before: T) -> T::Mask {
+    T::Part::from_f64(0.0).lt(before.part(0).abs())
+}
+
+/// [`change`] of those functions that [do not begin on their zeros](begins_apart); −∞ where all do.
+#[inline(always)]
+fn crossing<T: Several>(zero: Zero, before: &[T], values: &[T]) -> T {
+    let never = T::from_f64(f64::NEG_INFINITY);
+    let pairs = before.iter().zip(values);
+    pairs.fold(never, |worst, (before, value)| {
+        let value = opposite(zero, *before, *value);
+        worst.max(T::select(begins_apart(*before), value, never))
+    })
+}
+
 /// The functions of a model whose signs matter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Functions {
@@ -155,26 +173,38 @@ pub fn first_change<T: Several>(
         let behind = T::select(moves, T::of_part(found) - shift, T::of_part(found));
         (behind, moves)
     };
-    let there = probe.change(before, T::of_part(found));
+    let zero = probe.functions.zero();
+    probe.at(T::of_part(found));
+    let real = nought.lt(crossing(zero, before, probe.values).part(0));
+    let worst = |values: &[T]| {
+        let crossing = crossing(zero, before, values);
+        T::select(real, crossing, change(zero, before, values))
+    };
+    let there = worst(probe.values);
     let (mut alone, mut several) = (none, none);
     for (before, value) in before.iter().zip(&*probe.values) {
-        let value = opposite(probe.functions.zero(), *before, *value);
+        let value = opposite(zero, *before, *value);
         let changed = nought.lt(value.part(0)).and(wanted);
+        let changed = changed.and(begins_apart(*before));
         several = several.or(alone.and(changed));
         alone = alone.or(changed);
     }
-    let sides = ends.map(|end| probe.change(before, T::of_part(end)).part(0));
+    let sides = ends.map(|end| {
+        probe.at(T::of_part(end));
+        worst(probe.values).part(0)
+    });
     let (behind, _) = moved(there, sides);
     let mut at_odds = none;
     if several.any() {
         for (i, before) in before.iter().enumerate() {
             let mut alone = |theta: T::Part| {
                 probe.at(T::of_part(theta));
-                opposite(probe.functions.zero(), *before, probe.values[i])
+                opposite(zero, *before, probe.values[i])
             };
             let there = alone(found);
             let (time, moves) = moved(there, ends.map(|end| alone(end).part(0)));
             let counts = several.and(moves).and(nought.lt(there.part(0)));
+            let counts = counts.and(begins_apart(*before));
             at_odds = at_odds.or(Sides::differ(time, behind).and(counts));
         }
     }

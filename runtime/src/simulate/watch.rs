@@ -269,7 +269,7 @@ impl<'a, T: Real> Watch<'a, T> {
         let bearings = self.info.curves.iter().enumerate();
         let flexions = bearings.filter_map(|(bearing, curve)| {
             let since = self.since[bearing].to_f64();
-            if since.is_nan() {
+            if since.is_nan() || self.follows(curve, since) {
                 return None;
             }
             let problem = match curve.kind {
@@ -296,6 +296,12 @@ impl<'a, T: Real> Watch<'a, T> {
                 problem,
                 info: self.info,
             })
+    }
+
+    /// Whether an angle leapt in the step from `since` because the bearing of its law did.
+    fn follows(&self, angle: &CurveInfo, since: f64) -> bool {
+        let mut others = self.info.curves.iter().zip(&*self.since);
+        others.any(|(other, leapt)| leapt.to_f64() == since && angle.leaps_with(other))
     }
 
     /// Notes that a fixed step from `t` passed over an event.

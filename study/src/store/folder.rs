@@ -145,19 +145,24 @@ impl Folder {
     }
 
     /// Reserves the blocks of a shard for this process, or all of the folder; until the result is dropped or the process ends in whatever
-    /// way, because the system keeps such locks. Where the file system has none, nothing is reserved.
+    /// way, because the system keeps such locks. Where the file system has none, nothing is reserved. The file of a shard's lock goes with the lock.
     ///
     /// # Errors
     /// Another process has reserved them.
     pub fn lock(&self, shard: Shard) -> Result<Lock, FolderError> {
         let busy = |_| FolderError::Busy(self.path.clone());
         let whole = shard == Shard::WHOLE;
-        let mut files = locked(&self.path.join("study.json"), !whole).map_err(busy)?;
+        let study = locked(&self.path.join("study.json"), !whole).map_err(busy)?;
+        let mut shards = None;
         if !whole {
             let name = format!("shard-{}.lock", shard.to_string().replace('/', "-of-"));
-            files.extend(locked(&self.path.join("blocks").join(name), false).map_err(busy)?);
+            let path = self.path.join("blocks").join(name);
+            shards = locked(&path, false).map_err(busy)?.map(|file| (path, file));
         }
-        Ok(Lock { _files: files })
+        Ok(Lock {
+            _study: study,
+            shard: shards,
+        })
     }
 
     /// The path of the folder.
@@ -259,29 +264,65 @@ impl Folder {
 /// What a process has reserved; see [`Folder::lock`].
 #[derive(Debug)]
 pub struct Lock {
-    _files: Vec<fs::File>,
+    _study: Option<fs::File>,
+    /// The file of a shard's lock, and its path.
+    shard: Option<(PathBuf, fs::File)>,
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        if let Some((path, _file)) = &self.shard {
+            // it is removed while it is locked; one that remains does no harm
+            let _ = fs::remove_file(path);
+        }
+    }
 }
 
 /// Another process has locked a file.
 struct Locked;
 
-/// The file, locked: alone, or together with others that share it. None where it cannot be written, or cannot be locked.
-fn locked(path: &Path, shared: bool) -> Result<Vec<fs::File>, Locked> {
+/// How often a file is opened anew that was removed before it was locked. Beyond that the file system does not tell files apart.
+const TRIES: usize = 16;
+
+/// The file, locked: alone, or together with others that share it. `None` where it cannot be written, or cannot be locked.
+fn locked(path: &Path, shared: bool) -> Result<Option<fs::File>, Locked> {
     let mut options = fs::OpenOptions::new();
-    let file = options.write(true).create(true).truncate(false).open(path);
-    let Ok(file) = file else {
-        return Ok(Vec::new());
-    };
-    let tried = match shared {
-        true => file.try_lock_shared(),
-        false => file.try_lock(),
-    };
-    match tried {
-        Ok(()) => Ok(vec![file]),
-        Err(fs::TryLockError::WouldBlock) => Err(Locked),
-        // there may be file systems without locks
-        Err(fs::TryLockError::Error(_)) => Ok(Vec::new()),
+    options.write(true).create(true).truncate(false);
+    for _ in 0..TRIES {
+        let Ok(file) = options.open(path) else {
+            return Ok(None);
+        };
+        let tried = match shared {
+            true => file.try_lock_shared(),
+            false => file.try_lock(),
+        };
+        match tried {
+            Ok(()) if is_at(&file, path) => return Ok(Some(file)),
+            // whoever had locked it removed it between our opening and locking it
+            Ok(()) => {}
+            Err(fs::TryLockError::WouldBlock) => return Err(Locked),
+            // there may be file systems without locks
+            Err(fs::TryLockError::Error(_)) => return Ok(None),
+        }
     }
+    Ok(None)
+}
+
+/// Whether a file is the one that a path names.
+#[cfg(unix)]
+fn is_at(file: &fs::File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let one = |found: io::Result<fs::Metadata>| found.ok().map(|of| (of.dev(), of.ino()));
+    match (one(file.metadata()), one(fs::metadata(path))) {
+        (Some(ours), Some(there)) => ours == there,
+        _ => false,
+    }
+}
+
+/// Whether a file is the one that a path names.
+#[cfg(not(unix))]
+fn is_at(_: &fs::File, path: &Path) -> bool {
+    path.exists()
 }
 
 /// The parts of a study that decide about results: the keys of [`Study`] in `study.json`, and their names for a user.

@@ -15,6 +15,7 @@
 //! | numbers that are not finite; steps below the smallest; an inertia that vanishes | `what_grows_without_end_ends`, `an_inertia_that_vanishes_ends_the_run` |
 //! | fixed steps that err by too much | `what_a_stage_alone_meets_is_told`, `steps_that_err_are_told` |
 //! | a balance, a limit of stability, in lanes | `lanes_of_fixed_steps_are_watched_as_single_runs_are` |
+//! | events of the same time, whose times depend on parameters otherwise | `events_that_cannot_be_told_apart_say_so` |
 //! | a check that fails | `src/command/error_report.rs` |
 //! | outputs that differ from a check by more than promised or requested | `outputs_are_as_accurate_as_promised_or_said_not_to_be` |
 //! | a user function that ends the program, panics or does not return | `tests/suite/apart.rs` |
@@ -22,11 +23,11 @@
 use super::called::call;
 use super::sound;
 use bryant::simulation::{Recording, run};
-use bryant_runtime::batch::rows::Job as RowsJob;
+use bryant_runtime::batch::rows::{Asked, Job as RowsJob};
 use bryant_runtime::batch::{self, Doubt, Fixed, Pace, Status};
 use bryant_runtime::program::{ErrorKind, Job};
 use bryant_runtime::simulate::ENERGY_LIMIT;
-use bryant_runtime::{Formula, Method, Width};
+use bryant_runtime::{Formula, Method, Response, Tolerances, Width};
 use std::time::Duration;
 
 /// A ball over a plate with an end, or a spring; the tests exchange parts of it.
@@ -860,6 +861,58 @@ fn a_bag_that_is_pressed_flat_says_so() {
     assert!(matches!(found, Some(Doubt::Left(_))), "{found:?}");
 }
 
+/// A cart of 2 kg that 3 N push from a time that is a parameter until 40 ms.
+const PUSHED: &str = "\
+model: pushed
+dimension: 2
+parameters: { when: 0.02 s }
+systems:
+  - name: a
+    elements: [{ name: cart, mass: 2 kg, cg: [0, 0], inertia: 1 }]
+switches:
+  - { switch: on, when: { time: when } }
+  - { switch: off, when: { time: 0.04 s } }
+forces: [{ load: push, on: a/cart, at: [0, 0], force: [3, 0], since: on, until: off }]
+outputs: [{ name: v, of: a/cart, what: velocity, component: x }]
+run: { duration: 0.1 s, every: 10 ms }
+";
+
+/// Before 40 ms, dv/dT = −F/m; from there on nothing pushes, and T matters no more: at 40 ms there is no derivative.
+#[test]
+fn events_that_cannot_be_told_apart_say_so() {
+    let (model, engine) = sound(PUSHED);
+    let job = RowsJob {
+        settings: batch::Settings {
+            duration: model.run.duration,
+            samples: 2,
+            pace: Pace::Adaptive(Tolerances::of(1e-8)),
+            locate: true,
+            max_steps: 100_000,
+            time_limit: None,
+            energy_limit: ENERGY_LIMIT,
+        },
+        varied: vec![0],
+        fixed: Vec::new(),
+        responses: vec![Asked::of(0, Response::Final)],
+        estimate: false,
+        wanted: f64::INFINITY,
+        width: Width::widest(),
+    };
+    let slope = |when: f64, by: f64| {
+        let found = engine.gradients(&job, &[when], &[by]).expect("it runs");
+        let row = found.rows[0];
+        ((row.status, row.doubt), found.slopes[0])
+    };
+    // to the tolerance
+    let (state, found) = slope(0.02, 1.0);
+    assert_eq!(state, (Status::Done, None));
+    assert!((found + 1.5).abs() < 1e-6, "{found}");
+    let tied = (Status::Doubtful, Some(Doubt::Tied));
+    assert_eq!(slope(0.04, 1.0).0, tied);
+    // nothing is asked of it along no direction
+    assert_eq!(slope(0.04, 0.0).0, (Status::Done, None));
+}
+
 /// The tests of each reason: its enumeration, its name, and the tests with and without it.
 const PAIRS: &[(&str, &str, &[&str])] = &[
     ("Problem", "Step", &["steps_that_are_too_long_are_told"]),
@@ -964,6 +1017,11 @@ const PAIRS: &[(&str, &str, &[&str])] = &[
         "Doubt",
         "Error",
         &["lanes_of_fixed_steps_are_watched_as_single_runs_are"],
+    ),
+    (
+        "Doubt",
+        "Tied",
+        &["events_that_cannot_be_told_apart_say_so"],
     ),
     (
         "ErrorReport",
