@@ -26,21 +26,25 @@ pub fn changed<T: Several>(zero: Zero, before: &[T], after: &[T]) -> T::Mask {
     T::from_f64(0.0).lt(change(zero, before, after))
 }
 
-/// Where a function is not zero where the step begins. One that begins on its zero leaves it at once, or when another function changes its sign: that it
-/// has left is seen when rounding shows it, at a time that means nothing.
+/// Where the time at which a function changes its sign is its own. A kink on whose zero the step begins is left at once, or when another function changes
+/// its sign: that it has been left is seen when rounding shows it, at a time that means nothing.
 #[inline(always)]
-fn begins_apart<T: Several>(before: T) -> T::Mask {
-    T::Part::from_f64(0.0).lt(before.part(0).abs())
+fn begins_apart<T: Several>(zero: Zero, before: T) -> T::Mask {
+    match zero {
+        // a zero counts as positive, so that the change is one
+        Zero::Positive => T::Mask::of_lanes(u32::MAX),
+        Zero::Neither => T::Part::from_f64(0.0).lt(before.part(0).abs()),
+    }
 }
 
-/// [`change`] of those functions that [do not begin on their zeros](begins_apart); −∞ where all do.
+/// [`change`] of those functions whose [time is their own](begins_apart); −∞ where there are none.
 #[inline(always)]
 fn crossing<T: Several>(zero: Zero, before: &[T], values: &[T]) -> T {
     let never = T::from_f64(f64::NEG_INFINITY);
     let pairs = before.iter().zip(values);
     pairs.fold(never, |worst, (before, value)| {
         let value = opposite(zero, *before, *value);
-        worst.max(T::select(begins_apart(*before), value, never))
+        worst.max(T::select(begins_apart(zero, *before), value, never))
     })
 }
 
@@ -185,7 +189,7 @@ pub fn first_change<T: Several>(
     for (before, value) in before.iter().zip(&*probe.values) {
         let value = opposite(zero, *before, *value);
         let changed = nought.lt(value.part(0)).and(wanted);
-        let changed = changed.and(begins_apart(*before));
+        let changed = changed.and(begins_apart(zero, *before));
         several = several.or(alone.and(changed));
         alone = alone.or(changed);
     }
@@ -204,7 +208,7 @@ pub fn first_change<T: Several>(
             let there = alone(found);
             let (time, moves) = moved(there, ends.map(|end| alone(end).part(0)));
             let counts = several.and(moves).and(nought.lt(there.part(0)));
-            let counts = counts.and(begins_apart(*before));
+            let counts = counts.and(begins_apart(zero, *before));
             at_odds = at_odds.or(Sides::differ(time, behind).and(counts));
         }
     }

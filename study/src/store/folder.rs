@@ -22,6 +22,9 @@ pub struct Folder {
     responses: usize,
 }
 
+/// How the names of the files of shards' locks begin and end.
+const LOCK: [&str; 2] = ["shard-", ".lock"];
+
 /// The division of the rows into blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Blocks {
@@ -155,7 +158,8 @@ impl Folder {
         let study = locked(&self.path.join("study.json"), !whole).map_err(busy)?;
         let mut shards = None;
         if !whole {
-            let name = format!("shard-{}.lock", shard.to_string().replace('/', "-of-"));
+            let of = shard.to_string().replace('/', "-of-");
+            let name = [LOCK[0], &of, LOCK[1]].concat();
             let path = self.path.join("blocks").join(name);
             shards = locked(&path, false).map_err(busy)?.map(|file| (path, file));
         }
@@ -226,7 +230,8 @@ impl Folder {
         replace(&path, |out| at(&path, out.write_all(&bytes)))
     }
 
-    /// Removes unfinished files of processes that were ended. No file may be in the process of being written.
+    /// Removes unfinished files and locks of processes that were ended. The whole folder must be [reserved](Folder::lock): no file may be in the process of
+    /// being written.
     ///
     /// # Errors
     /// A folder cannot be read, or a file cannot be removed.
@@ -252,7 +257,10 @@ impl Folder {
                     path: directory.clone(),
                     source,
                 })?;
-                if entry.file_name().to_string_lossy().starts_with(UNFINISHED) {
+                let name = entry.file_name();
+                let name = name.to_string_lossy();
+                let of_lock = name.starts_with(LOCK[0]) && name.ends_with(LOCK[1]);
+                if name.starts_with(UNFINISHED) || of_lock {
                     at(&entry.path(), fs::remove_file(entry.path()))?;
                 }
             }
