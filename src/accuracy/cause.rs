@@ -3,7 +3,7 @@
 //! **Rounding.** A state that changes by a few of its rounding errors changes an output by [`conditioning`](super::conditioning::reach); if the runs are no
 //! further apart than that, rounding explains it. A large coordinate does this: 100 km from the origin, a double tells 0.01 nm apart.
 //!
-//! **Growth.** The run is repeated from a start that differs by a share [`MOVED`] of each entry. What the outputs differ by, over that share, is the factor
+//! **Growth.** The run is repeated from a start that differs by a share `MOVED` of each entry. What the outputs differ by, over that share, is the factor
 //! by which an error grows.
 
 use super::target::{Difference, largest};
