@@ -165,6 +165,7 @@ pub mod dynamics;
 pub mod failure;
 pub mod force;
 pub mod integrate;
+mod leap;
 pub mod model;
 #[cfg(feature = "std")]
 mod patience;

@@ -398,13 +398,6 @@ pub enum CurveKind {
     Edge,
 }
 
-impl CurveKind {
-    /// Whether it has an interval that its argument may leave. Bearings and directions have none; they may leap instead.
-    pub(crate) fn may_be_left(self) -> bool {
-        matches!(self, CurveKind::Curve | CurveKind::Volume | CurveKind::Edge)
-    }
-}
-
 /// A curve at an argument that depends on the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveInfo {
@@ -430,35 +423,13 @@ impl CurveInfo {
         self.name.starts_with("bushing ")
     }
 
-    /// Whether it belongs to the laws about x, y and z of a joint.
-    pub(crate) fn is_of_angles(&self) -> bool {
-        self.middle().is_some()
-    }
-
     /// The middle one of the three turns that the laws of a joint are about. Its name ends with their order: "joint man/head about x, y and z".
-    fn middle(&self) -> Option<char> {
+    pub(crate) fn middle(&self) -> Option<char> {
         let order = self.name.rsplit_once(" about ")?.1;
         let (first, others) = order.split_once(", ")?;
         let (middle, last) = others.split_once(" and ")?;
         let axis = |name: &str| matches!(name, "x" | "y" | "z");
         (axis(first) && axis(middle) && axis(last)).then(|| middle.chars().next())?
-    }
-
-    /// Whether this [angle](CurveKind::HalfTurn) belongs to the same law as a [bearing](CurveKind::Bearing): it leaps where the bearing does, because it is
-    /// not defined there. "bushing m about x" is of "bushing m", "joint man/head about x" of "joint man/head about x, y and z", "joint man/head torsion" of
-    /// "joint man/head".
-    pub(crate) fn leaps_with(&self, bearing: &CurveInfo) -> bool {
-        let owner = |name: &'static str| match name.strip_suffix(" torsion") {
-            Some(owner) => Some(owner),
-            None => name.rsplit_once(" about ").map(|(owner, _)| owner),
-        };
-        let of_bearing = match bearing.is_of_angles() {
-            true => owner(bearing.name),
-            false => Some(bearing.name),
-        };
-        self.kind == CurveKind::HalfTurn
-            && bearing.kind == CurveKind::Bearing
-            && owner(self.name).is_some_and(|owner| of_bearing == Some(owner))
     }
 
     /// Of a [bearing](CurveKind::Bearing), an angle or a direction of a bushing that leapt, what became of its law.
@@ -480,75 +451,6 @@ impl CurveInfo {
                 "is bent through 180°, where flexion has no direction and torsion no angle"
             }
             _ => "is turned through ±90° about y, where the angles about x and z are not defined",
-        }
-    }
-
-    /// Number of pieces of a step in which a bearing or a direction is checked for a leap. Each piece is then halved [`CurveInfo::HALVINGS`] times,
-    /// to a thousandth of the step.
-    pub(crate) const PIECES: u32 = 4;
-    pub(crate) const HALVINGS: u32 = 8;
-
-    /// If a bearing or a direction begins at this entry, the number of its components. `None` for a curve and for the further components of a
-    /// direction.
-    pub(crate) const fn turning(&self, dimension: u8) -> Option<usize> {
-        match self.kind {
-            CurveKind::Bearing | CurveKind::HalfTurn => Some(1),
-            CurveKind::Direction(0) => Some(dimension as usize),
-            CurveKind::Curve | CurveKind::Volume | CurveKind::Edge | CurveKind::Direction(_) => {
-                None
-            }
-        }
-    }
-
-    /// Whether a bearing or a direction leaps between two places of a step, given as (place, components): it turns by more than a quarter turn, or is
-    /// not determined at one of them.
-    pub(crate) fn leaps(&self, places: [(f64, Turning); 2]) -> bool {
-        use core::f64::consts::{FRAC_PI_2, PI};
-        let [a, b] = places.map(|(_, entries)| entries);
-        let there = [a, b].map(|entries| entries[0] < self.last);
-        if self.kind == CurveKind::Bearing {
-            let turned = (a[0] - b[0]).max(b[0] - a[0]);
-            return there == [true; 2] && turned.min(2.0 * PI - turned) > FRAC_PI_2;
-        }
-        match there {
-            both if self.kind == CurveKind::HalfTurn => {
-                both == [true; 2] && (a[0] < 0.0) != (b[0] < 0.0)
-            }
-            [true, true] => dot(a, b) <= 0.0,
-            [true, false] => dot(a, a) < 0.5,
-            [false, true] => dot(b, b) < 0.5,
-            [false, false] => false,
-        }
-    }
-
-    /// Whether a bearing or a direction may have leapt in a step with these components at its ends: it turned by more than a sixteenth of a turn, or
-    /// is determined at only one of them.
-    pub(crate) fn may_leap(&self, [a, b]: [Turning; 2]) -> bool {
-        use core::f64::consts::PI;
-        let there = [a[0] < self.last, b[0] < self.last];
-        if there[0] != there[1] || !there[0] {
-            return there[0] != there[1];
-        }
-        match self.kind {
-            CurveKind::Bearing => {
-                let turned = (a[0] - b[0]).max(b[0] - a[0]);
-                turned.min(2.0 * PI - turned) > PI / 8.0
-            }
-            CurveKind::HalfTurn => (a[0] < 0.0) != (b[0] < 0.0),
-            // cos π/8
-            _ => dot(a, b) < 0.923_879_532_511_286_7,
-        }
-    }
-
-    /// The half in which a bearing or a direction leaps, given that it leaps between `a` and `b`.
-    pub(crate) fn half(
-        &self,
-        [a, b]: [(f64, Turning); 2],
-        middle: (f64, Turning),
-    ) -> [(f64, Turning); 2] {
-        match self.leaps([a, middle]) {
-            true => [a, middle],
-            false => [middle, b],
         }
     }
 
@@ -582,13 +484,6 @@ impl CurveInfo {
     pub fn beyond(&self, argument: f64) -> f64 {
         (self.first - argument).max(argument - self.last).max(0.0)
     }
-}
-
-/// The components of a bearing or a direction; unused ones are 0.
-pub(crate) type Turning = [f64; 3];
-
-fn dot(a: Turning, b: Turning) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// A column of the output table.

@@ -8,7 +8,8 @@
 
 use super::copies;
 use super::run::{Run, Section, each};
-use crate::model::{CurveInfo, Turning};
+use crate::leap::Turning;
+use crate::model::CurveInfo;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::{Info, Real};

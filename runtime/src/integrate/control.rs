@@ -209,7 +209,7 @@ impl Roots<f64> for Basic {
 
 /// √x of a number that is not negative.
 #[inline(always)]
-fn square_root(x: f64) -> f64 {
+pub(super) fn square_root(x: f64) -> f64 {
     #[cfg(feature = "std")]
     return x.sqrt();
     #[cfg(not(feature = "std"))]

@@ -14,6 +14,7 @@
 //! A model without its Jacobian stays with the explicit method.
 
 use super::acceleration::limits;
+use super::control::square_root;
 use super::explicit::Explicit;
 use super::rosenbrock::Rosenbrock;
 use super::tableau::dormand_prince::{Dop853, Dopri5};
@@ -221,7 +222,7 @@ impl<'w, T: Real> Switching<'w, T> {
         let (products, mut before) = (if anew { first } else { later }, f64::NAN);
         for _ in 0..products {
             let size = self.multiply(varying);
-            self.fastest = (before * size).sqrt();
+            self.fastest = square_root(before * size);
             before = size;
         }
         if !self.fastest.is_finite() {

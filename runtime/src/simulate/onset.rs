@@ -228,6 +228,7 @@ impl Search {
     }
 
     /// Where it may be evaluated after that: in the middle of either half, then in the middle of their halves.
+    #[cfg(feature = "std")]
     fn ahead(&self) -> [f64; 6] {
         let half = |a: f64, b: f64| 0.5 * (a + b);
         let (a, b) = (self.left.theta, self.right[self.depth].theta);
@@ -389,10 +390,12 @@ impl Hunt {
     }
 
     /// How many places [`Hunt::ahead`] knows of.
+    #[cfg(feature = "std")]
     pub const AHEAD: usize = 6 + QUARTERS;
 
     /// A place at which a gap may be wanted after the next one, the likeliest first: about the next one, in the middle of the quarters that are
     /// left, for this law or another, and closer about the next one.
+    #[cfg(feature = "std")]
     pub fn ahead(&self, k: usize) -> Option<f64> {
         const NEAREST: usize = 2;
         let search = self.search.as_ref()?;
