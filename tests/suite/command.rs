@@ -27,7 +27,9 @@ mod slopes;
 mod stiff;
 #[cfg(unix)]
 mod streams;
+mod sweep;
 mod tables;
+mod trust;
 mod turning;
 
 use called::{bryant, call, expect};

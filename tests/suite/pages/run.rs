@@ -353,7 +353,7 @@ impl Page<'_> {
     /// A model passes the check, a study its plan.
     fn yaml(&mut self, part: &Part) {
         let at = part.lines.start;
-        // `cargo test -p bryant-generator --test reference` reads the examples of this page
+        // `cargo test -p bryant-generator --test it reference` reads the examples of this page
         if part.mark.get("other").is_some() || self.path == Path::new("docs/reference.md") {
             return;
         }

@@ -1,8 +1,8 @@
 //! The responses of a study agree with those computed here, by their definitions, from the table of `bryant run` with the same parameters.
 
+use super::directory;
+use super::folder::Table;
 use crate::called::call;
-use crate::directory;
-use crate::folder::Table;
 use std::path::Path;
 
 /// The default accuracy of studies.
@@ -147,7 +147,7 @@ fn responses_and_series_are_those_of_a_run() {
 fn errors_are_what_was_aimed_at_and_estimates_tell_of_them() {
     let directory = directory();
     let at = directory.path();
-    let sharp = crate::SEAT.replace("sampling: 0.1 ms", "sampling: 0.1 ms, accuracy: 1e-6");
+    let sharp = super::SEAT.replace("sampling: 0.1 ms", "sampling: 0.1 ms, accuracy: 1e-6");
     std::fs::write(at.join("sharp.yaml"), sharp).unwrap();
     call(at, &["sweep", "seat.yaml", "--out", "results"], 0);
     call(at, &["sweep", "sharp.yaml", "--out", "sharp"], 0);

@@ -1,9 +1,9 @@
 //! Disks that are full and folders that cannot be written: exit code 1, what is stored stays, and the same command goes on from there.
 #![cfg(unix)]
 
+use super::directory;
+use super::folder::{assert_same, files};
 use crate::called::{bryant, call, expect};
-use crate::directory;
-use crate::folder::{assert_same, files};
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::CommandExt;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Models that are not bundled: running them needs no compiler, and merging needs no model.
 
+use super::folder::{Table, assert_same};
 use crate::called::{bryant, call, expect};
-use crate::folder::{Table, assert_same};
 use std::path::Path;
 
 /// A ball under gravity whose initial height is a parameter: z(T) = z₀ + v₀ T − g T²/2 in closed form.

@@ -1,8 +1,8 @@
 //! The same study has the same files, byte by byte: blocks, series, tables, summary and pictures.
 
+use super::directory;
+use super::folder::{Table, assert_same, files};
 use crate::called::{bryant, call};
-use crate::directory;
-use crate::folder::{Table, assert_same, files};
 use bryant_runtime::Width;
 use std::path::Path;
 use std::process::Stdio;
@@ -68,7 +68,7 @@ fn threads_lanes_and_shards_leave_no_trace() {
 fn results_without_fused_multiply_adds_are_not_mixed_in() {
     let directory = directory();
     let at = directory.path();
-    let few = crate::SEAT
+    let few = super::SEAT
         .replace("runs: 160", "runs: 16")
         .replace("117", "11");
     std::fs::write(at.join("few.yaml"), few).unwrap();
@@ -116,7 +116,7 @@ fn blocks(folder: &Path) -> usize {
 fn killed_again_and_again_a_study_loses_nothing() {
     let directory = directory();
     let at = directory.path();
-    let long = crate::SEAT
+    let long = super::SEAT
         .replace("runs: 160", &format!("runs: {}", 16 * BLOCKS))
         .replace("duration: 60 ms", "duration: 51 ms");
     std::fs::write(at.join("long.yaml"), long).unwrap();

@@ -1,14 +1,14 @@
 //! Studies with fixed steps, and in single precision.
 
+use super::directory;
+use super::folder::{Table, assert_same};
 use crate::called::call;
-use crate::directory;
-use crate::folder::{Table, assert_same};
 use bryant_runtime::Width;
 use std::path::Path;
 
 /// Sixteen runs of the seat; `settings` are the last settings of their `run`.
 fn write(at: &Path, name: &str, settings: &str) {
-    let few = crate::SEAT
+    let few = super::SEAT
         .replace("runs: 160", "runs: 16")
         .replace("117", "11")
         .replace("sampling: 0.1 ms", &format!("sampling: 0.1 ms, {settings}"));

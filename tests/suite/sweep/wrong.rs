@@ -1,16 +1,16 @@
 //! Invalid studies, folders and options: exit code 2, and a message with the place and a remedy.
 
+use super::directory;
+use super::folder::files;
 use crate::called::{bryant, call, expect};
-use crate::directory;
-use crate::folder::files;
 
 /// A change of the study, and the expected words of the message.
 #[track_caller]
 fn refused(from: &str, to: &str, says: &[&str]) {
     let directory = directory();
     let at = directory.path();
-    assert!(crate::SEAT.contains(from));
-    std::fs::write(at.join("wrong.yaml"), crate::SEAT.replacen(from, to, 1)).unwrap();
+    assert!(super::SEAT.contains(from));
+    std::fs::write(at.join("wrong.yaml"), super::SEAT.replacen(from, to, 1)).unwrap();
     let (_, said) = call(at, &["sweep", "wrong.yaml", "--out", "results"], 2);
     for word in says {
         assert!(said.contains(word), "no \"{word}\" in: {said}");
@@ -186,7 +186,7 @@ fn results_of_another_study_are_not_mixed() {
     let before = files(&at.join("results"));
     std::fs::write(
         at.join("other.yaml"),
-        crate::SEAT.replace("seed: 3", "seed: 4"),
+        super::SEAT.replace("seed: 3", "seed: 4"),
     )
     .unwrap();
     let (_, said) = call(at, &["sweep", "other.yaml", "--out", "results"], 2);

@@ -20,8 +20,8 @@
 //! | outputs that differ from a check by more than promised or requested | `outputs_are_as_accurate_as_promised_or_said_not_to_be` |
 //! | a user function that ends the program, panics or does not return | `tests/suite/apart.rs` |
 
-use super::called::call;
 use super::sound;
+use crate::called::call;
 use bryant::simulation::{Recording, run};
 use bryant_runtime::batch::rows::{Asked, Job as RowsJob};
 use bryant_runtime::batch::{self, Doubt, Fixed, Pace, Status};
@@ -1085,7 +1085,7 @@ fn every_reason_has_a_scene_that_trips_it_and_one_that_does_not() {
         source!("runtime/src/simulate/tests.rs"),
         source!("runtime/src/program/mod.rs"),
         source!("src/command/error_report.rs"),
-        source!("engine/tests/onset.rs"),
+        source!("engine/tests/it/onset.rs"),
     ];
     for (name, reason, pair) in PAIRS {
         for test in *pair {

@@ -1,6 +1,6 @@
 //! Over double-doubles, every method of every bundled model has the bits of the generated Rust.
 
-use crate::common::{self, Single};
+use super::common::{self, Single};
 use bryant_runtime::{DoubleDouble, Model};
 
 /// Compares one model.

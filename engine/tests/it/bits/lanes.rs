@@ -1,6 +1,6 @@
 //! Over lanes of every width that the processor has, every method of every bundled model has the bits of the generated Rust.
 
-use crate::common::{self, InLanes};
+use super::common::{self, InLanes};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::{Model, Several, Width};
 use std::marker::PhantomData;

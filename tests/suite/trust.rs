@@ -1,8 +1,6 @@
 //! Trust in runs: values that no law can have are refused, all other values give finite results, each law is that of its page, and a run is
 //! doubted only if there is a reason.
 
-#[path = "../called.rs"]
-mod called;
 mod combined;
 mod doubts;
 mod mounts;

@@ -1,6 +1,6 @@
 //! Over doubles, every method of every bundled model has the bits of the generated Rust.
 
-use crate::common::{self, Bits, Single, engine};
+use super::common::{self, Bits, Single, engine};
 use bryant_engine::Engine;
 use bryant_runtime::{Differentiable, Dynamics, Model, ParameterSet};
 

@@ -5,7 +5,7 @@ use bryant_generator::model::read_str;
 use std::io;
 use std::path::Path;
 
-const PAGE: &str = include_str!("../../docs/reference.md");
+const PAGE: &str = include_str!("../../../docs/reference.md");
 
 /// Keys and defaults in the tables that begin with `| key |`, by the heading above each table.
 fn documented() -> Vec<(String, Vec<(String, String)>)> {

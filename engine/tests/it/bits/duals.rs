@@ -1,7 +1,7 @@
 //! Over dual numbers, every method of every bundled model has the bits of the generated Rust. Over dual numbers of lanes, it has the bits
 //! of the interpreter.
 
-use crate::common::{self, InLanes, Single, compare, engine};
+use super::common::{self, InLanes, Single, compare, engine};
 use bryant_engine::Engine;
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::{Dual, Model, Several, Width};

@@ -3,8 +3,7 @@
 //!
 //! The program is its own child process: if a folder is in its environment, it runs the study there, slowly.
 
-mod common;
-
+use crate::common::{Closed, ishigami, open, study};
 use bryant_study::engine::{Engine, EngineError, Outcomes, Series, Worker};
 use bryant_study::hash;
 use bryant_study::results::Results;
@@ -12,7 +11,6 @@ use bryant_study::run::run;
 use bryant_study::shard::Shard;
 use bryant_study::study::Study;
 use bryant_study::table::merge;
-use common::{Closed, ishigami, open, study};
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -42,7 +40,8 @@ impl Worker for Slow {
     }
 }
 
-fn main() {
+#[test]
+fn no_row_is_lost() {
     let study = study("design: latin hypercube\nruns: 20000\nseed: 9\ntables: [csv, parquet]");
     match std::env::var_os(FOLDER) {
         Some(folder) => child(&study, Path::new(&folder)),
@@ -72,6 +71,7 @@ fn killed_studies_lose_nothing(study: &Study) {
     let mut interrupted = 0;
     for attempt in 0..KILLS {
         let mut child = Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", "killed::no_row_is_lost"])
             .env(FOLDER, folder.path())
             .spawn()
             .unwrap();

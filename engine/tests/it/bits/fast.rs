@@ -1,6 +1,6 @@
 //! Over doubles with a fast sine, every method of every bundled model has the bits of the generated Rust.
 
-use crate::common::{self, Single};
+use super::common::{self, Single};
 use bryant_runtime::{Fast, Model};
 
 /// Compares one model.

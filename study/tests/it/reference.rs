@@ -7,7 +7,7 @@ use bryant_study::file::{KEYS, StudyFile};
 use bryant_study::response;
 use std::path::Path;
 
-const PAGE: &str = include_str!("../../docs/studies.md");
+const PAGE: &str = include_str!("../../../docs/studies.md");
 
 fn facts() -> ModelFacts {
     let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/child-seat.yaml");

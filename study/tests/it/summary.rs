@@ -1,7 +1,6 @@
 //! Summaries compared with closed forms.
 
-mod common;
-
+use crate::common::{Closed, Formula, ishigami, open, study, with};
 use bryant_picture::Format;
 use bryant_study::report::report;
 use bryant_study::results::Results;
@@ -10,7 +9,6 @@ use bryant_study::shard::Shard;
 use bryant_study::study::Study;
 use bryant_study::summary::index::{Estimate, Method, Sensitivity};
 use bryant_study::summary::{About, summarize};
-use common::{Closed, Formula, ishigami, open, study, with};
 use std::f64::consts::PI;
 
 /// The numbers about both responses.

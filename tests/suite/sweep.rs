@@ -11,9 +11,6 @@
 //! | `wrong` | studies, folders and options that make no sense |
 //! | `fails` | disks that are full, folders that cannot be written |
 
-#[path = "../called.rs"]
-mod called;
-
 mod agrees;
 mod fails;
 mod folder;

@@ -1,9 +1,7 @@
 //! Runs of whole studies: the same bytes however they are run, and messages if they cannot be run.
 
-mod common;
-#[path = "common/parquet.rs"]
-mod parquet;
-
+use crate::common::parquet::Cell;
+use crate::common::{Closed, NO_WAY, ishigami, open, program, study};
 use bryant_study::engine::{Engine, EngineError, Outcomes, Series, Worker};
 use bryant_study::results::{Results, ResultsError};
 use bryant_study::run::{Progress, Report, RunError, run};
@@ -12,8 +10,6 @@ use bryant_study::store::part::PartError;
 use bryant_study::store::{Folder, FolderError};
 use bryant_study::study::Study;
 use bryant_study::table::{TableError, merge};
-use common::{Closed, NO_WAY, ishigami, open, program, study};
-use parquet::Cell;
 use std::path::Path;
 use std::sync::Mutex;
 

@@ -1,5 +1,7 @@
 //! Engines that evaluate formulas, and studies of them.
 
+pub mod parquet;
+
 use bryant_study::engine::{Engine, EngineError, Outcome, Outcomes, Series, Status, Worker};
 use bryant_study::facts::{ModelFacts, OutputFact, ParameterFact};
 use bryant_study::file::StudyFile;

@@ -1,0 +1,16 @@
+//! The engine as its users call it, in one program, so that it is linked once.
+
+mod accelerations;
+mod bits;
+mod c;
+mod corner;
+mod fixed_steps;
+mod joint_laws;
+mod joints;
+mod mirror;
+mod onset;
+mod outputs;
+mod riding;
+mod rows_again;
+mod stops;
+mod waiting;

@@ -1,0 +1,14 @@
+//! The generator as its users call it, in one program, so that it is linked once.
+
+mod config;
+mod effects;
+mod emission;
+mod joined;
+mod joints;
+mod language;
+mod malformed;
+mod parameters;
+mod reference;
+mod short;
+mod urdf;
+mod user;
