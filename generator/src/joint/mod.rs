@@ -34,7 +34,7 @@
 //! It takes a file such as `screw.rs`, and here its `mod` and its line in `kinds!`. No other code asks for the kind of a degree of freedom. The
 //! description language takes its keys from the file, and the model its numbers; the equations, the frames of links and the pictures take its turn
 //! and its advance. Without these three there are no screws, and their keys are unknown. Pages and tests stand elsewhere: `docs/reference.md`,
-//! `docs/joints.md`, `generator/tests/joints.rs`, `dynamics/link/tests.rs`.
+//! `docs/joints.md`, `generator/tests/it/joints.rs`, `dynamics/link/tests.rs`.
 
 pub(crate) mod ball;
 mod coordinate;
