@@ -22,6 +22,7 @@ mod reports;
 mod responses;
 mod resting;
 mod scenes;
+mod share;
 mod slipping;
 mod slopes;
 mod stiff;

@@ -1,22 +1,18 @@
-//! The bits of engines: every method of every bundled model over every scalar, compared with the generated Rust.
+//! The bits of engines: three ways to evaluate a model give the same bits in every method.
 //!
-//! | file | over |
+//! | file | compares |
 //! |---|---|
-//! | `doubles` | doubles, with the Jacobian |
-//! | `singles` | singles |
-//! | `fast` | doubles with a fast sine |
-//! | `double_doubles` | double-doubles |
-//! | `duals` | dual numbers |
-//! | `lanes` | lanes of every width |
-//! | `scenes` | scenes of real size, which have no generated Rust: machine code and interpreter |
+//! | `compiled` | generated Rust of every bundled model with machine code, over doubles with the Jacobian; of one model over lanes |
+//! | `machine` | machine code of every bundled model with the interpreter, over every scalar that has machine code |
+//! | `scenes` | machine code of scenes of real size with the interpreter |
+//!
+//! The text of generated Rust is the same for every scalar, so compiling it for one scalar tests all of it. With `--cfg bryant_nightly` it is compared over
+//! every scalar (`every`): the compiler takes minutes for that.
 
-#[macro_use]
 mod common;
 
-mod double_doubles;
-mod doubles;
-mod duals;
-mod fast;
-mod lanes;
+mod compiled;
+#[cfg(bryant_nightly)]
+mod every;
+mod machine;
 mod scenes;
-mod singles;

@@ -1,5 +1,6 @@
 //! Joints with freedoms of their own: the equations against Lagrange's, against each other, and against closed forms.
 
+use crate::share::share;
 use bryant_generator::dynamics::lagrange::lagrange;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
@@ -232,22 +233,25 @@ fn check(text: &str, states: usize) {
 
 #[test]
 fn every_joint_on_every_other_in_space() {
+    let mut texts = Vec::new();
     for coordinates in ["bryant", "quaternion"] {
         for (i, first) in IN_SPACE.iter().enumerate() {
             for (j, second) in IN_SPACE.iter().enumerate() {
                 let other = IN_SPACE[(i + 3 * j + 1) % IN_SPACE.len()];
                 let reference = if (i + j) % 2 == 0 { "free" } else { "fixed" };
-                check(
-                    &tree(3, coordinates, reference, ["ball", first, second, other]),
-                    2,
-                );
+                let joints = ["ball", first, second, other];
+                texts.push(tree(3, coordinates, reference, joints));
             }
         }
+    }
+    for text in share(5, texts) {
+        check(&text, 2);
     }
 }
 
 #[test]
 fn every_joint_as_root_in_space() {
+    let mut texts = Vec::new();
     for coordinates in ["bryant", "quaternion"] {
         for (i, first) in IN_SPACE.iter().enumerate() {
             for reference in ["fixed", "free"] {
@@ -259,23 +263,20 @@ fn every_joint_as_root_in_space() {
                     assert!(refused(&text).contains("without any inertia"), "{text}");
                     continue;
                 }
-                check(
-                    &tree(
-                        3,
-                        coordinates,
-                        reference,
-                        [first, next(3), next(5), next(8)],
-                    ),
-                    3,
-                );
+                let joints = [first, next(3), next(5), next(8)];
+                texts.push(tree(3, coordinates, reference, joints));
             }
         }
+    }
+    for text in share(2, texts) {
+        check(&text, 3);
     }
 }
 
 #[test]
 fn every_joint_on_every_other_in_the_plane() {
     let count = IN_PLANE.len();
+    let mut texts = Vec::new();
     for (i, root) in IN_PLANE.into_iter().enumerate() {
         for (j, first) in IN_PLANE.into_iter().enumerate() {
             // every pair of the three occurs
@@ -285,14 +286,15 @@ fn every_joint_on_every_other_in_the_plane() {
                     let twice = reference == "free"
                         && !matches!(root, "weld" | "hinge" | "{ hinge: -y, zero: 0.3 }");
                     if !twice {
-                        check(
-                            &tree(2, "", reference, [root, first, second, "{ hinge: y }"]),
-                            2,
-                        );
+                        let joints = [root, first, second, "{ hinge: y }"];
+                        texts.push(tree(2, "", reference, joints));
                     }
                 }
             }
         }
+    }
+    for text in share(5, texts) {
+        check(&text, 2);
     }
 }
 
@@ -311,39 +313,36 @@ fn freedoms_that_follow_others_and_rotors_in_space() {
         "{ slider: [0.3, 1, -1], armature: 0.6",
         "{ screw: z, pitch: -0.3",
     ];
+    let mut texts = Vec::new();
     for (i, leader) in leaders.into_iter().enumerate() {
         for (j, follower) in followers.into_iter().enumerate() {
             for (reference, root) in [("free", "ball"), ("fixed", "{ hinge: y }")] {
                 for coordinates in ["bryant", "quaternion"] {
                     let other = leaders[(i + j) % 3];
-                    // outboard of the leader; beside it; inboard of it; two followers of one leader, in a chain of followers
-                    for joints in [
-                        [root, leader, &follows(follower, "a"), other],
-                        [root, leader, other, &follows(follower, "b")],
-                        [root, &follows(follower, "b"), leader, other],
-                        [
-                            root,
-                            leader,
-                            &follows(follower, "c"),
-                            &follows(follower, "a"),
-                        ],
-                        [root, &follows(follower, "c"), "ball", leader],
-                    ] {
-                        check(&tree(3, coordinates, reference, joints), 2);
-                    }
+                    let [of_a, of_b, of_c] = ["a", "b", "c"].map(|led| follows(follower, led));
                     // within a list, and from one list to another
                     let list = format!(
                         "[{{ slider: y, name: p }}, {}, {{ hinge: x, name: r }}]",
                         follows(follower, "b, freedom: angle").replacen("{ ", "{ name: q, ", 1)
                     );
                     let led = "[{ hinge: z, armature: 0.2, name: angle }, { slider: x, follows: { joint: b, freedom: angle, ratio: 0.4 } }]";
-                    check(
-                        &tree(3, coordinates, reference, [root, &list, led, leader]),
-                        2,
-                    );
+                    // outboard of the leader; beside it; inboard of it; two followers of one leader, in a chain of followers
+                    for joints in [
+                        [root, leader, &of_a, other],
+                        [root, leader, other, &of_b],
+                        [root, &of_b, leader, other],
+                        [root, leader, &of_c, &of_a],
+                        [root, &of_c, "ball", leader],
+                        [root, &list, led, leader],
+                    ] {
+                        texts.push(tree(3, coordinates, reference, joints));
+                    }
                 }
             }
         }
+    }
+    for text in share(5, texts) {
+        check(&text, 2);
     }
 }
 

@@ -9,6 +9,8 @@ mod language;
 mod malformed;
 mod parameters;
 mod reference;
+#[path = "../../../tests/suite/share.rs"]
+mod share;
 mod short;
 mod urdf;
 mod user;

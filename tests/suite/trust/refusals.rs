@@ -2,6 +2,7 @@
 //! gradients: what is refused of one is refused of the others, in the same words, and what is not refused gives finite results or says that it cannot.
 
 use super::{read, run, sound};
+use crate::share::share;
 use bryant::accuracy::check::{self as accuracy, Verdict};
 use bryant::equations::Engine;
 use bryant::simulation::Recording;
@@ -14,6 +15,7 @@ use bryant_runtime::simulate::ENERGY_LIMIT;
 use bryant_runtime::{Response, Tolerances, Width};
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const HEAD: &str = "
 curves:
@@ -507,25 +509,29 @@ fn trusted(engine: &Engine, parameters: &[(&str, f64)]) -> Option<Recording> {
     (close && run.recording.doubts.is_empty()).then_some(run.recording)
 }
 
-/// Everything about one number at one value.
-fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> {
+/// Everything about one number at each value.
+fn checked(scene: &str, path: &str, default: &str) -> Vec<String> {
+    let parameters = format!("parameters: {{ p: {default} }}\n");
+    let (_, varied) = sound(&text(scene, path, "p", &parameters));
+    let values = VALUES.iter();
+    values
+        .filter_map(|value| check(scene, path, default, value, &varied))
+        .collect()
+}
+
+/// Everything about one number at one value, given the engine in which it is a parameter.
+fn check(scene: &str, path: &str, default: &str, value: &str, varied: &Engine) -> Option<String> {
     let constant = read(&text(scene, path, value, ""));
-    let (_, varied) = sound(&text(
-        scene,
-        path,
-        "p",
-        &format!("parameters: {{ p: {default} }}\n"),
-    ));
     let number: f64 = value.parse().expect("a value is a number");
     let key = path.rsplit('.').next().unwrap_or(path);
-    let given = run(&varied, &[("p", number)]);
+    let given = run(varied, &[("p", number)]);
     let refused = match &given.result {
         Err(error) if error.kind == ErrorKind::Job => Some(error.message.clone()),
         _ => None,
     };
     let fault = |what: String| Some(format!("{path} = {value}: {what}"));
     let usual: f64 = default.parse().expect("a default is a number");
-    let row = match in_rows(&varied, [usual, number], refused.as_deref()) {
+    let row = match in_rows(varied, [usual, number], refused.as_deref()) {
         Ok(row) => row,
         Err(what) => return fault(what),
     };
@@ -566,7 +572,7 @@ fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> 
             }
             if differ(&fixed, &given).is_some() {
                 // a run alone is as accurate as its tolerance allows; what is promised is said of a run with its check
-                let both = (trusted(&engine, &[]), trusted(&varied, &[("p", number)]));
+                let both = (trusted(&engine, &[]), trusted(varied, &[("p", number)]));
                 if let (Some(fixed), Some(given)) = both
                     && let Some(apart) = differ(&fixed, &given)
                 {
@@ -585,7 +591,7 @@ fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> 
             };
             // one that is far off is run again in a study, or says that it is not accurate
             let off = row.filter(|row| apart(row) > 2e-2);
-            let off = off.and_then(|_| accurate(&varied, number));
+            let off = off.and_then(|_| accurate(varied, number));
             if let Some(off) = off.map(|row| apart(&row)).filter(|off| *off > 2e-2) {
                 return fault(format!("the row is off by {off} of the output"));
             }
@@ -594,16 +600,31 @@ fn check(scene: &str, path: &str, default: &str, value: &str) -> Option<String> 
     }
 }
 
+/// The faults that a check finds in a share of all numbers. Two numbers are checked at a time.
+fn faults(of: usize, check: impl Fn(&str, &str, &str) -> Vec<String> + Sync) -> Vec<String> {
+    let all = SCENES.into_iter().flat_map(|scene| {
+        let numbers = tokens(scene).into_iter();
+        numbers.map(move |(path, default)| (scene, path, default))
+    });
+    let numbers = share(of, all);
+    let next = AtomicUsize::new(0);
+    let some = || {
+        let mut found = Vec::new();
+        while let Some((scene, path, default)) = numbers.get(next.fetch_add(1, Ordering::Relaxed)) {
+            found.extend(check(scene, path, default));
+        }
+        found
+    };
+    std::thread::scope(|scope| {
+        let threads = [(); 2].map(|()| scope.spawn(some));
+        let found = threads.map(|thread| thread.join().expect("no check panics"));
+        found.concat()
+    })
+}
+
 #[test]
 fn a_parameter_is_refused_where_the_constant_is() {
-    let mut faults = Vec::new();
-    for scene in SCENES {
-        for (path, default) in tokens(scene) {
-            for value in VALUES {
-                faults.extend(check(scene, path, default, value));
-            }
-        }
-    }
+    let faults = faults(4, checked);
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
@@ -642,19 +663,22 @@ fn no_number_of_a_law_is_forgotten() {
 
 #[test]
 fn infinite_parameters_are_refused() {
-    for scene in SCENES {
-        for (path, default) in tokens(scene) {
-            let parameters = format!("parameters: {{ p: {default} }}\n");
-            let (_, engine) = sound(&text(scene, path, "p", &parameters));
-            for value in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
-                let error = run(&engine, &[("p", value)]).result.unwrap_err();
-                assert_eq!(error.kind, ErrorKind::Job, "{path}: {error:?}");
-                let usual = default.parse().expect("a default is a number");
-                let row = in_rows(&engine, [usual, value], Some(&error.message));
-                assert_eq!(row, Ok(None), "{path} = {value}");
-            }
-        }
-    }
+    let faults = faults(4, |scene, path, default| {
+        let parameters = format!("parameters: {{ p: {default} }}\n");
+        let (_, engine) = sound(&text(scene, path, "p", &parameters));
+        let values = [f64::INFINITY, f64::NEG_INFINITY, f64::NAN].into_iter();
+        let fault = |value: f64| {
+            let error = match run(&engine, &[("p", value)]).result {
+                Err(error) if error.kind == ErrorKind::Job => error,
+                other => return Some(format!("{path} = {value}: {other:?}")),
+            };
+            let usual = default.parse().expect("a default is a number");
+            let row = in_rows(&engine, [usual, value], Some(&error.message));
+            (row != Ok(None)).then(|| format!("{path} = {value}: {row:?}"))
+        };
+        values.filter_map(fault).collect()
+    });
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 #[test]

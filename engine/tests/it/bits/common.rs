@@ -478,34 +478,3 @@ pub fn check<M: Model<f64>, T: Real, O: Of<T>>(name: &str) {
     let mut expected = family.over::<T>();
     compare::<T, O>(&mut *expected, &mut engine.interpreted::<T>());
 }
-
-/// Makes a test for each bundled model: `models!(f)` calls `f::<Mechanism>(name)`.
-macro_rules! models {
-    ($check:ident: $($module:ident $name:literal;)*) => {
-        $(
-            #[test]
-            fn $module() {
-                $check::<bryant_generated::$module::Mechanism<f64>>($name);
-            }
-        )*
-
-        #[test]
-        fn every_bundled_model_is_compared() {
-            let names = [$($name),*];
-            for model in bryant_generated::MODELS {
-                assert!(names.contains(&model.entry.info.name), "{}", model.entry.info.name);
-            }
-        }
-    };
-    ($check:ident) => {
-        models! {
-            $check:
-            child_seat "child-seat";
-            dummy15 "dummy15";
-            elbow "elbow";
-            robot_arm "robot-arm";
-            skydiver "skydiver";
-            sled_pendulum "sled-pendulum";
-        }
-    };
-}
