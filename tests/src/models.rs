@@ -15,24 +15,36 @@ macro_rules! models {
             #[doc = concat!("`models/", $lawful_file, ".yaml`")]
             pub mod $lawful {
                 bryant_runtime::include_model!($lawful_file);
+                use bryant_runtime::program::Entry;
+                /// The model without its Jacobian.
+                pub static ENTRY: Entry = Entry::without_jacobian::<Mechanism<f64>>();
             }
         )*
         $(
             #[doc = concat!("`models/", $timed_file, ".yaml`")]
             pub mod $timed {
                 bryant_runtime::include_model!($timed_file);
+                use bryant_runtime::program::Entry;
+                /// The model without its Jacobian.
+                pub static ENTRY: Entry = Entry::without_jacobian::<Mechanism<f64>>();
             }
         )*
         $(
             #[doc = concat!("`models/", $charted_file, ".yaml`")]
             pub mod $charted {
                 bryant_runtime::include_model!($charted_file);
+                use bryant_runtime::program::Entry;
+                /// The model without its Jacobian.
+                pub static ENTRY: Entry = Entry::without_jacobian::<Mechanism<f64>>();
             }
         )*
         $(
             #[doc = concat!("`models/", $file, ".yaml`")]
             pub mod $module {
                 bryant_runtime::include_model!($file);
+                use bryant_runtime::program::Entry;
+                /// The model without its Jacobian.
+                pub static ENTRY: Entry = Entry::without_jacobian::<Mechanism<f64>>();
             }
         )*
         $(

@@ -335,7 +335,7 @@ fn bundled_models_compute_what_their_equations_say() {
         // r_k also takes the states of force laws
         Compiled {
             path: "../models/elbow.yaml",
-            entry: Entry::of::<bundled::elbow::Mechanism<f64>>(),
+            entry: bundled::find("elbow").expect("it is bundled").entry,
             matrices: None,
         },
     ];
@@ -365,7 +365,9 @@ fn test_models_compute_what_their_equations_say() {
 #[test]
 fn single_precision_computes_the_same_to_its_own_rounding() {
     use bryant_generated::dummy15::Mechanism;
-    let entry = Entry::of::<Mechanism<f64>>();
+    let entry = bryant_generated::find("dummy15")
+        .expect("it is bundled")
+        .entry;
     let compiled = bryant_tests::compiled!("../models/dummy15.yaml", bryant_generated::dummy15);
     let model = compiled.model();
     let equations = derive_with(

@@ -3,7 +3,6 @@
 //! The error of a run is bounded as in `laws`: steps · tolerance · max(ω, 1).
 
 use crate::laws::{G, TOLERANCE, close, integration, last};
-use bryant_runtime::program::Entry;
 use bryant_tests::models;
 use bryant_tests::runs::{Recording, run, run_for};
 
@@ -13,7 +12,7 @@ fn largest(column: &[f64]) -> f64 {
 
 #[test]
 fn a_dent_stays_and_takes_its_part_of_the_energy() {
-    let entry = Entry::of::<models::plastic_bounce::Mechanism<f64>>();
+    let entry = models::plastic_bounce::ENTRY;
     let (mass, speed) = (1.0, 1.0);
     for (k1, k2) in [(1e4, 1e4), (1e4, 4e4), (2e4, 2e5), (1e4, 1e6)] {
         let run = run(
@@ -48,7 +47,7 @@ fn a_dent_stays_and_takes_its_part_of_the_energy() {
 
 #[test]
 fn a_cushion_gives_back_the_energy_under_its_lower_curve() {
-    let entry = Entry::of::<models::plastic_bounce::Mechanism<f64>>();
+    let entry = models::plastic_bounce::ENTRY;
     let (mass, speed) = (1.0, 1.0);
     for (k1, ku, s) in [(1e4, 4e3, 4e4), (1e4, 0.0, 1e5), (1e4, 9e3, 1e6)] {
         let run = run(
@@ -104,7 +103,7 @@ impl History<'_> {
 
 #[test]
 fn loops_of_any_depth_close() {
-    let entry = Entry::of::<models::press::Mechanism<f64>>();
+    let entry = models::press::ENTRY;
     let run = run(&entry, &[], TOLERANCE);
     let line = |points: &'static [[f64; 2]]| {
         move |x: f64| {
@@ -184,7 +183,7 @@ fn work(run: &Recording, penetration: &str, force: &str) -> f64 {
 fn damping_that_fades_in_takes_what_hunt_and_crossley_say() {
     // While the damping fades in, the force is k δ + λ δ δ̇ with λ = d/depth: m v dv/dδ = −δ (k + λ v), so v/λ − k/λ² ln(1 + λ v/k) is the
     // same at the first touch and at the last.
-    let entry = Entry::of::<models::bounce::Mechanism<f64>>();
+    let entry = models::bounce::ENTRY;
     let (stiffness, mass, speed) = (1e4f64, 1.0, 1.0);
     for (damping, depth) in [(20.0, 0.02), (200.0, 0.02), (200.0, 0.5)] {
         let run = run(
@@ -230,7 +229,7 @@ fn downhill(run: &Recording, slope: f64) -> Vec<f64> {
 
 #[test]
 fn a_block_holds_on_a_slope() {
-    let entry = Entry::of::<models::incline::Mechanism<f64>>();
+    let entry = models::incline::ENTRY;
     for (degrees, mu, displacement, duration) in [
         (15.0f64, 0.4, 1e-4, 10.0),
         (15.0, 0.27, 1e-4, 10.0),
@@ -264,7 +263,7 @@ fn a_block_holds_on_a_slope() {
 
 #[test]
 fn a_block_slides_where_the_slope_exceeds_the_friction_angle() {
-    let entry = Entry::of::<models::incline::Mechanism<f64>>();
+    let entry = models::incline::ENTRY;
     for (degrees, mu) in [(30.0f64, 0.4), (22.0, 0.4), (45.0, 0.9)] {
         let slope = degrees.to_radians();
         let run = run(&entry, &[("slope", slope), ("mu", mu)], TOLERANCE);
@@ -285,7 +284,7 @@ fn a_block_slides_where_the_slope_exceeds_the_friction_angle() {
 
 #[test]
 fn a_sliding_block_stops_and_springs_back_by_its_bristle() {
-    let entry = Entry::of::<models::incline::Mechanism<f64>>();
+    let entry = models::incline::ENTRY;
     for (speed, mu, displacement) in [(2.0, 0.4, 1e-4), (2.0, 0.2, 3e-4), (1.0, 0.1, 1e-3)] {
         let parameters = [
             ("slope", 0.0),
@@ -321,7 +320,7 @@ fn a_sliding_block_stops_and_springs_back_by_its_bristle() {
 
 #[test]
 fn friction_that_holds_knows_no_direction() {
-    let entry = Entry::of::<models::incline_space::Mechanism<f64>>();
+    let entry = models::incline_space::ENTRY;
     let (slope, mu, displacement) = (15f64.to_radians(), 0.4, 1e-4);
     for azimuth in [0.0, 30f64, 135.0, -77.0].map(f64::to_radians) {
         let parameters = [("slope", slope), ("azimuth", azimuth)];
@@ -359,7 +358,7 @@ fn friction_that_holds_knows_no_direction() {
 
 #[test]
 fn a_ball_falls_freely_from_an_edge_that_cuts() {
-    let entry = Entry::of::<models::edge::Mechanism<f64>>();
+    let entry = models::edge::ENTRY;
     let run = run(&entry, &[], TOLERANCE);
     let (x, z, force) = (
         run.column("cut x"),
@@ -398,7 +397,7 @@ fn smooth(x: f64) -> f64 {
 
 #[test]
 fn an_edge_that_fades_keeps_the_energy_of_a_ball() {
-    let entry = Entry::of::<models::edge::Mechanism<f64>>();
+    let entry = models::edge::ENTRY;
     for width in [5e-3, 20e-3, 90e-3] {
         let run = run(&entry, &[("width", width)], TOLERANCE);
         let columns = ["x", "z", "vx", "vz"].map(|name| run.column(&format!("fade {name}")));
@@ -503,7 +502,7 @@ fn furthest(
 
 #[test]
 fn a_fading_edge_conserves_energy_and_momentum_while_turning() {
-    let entry = Entry::of::<models::edge_space::Mechanism<f64>>();
+    let entry = models::edge_space::ENTRY;
     let run = run(&entry, &[], TOLERANCE);
     let sum = |what: &str| -> Vec<f64> {
         let (stone, slab) = (
@@ -561,7 +560,7 @@ fn a_fading_edge_conserves_energy_and_momentum_while_turning() {
 
 #[test]
 fn a_rounded_box_keeps_its_energy() {
-    let entry = Entry::of::<models::chest_drop::Mechanism<f64>>();
+    let entry = models::chest_drop::ENTRY;
     let run = run(&entry, &[], TOLERANCE);
     let columns = ["energy", "z", "floor", "wall"].map(|name| run.column(name));
     let mass = 2.0;
@@ -586,7 +585,7 @@ fn a_rounded_box_keeps_its_energy() {
 #[test]
 fn the_deepest_point_of_a_rounded_box_is_the_deepest() {
     // The penetration of an output, against the surface itself, sampled in all directions from its centre.
-    let entry = Entry::of::<models::chest_drop::Mechanism<f64>>();
+    let entry = models::chest_drop::ENTRY;
     let run = run(&entry, &[], 1e-6);
     let (floor, wall) = (run.column("floor"), run.column("wall"));
     const GRID: usize = 400;
@@ -628,7 +627,7 @@ fn the_deepest_point_of_a_rounded_box_is_the_deepest() {
 
 #[test]
 fn discs_part_as_the_laws_of_impact_say() {
-    let entry = Entry::of::<models::discs::Mechanism<f64>>();
+    let entry = models::discs::ENTRY;
     let run = run(&entry, &[], TOLERANCE);
     // 1 kg and 3 kg at 1 m/s each along (3, 4): a spring of 10 kN/m and the reduced mass, for half a period
     let (stiffness, reduced, speed) = (1e4f64, 0.75, 2.0);
@@ -659,7 +658,7 @@ fn discs_part_as_the_laws_of_impact_say() {
 
 #[test]
 fn a_disc_as_large_as_a_planet_is_a_plane_from_either_side() {
-    let entry = Entry::of::<models::discs::Mechanism<f64>>();
+    let entry = models::discs::ENTRY;
     let run = run(&entry, &[], TOLERANCE);
     let names = [
         "x",
@@ -701,7 +700,7 @@ fn a_disc_as_large_as_a_planet_is_a_plane_from_either_side() {
 
 #[test]
 fn stones_keep_energy_and_momentum() {
-    let entry = Entry::of::<models::stones::Mechanism<f64>>();
+    let entry = models::stones::ENTRY;
     let run = run(&entry, &[], TOLERANCE);
     let sum = |what: &str| -> Vec<f64> {
         let flint = run.column(&format!("flint {what}"));

@@ -1,12 +1,12 @@
 //! Derivatives of responses across events: switches that parameters move, and points of curves of time that parameters stretch.
 
-use bryant_runtime::batch::rows::{Asked, Gradients, Job, gradients};
+use super::lanes::engine;
+use bryant_runtime::batch::rows::{Asked, Gradients, Job};
 use bryant_runtime::batch::{Fixed, Method, Pace, Settings, Status};
-use bryant_runtime::{Compiled, Model, Response, Tolerances, Width};
-use bryant_tests::models::{motions, switches};
+use bryant_runtime::{Response, Tolerances, Width};
 
-type Ball = switches::Mechanism<f64>;
-type Links = motions::Mechanism<f64>;
+const BALL: &str = "models/switches.yaml";
+const LINKS: &str = "models/motions.yaml";
 
 const TOLERANCE: f64 = 1e-9;
 
@@ -21,13 +21,15 @@ fn position(mut names: impl Iterator<Item = &'static str>, name: &str) -> usize 
 }
 
 /// Responses at a row of the named parameters, and their derivatives with respect to each parameter.
-fn differentiated<M: Model<f64>>(
+fn differentiated(
+    path: &str,
     duration: f64,
     pace: Pace,
     parameters: &[(&str, f64)],
     responses: &[(&str, Response)],
 ) -> Gradients {
-    let info = M::INFO;
+    let engine = engine(path);
+    let info = engine.info();
     let output = |name| position(info.outputs.iter().map(|output| output.name), name);
     let parameter = |name| position(info.parameters.iter().map(|parameter| parameter.name), name);
     let job = Job {
@@ -54,7 +56,7 @@ fn differentiated<M: Model<f64>>(
     let count = row.len();
     let along = |i: usize| (0..count).map(move |k| f64::from(u8::from(i == k)));
     let directions: Vec<f64> = (0..count).flat_map(along).collect();
-    let found = gradients(&Compiled::<M>::new(), &job, &row, &directions).unwrap();
+    let found = engine.gradients(&job, &row, &directions).unwrap();
     assert!(found.rows.iter().all(|row| row.status == Status::Done));
     found
 }
@@ -77,7 +79,7 @@ fn a_switched_force_is_differentiated_by_both_of_its_ends() {
         ("x", Response::Final),
     ];
     let parameters = [("ignition", 0.11), ("height", 0.6), ("delay", 0.03)];
-    let found = differentiated::<Ball>(1.0, within(TOLERANCE), &parameters, &responses);
+    let found = differentiated(BALL, 1.0, within(TOLERANCE), &parameters, &responses);
     // HIC of a push that is shorter than the window: its length times the 2.5th power
     let strength = (3.0_f64 / 9.806_65).powf(2.5);
     let (length, rest) = (0.09, 0.8);
@@ -129,7 +131,13 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
         ("jolted rate", Response::Peak),
         ("jolted rate", Response::Integral),
     ];
-    let found = differentiated::<Links>(duration, within(TOLERANCE), &[("span", span)], &responses);
+    let found = differentiated(
+        LINKS,
+        duration,
+        within(TOLERANCE),
+        &[("span", span)],
+        &responses,
+    );
 
     // twice the curve from 0.5 by 2 at 0.2 and −1 at 0.5 to 0.3 at 0.9, at t/span: its slopes are 7.5, −10, 3.25, and at 0.8 it is −0.025
     let x = duration / span;
@@ -159,7 +167,13 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
     // the swing of the link has no closed form: differences err by the square of the step, and by 1e-13 divided by it, times some hundred
     let step = 1e-5;
     let at = |by: f64| {
-        differentiated::<Links>(duration, within(1e-13), &[("span", span + by)], &responses)
+        differentiated(
+            LINKS,
+            duration,
+            within(1e-13),
+            &[("span", span + by)],
+            &responses,
+        )
     };
     let (right, left) = (at(step), at(-step));
     for (k, response) in responses.iter().enumerate().skip(known.len()) {
@@ -178,10 +192,10 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
 fn samples_at_points_that_are_stretched_stay_where_they_are() {
     let responses = [0.25, 0.4, 0.625, 0.8].map(|at| ("jolted rate", Response::Value { at }));
     let parameters = [("span", 1.25)];
-    let exact = differentiated::<Links>(1.0, within(1e-12), &parameters, &responses);
+    let exact = differentiated(LINKS, 1.0, within(1e-12), &parameters, &responses);
     let (method, step) = (Method::Dopri5, 1e-3);
     let pace = Pace::Fixed(Fixed { method, step });
-    let found = differentiated::<Links>(1.0, pace, &parameters, &responses);
+    let found = differentiated(LINKS, 1.0, pace, &parameters, &responses);
     for (k, response) in responses.iter().enumerate() {
         let (ours, expected) = (found.slopes[k], exact.slopes[k]);
         // a pendulum of 6/s: (ωh)⁵, and the error of the sharp run; the link accelerates by some rad/s², so a shift of the sample by 0.2 s

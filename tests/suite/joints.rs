@@ -28,7 +28,7 @@ fn close(what: &str, ours: f64, expected: f64, bound: f64) {
 }
 
 fn stops() -> Entry {
-    Entry::of::<models::joint_stops::Mechanism<f64>>()
+    models::joint_stops::ENTRY
 }
 
 #[test]
@@ -140,11 +140,7 @@ fn no_torque_jumps_where_damping_fades_in() {
 
 #[test]
 fn a_bent_spring_stores_what_it_takes_and_turns_nothing() {
-    let run = run(
-        &Entry::of::<models::bending::Mechanism<f64>>(),
-        &[],
-        TOLERANCE,
-    );
+    let run = run(&models::bending::ENTRY, &[], TOLERANCE);
     // the faster pair swings with the square root of its stiffness over the smallest inertia
     let error = integration(&run, f64::sqrt(45.0 / 0.004));
     let energy = |k: usize| {

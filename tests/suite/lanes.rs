@@ -1,16 +1,18 @@
 //! Models in lanes: the same bits in registers of every width, and the motion of the ordinary time loop, which for fixed steps agrees to
 //! the last bit.
 
-use bryant_runtime::batch::rows::Entry as RowsEntry;
-use bryant_runtime::batch::rows::{Asked, Job};
+use bryant_engine::Engine;
+use bryant_generated::child_seat;
+use bryant_generator::{Config, model};
+use bryant_runtime::batch::rows::{Asked, Entry as RowsEntry, Job};
 use bryant_runtime::batch::{self, Fixed, Pace, Settings, Status};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_one_lane};
 use bryant_runtime::{
-    Formula, Info, Method, Model, ParameterSet, Report, Response, Several, Tolerances, Width,
+    Adjustable, Dynamics, Formula, Info, Method, Report, Response, Several, Tolerances, Width,
     simulate,
 };
-use bryant_tests::models::{drives, free_top, poles_bryant, switches, webbing};
-use std::marker::PhantomData;
+use std::ops::ControlFlow;
+use std::path::Path;
 
 /// Tolerance of the runs in lanes.
 const TOLERANCE: f64 = 1e-9;
@@ -21,6 +23,21 @@ const FINE: f64 = 0.1 * TOLERANCE;
 const COARSE: f64 = 100.0 * TOLERANCE;
 /// Events are located to this share of a step, and a step is at most as long as the run.
 const LOCATED: f64 = 1e-13;
+
+/// The engine of a model of this crate, or of a bundled one.
+pub(crate) fn engine(path: &str) -> Engine {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let (model, _) = model::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
+    let lists = Config::new().matrices(false).lists(&model);
+    Engine::new(lists).expect("it has no functions of a user")
+}
+
+const SEAT: &str = "../models/child-seat.yaml";
+const WEBBING: &str = "models/webbing.yaml";
+const DRIVES: &str = "models/drives.yaml";
+const SWITCHES: &str = "models/switches.yaml";
+const POLES: &str = "models/poles-bryant.yaml";
+const TOP: &str = "models/free-top.yaml";
 
 /// Rows of all parameters within a few per cent of their defaults and within their bounds.
 fn rows(info: &Info, count: usize) -> Vec<f64> {
@@ -58,7 +75,8 @@ fn job(info: &Info, duration: f64, width: Width) -> Job {
 }
 
 /// The bits of all outputs of some rows, and how the rows ended.
-fn bits(entry: RowsEntry, info: &Info, duration: f64, width: Width, count: usize) -> Vec<u64> {
+fn bits(engine: &Engine, duration: f64, width: Width, count: usize) -> Vec<u64> {
+    let info = engine.info();
     let all: Vec<usize> = (0..info.outputs.len()).collect();
     let job = job(info, duration, width);
     let across = info.parameters.len().max(1);
@@ -66,7 +84,7 @@ fn bits(entry: RowsEntry, info: &Info, duration: f64, width: Width, count: usize
     let mut bits = Vec::new();
     for i in 0..count {
         let row = rows.get(i * across..(i + 1) * across).unwrap_or(&[]);
-        let (row, samples) = (entry.series)(&job, row, &all).unwrap();
+        let (row, samples) = engine.series(&job, row, &all).unwrap();
         assert_eq!(row.status, Status::Done, "{} {i}", info.name);
         bits.push(u64::from(row.steps));
         bits.extend(samples.iter().map(|sample| sample.to_bits()));
@@ -74,25 +92,45 @@ fn bits(entry: RowsEntry, info: &Info, duration: f64, width: Width, count: usize
     bits
 }
 
-fn the_same_in_every_width(entry: RowsEntry, info: &Info, duration: f64) {
+fn the_same_in_every_width(engine: &Engine, duration: f64) {
     if !Width::One.there() {
         return;
     }
-    let narrow = bits(entry, info, duration, Width::One, 3);
+    let narrow = bits(engine, duration, Width::One, 3);
     for width in [Width::Four, Width::Eight] {
         if width.there() {
             assert!(
-                bits(entry, info, duration, width, 3) == narrow,
+                bits(engine, duration, width, 3) == narrow,
                 "{} in {width:?}",
-                info.name
+                engine.info().name
             );
         }
     }
 }
 
+/// A run of a row of parameters over a scalar, with what is done with each sample.
+fn run<T: bryant_runtime::Real>(
+    engine: &Engine,
+    row: &[f64],
+    settings: &bryant_runtime::Settings,
+    sample: &mut dyn FnMut(&[T]),
+) -> Report {
+    let mut model = engine.over::<T>();
+    let row: Vec<T> = row.iter().map(|value| T::from_f64(*value)).collect();
+    model.set_parameters(&row);
+    let mut start = vec![T::from_f64(0.0); engine.info().state_length()];
+    model.initial_state(&mut start);
+    simulate::run(&model, &start, settings, None, &mut |at| {
+        sample(at.outputs);
+        ControlFlow::Continue(())
+    })
+    .unwrap_or_else(|failure| panic!("{failure}"))
+}
+
 /// Some outputs of a single run, each at 101 samples, and the cost of the run.
-fn single<M: Model<f64>>(
-    model: &M,
+fn single(
+    engine: &Engine,
+    row: &[f64],
     duration: f64,
     tolerance: f64,
     outputs: &[usize],
@@ -101,15 +139,14 @@ fn single<M: Model<f64>>(
         duration,
         every: duration / 100.0,
         method: Method::adaptive(Formula::Dopri5, Tolerances::of(tolerance)),
-        ..bryant_runtime::Settings::of(M::INFO)
+        ..bryant_runtime::Settings::of(engine.info())
     };
     let mut all = vec![Vec::new(); outputs.len()];
-    let report = simulate(model, &settings, &mut |sample| {
+    let report = run::<f64>(engine, row, &settings, &mut |found| {
         for (values, output) in all.iter_mut().zip(outputs) {
-            values.push(sample.outputs[*output]);
+            values.push(found[*output]);
         }
-    })
-    .unwrap();
+    });
     (all, report)
 }
 
@@ -121,9 +158,10 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Compares outputs in lanes with those of a single run; the named outputs are continuous in time.
-fn the_motion_of_a_single_run<M: Model<f64>>(duration: f64, continuous: &[&str]) {
-    let (info, entry) = (M::INFO, RowsEntry::of::<M>());
-    the_same_in_every_width(entry, info, duration);
+fn the_motion_of_a_single_run(path: &str, duration: f64, continuous: &[&str]) {
+    let engine = engine(path);
+    let info = engine.info();
+    the_same_in_every_width(&engine, duration);
     let outputs: Vec<usize> = (0..info.outputs.len())
         .filter(|i| continuous.is_empty() || continuous.contains(&info.outputs[*i].name))
         .collect();
@@ -131,14 +169,9 @@ fn the_motion_of_a_single_run<M: Model<f64>>(duration: f64, continuous: &[&str])
     let job = job(info, duration, Width::widest());
     let across = info.parameters.len();
     for row in rows(info, 4).chunks(across.max(1)) {
-        let (_, samples) = (entry.series)(&job, row, &outputs).unwrap();
-        let mut parameters = M::Parameters::defaults();
-        for (index, value) in row.iter().enumerate() {
-            parameters.set(index, *value);
-        }
-        let model = M::new(parameters);
-        let (fine, report) = single(&model, duration, FINE, &outputs);
-        let (coarse, _) = single(&model, duration, COARSE, &outputs);
+        let (_, samples) = engine.series(&job, row, &outputs).unwrap();
+        let (fine, report) = single(&engine, row, duration, FINE, &outputs);
+        let (coarse, _) = single(&engine, row, duration, COARSE, &outputs);
         for (k, (fine, coarse)) in fine.iter().zip(&coarse).enumerate() {
             let ours = &samples[k * 101..(k + 1) * 101];
             // If the motion is a polynomial, only rounding remains, one of the state for each evaluation, and the effect of events that
@@ -159,29 +192,47 @@ fn the_motion_of_a_single_run<M: Model<f64>>(duration: f64, continuous: &[&str])
     }
 }
 
-/// The tests of the engine compare all bundled models with generated Rust, in all widths. Here are those that this file runs.
 #[test]
 fn runs_are_the_same_in_every_width() {
-    fn of<M: Model<f64>>(duration: f64) {
-        the_same_in_every_width(RowsEntry::of::<M>(), M::INFO, duration);
+    for (path, duration) in [
+        (SEAT, 0.16),
+        (WEBBING, 0.1),
+        (DRIVES, 0.2),
+        (SWITCHES, 0.2),
+        (POLES, 0.2),
+        (TOP, 0.2),
+    ] {
+        the_same_in_every_width(&engine(path), duration);
     }
-    of::<bryant_generated::child_seat::Mechanism<f64>>(0.16);
-    of::<webbing::Mechanism<f64>>(0.1);
-    of::<drives::Mechanism<f64>>(0.2);
-    of::<switches::Mechanism<f64>>(0.2);
-    of::<poles_bryant::Mechanism<f64>>(0.2);
-    of::<free_top::Mechanism<f64>>(0.2);
+}
+
+/// The tests of the engine compare single evaluations.
+#[test]
+fn rows_of_generated_rust_have_the_bits_of_the_engine() {
+    let engine = engine(SEAT);
+    let info = engine.info();
+    let rows = rows(info, 9);
+    let job = Job {
+        responses: (0..info.outputs.len())
+            .map(|output| Asked::of(output, Response::Final))
+            .collect(),
+        ..job(info, 0.06, Width::widest())
+    };
+    let entry = RowsEntry::of::<child_seat::Mechanism<f64>>();
+    let [ours, theirs] = [engine.rows(&job, &rows), (entry.rows)(&job, &rows)]
+        .map(|found| found.expect("registers of the widest kind"));
+    let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&ours.responses), bits(&theirs.responses));
+    assert!(ours.rows.iter().all(|row| row.status == Status::Done));
 }
 
 #[test]
 fn contacts_and_belts_move_as_in_a_single_run() {
-    type Seat = bryant_generated::child_seat::Mechanism<f64>;
-    the_motion_of_a_single_run::<Seat>(0.06, &[]);
+    the_motion_of_a_single_run(SEAT, 0.06, &[]);
 }
 
 #[test]
 fn events_and_memory_move_as_in_a_single_run() {
-    type Webbing = webbing::Mechanism<f64>;
     let continuous = [
         "crash x",
         "crash v",
@@ -190,66 +241,58 @@ fn events_and_memory_move_as_in_a_single_run() {
         "reel payout",
         "plastic v",
     ];
-    the_motion_of_a_single_run::<Webbing>(0.1, &continuous);
+    the_motion_of_a_single_run(WEBBING, 0.1, &continuous);
 }
 
 #[test]
 fn joint_laws_with_memory_move_in_lanes_as_in_a_single_run() {
-    type Drives = drives::Mechanism<f64>;
     let continuous = ["carriage", "yaw", "pitch", "fore"];
-    the_motion_of_a_single_run::<Drives>(0.3, &continuous);
+    the_motion_of_a_single_run(DRIVES, 0.3, &continuous);
 }
 
 #[test]
 fn chains_of_switches_fire_as_in_a_single_run() {
-    type Switches = switches::Mechanism<f64>;
-    the_motion_of_a_single_run::<Switches>(0.5, &["x", "z", "vx", "vz", "spin"]);
+    the_motion_of_a_single_run(SWITCHES, 0.5, &["x", "z", "vx", "vz", "spin"]);
 }
 
 #[test]
 fn charts_change_as_in_a_single_run() {
-    type Poles = poles_bryant::Mechanism<f64>;
-    the_motion_of_a_single_run::<Poles>(0.5, &[]);
+    the_motion_of_a_single_run(POLES, 0.5, &[]);
 }
 
 /// A single run over the scalar of a register with one lane, with fixed steps and without samples on the way.
-struct Single<'a, M> {
+struct Single<'a> {
+    engine: &'a Engine,
     row: &'a [f64],
     duration: f64,
     fixed: Fixed,
-    of: PhantomData<M>,
 }
 
-impl<M: Model<f64>> OfAnyWidth for Single<'_, M> {
+impl OfAnyWidth for Single<'_> {
     /// Number of steps, and the outputs at the end.
     type Output = (u32, Vec<f64>);
 
     fn run<T: Several<One = f64>>(self) -> (u32, Vec<f64>) {
-        let mut parameters = <M::With<T> as Model<T>>::Parameters::defaults();
-        for (index, value) in self.row.iter().enumerate() {
-            parameters.set(index, T::from_f64(*value));
-        }
         let Fixed { method, step } = self.fixed;
         let settings = bryant_runtime::Settings {
             duration: self.duration,
             every: self.duration,
             method: Method::fixed(method.formula(), step),
-            ..bryant_runtime::Settings::of(M::INFO)
+            ..bryant_runtime::Settings::of(self.engine.info())
         };
         let mut end = Vec::new();
-        let model = <M::With<T> as Model<T>>::new(parameters);
-        let report = simulate(&model, &settings, &mut |sample| {
-            let outputs = sample.outputs.iter();
-            end = outputs.map(|output: &T| output.lane(0)).collect();
+        let report = run::<T>(self.engine, self.row, &settings, &mut |outputs| {
+            end = outputs.iter().map(|output| output.lane(0)).collect();
         });
-        (u32::try_from(report.unwrap().steps).unwrap(), end)
+        (u32::try_from(report.steps).unwrap(), end)
     }
 }
 
 /// Rows with fixed steps, each beside a twin with steps twice as long, with one failing row among them, against single runs: the numbers of
 /// steps and the outputs at the end agree to the last bit.
-fn fixed_steps_are_those_of_a_single_run<M: Model<f64>>(duration: f64, step: f64) {
-    let (info, entry) = (M::INFO, RowsEntry::of::<M>());
+fn fixed_steps_are_those_of_a_single_run(path: &str, duration: f64, step: f64) {
+    let engine = engine(path);
+    let info = engine.info();
     let across = info.parameters.len();
     let count = if across == 0 { 1 } else { 7 };
     let mut rows = rows(info, count);
@@ -274,7 +317,7 @@ fn fixed_steps_are_those_of_a_single_run<M: Model<f64>>(duration: f64, step: f64
                 wanted: f64::INFINITY,
                 ..base
             };
-            let found = (entry.rows)(&job, &rows).unwrap();
+            let found = engine.rows(&job, &rows).unwrap();
             assert_eq!(found.rows.len(), count);
             for (i, row) in found.rows.iter().enumerate() {
                 let name = format!("{} {i}, {method:?} in {width:?}", info.name);
@@ -284,11 +327,11 @@ fn fixed_steps_are_those_of_a_single_run<M: Model<f64>>(duration: f64, step: f64
                     assert!(ours.iter().all(|end| end.is_nan()), "{name}");
                     continue;
                 }
-                let single = Single::<M> {
+                let single = Single {
+                    engine: &engine,
                     row: rows.get(i * across..(i + 1) * across).unwrap_or(&[]),
                     duration,
                     fixed,
-                    of: PhantomData,
                 };
                 let (steps, single) = with_one_lane(single).unwrap();
                 assert_eq!((row.status, row.steps), (Status::Done, steps), "{name}");
@@ -301,43 +344,38 @@ fn fixed_steps_are_those_of_a_single_run<M: Model<f64>>(duration: f64, step: f64
 
 #[test]
 fn fixed_steps_of_contacts_and_belts_are_those_of_a_single_run() {
-    type Seat = bryant_generated::child_seat::Mechanism<f64>;
-    fixed_steps_are_those_of_a_single_run::<Seat>(0.06, 3e-4);
+    fixed_steps_are_those_of_a_single_run(SEAT, 0.06, 3e-4);
 }
 
 #[test]
 fn fixed_steps_of_quaternions_are_those_of_a_single_run() {
-    type Top = free_top::Mechanism<f64>;
-    fixed_steps_are_those_of_a_single_run::<Top>(0.5, 1.7e-3);
+    fixed_steps_are_those_of_a_single_run(TOP, 0.5, 1.7e-3);
 }
 
 #[test]
 fn fixed_steps_end_on_events_as_those_of_a_single_run() {
-    type Webbing = webbing::Mechanism<f64>;
-    fixed_steps_are_those_of_a_single_run::<Webbing>(0.1, 1.7e-4);
+    fixed_steps_are_those_of_a_single_run(WEBBING, 0.1, 1.7e-4);
 }
 
 #[test]
 fn fixed_steps_change_charts_as_those_of_a_single_run() {
-    type Poles = poles_bryant::Mechanism<f64>;
     fixed_steps_are_those_of_a_single_run::<Poles>(0.5, 1.7e-3);
 }
 
 #[test]
 fn a_row_that_cannot_be_run_disturbs_no_other() {
-    type Seat = bryant_generated::child_seat::Mechanism<f64>;
-    let entry = RowsEntry::of::<Seat>();
-    let info = <Seat as Model<f64>>::INFO;
+    let engine = engine(SEAT);
+    let info = engine.info();
     let across = info.parameters.len();
     let mut rows = rows(info, 9);
     let job = Job {
         responses: vec![Asked::of(0, Response::Peak)],
         ..job(info, 0.06, Width::widest())
     };
-    let good = (entry.rows)(&job, &rows).unwrap();
+    let good = engine.rows(&job, &rows).unwrap();
     rows[4 * across] = f64::NAN;
     rows[7 * across + 2] = 1e300;
-    let some = (entry.rows)(&job, &rows).unwrap();
+    let some = engine.rows(&job, &rows).unwrap();
     for i in 0..9 {
         match i {
             4 | 7 => {

@@ -3,7 +3,6 @@
 //! The error of a run is at most steps · tolerance times the amplification of the mechanism. In these mechanisms, a coordinate with the
 //! error e causes a velocity error ω e and vice versa, where ω is the largest rate of the mechanism: steps · tolerance · max(ω, 1).
 
-use bryant_runtime::program::Entry;
 use bryant_tests::models;
 use bryant_tests::runs::{Recording, run};
 use serde_yaml::Value;
@@ -34,7 +33,7 @@ pub fn last(column: &[f64]) -> f64 {
 
 #[test]
 fn a_damped_ball_bounces_with_the_restitution_of_its_damping() {
-    let entry = Entry::of::<models::bounce::Mechanism<f64>>();
+    let entry = models::bounce::ENTRY;
     let reference: Value = serde_yaml::from_str(include_str!("../reference/contact.yaml"))
         .expect("reference files are YAML");
     let numbers = |key: &str| -> Vec<f64> {
@@ -71,7 +70,7 @@ fn a_damped_ball_bounces_with_the_restitution_of_its_damping() {
 
 #[test]
 fn a_sliding_block_stops_after_its_stopping_distance() {
-    let entry = Entry::of::<models::sliding_block::Mechanism<f64>>();
+    let entry = models::sliding_block::ENTRY;
     let (speed, tolerance_speed) = (2.0, 0.01);
     for mu in [0.2, 0.4, 0.8] {
         let run = run(&entry, &[("mu", mu)], TOLERANCE);
@@ -93,7 +92,7 @@ fn a_sliding_block_stops_after_its_stopping_distance() {
 
 #[test]
 fn a_ball_slips_until_it_rolls() {
-    let entry = Entry::of::<models::sliding_sphere::Mechanism<f64>>();
+    let entry = models::sliding_sphere::ENTRY;
     let (speed, mu, tolerance_speed, radius) = (5.0, 0.2, 0.01, 0.1);
     let run = run(&entry, &[("mu", mu)], TOLERANCE);
     // the slip is reduced with a(1 + m r²/I) = 7/2 μ g; below the tolerance speed it decays with the time constant τ
@@ -134,7 +133,7 @@ fn a_ball_slips_until_it_rolls() {
 
 #[test]
 fn an_ellipse_rocks_with_its_frequency() {
-    let entry = Entry::of::<models::rocking::Mechanism<f64>>();
+    let entry = models::rocking::ENTRY;
     let (m, a, c, inertia, angle) = (2.0, 0.3, 0.2, 0.065, 1e-3);
     let frequency = |inertia: f64| f64::sqrt(m * G * (a * a - c * c) / (c * inertia));
     // A swing of amplitude θ₀ is slower than a small one by a share proportional to θ₀². One part comes from the lever arm h' = c α sin θ
@@ -171,7 +170,7 @@ fn an_ellipse_rocks_with_its_frequency() {
 
 #[test]
 fn slack_makes_the_peak_of_a_belt() {
-    let entry = Entry::of::<models::slack_belt::Mechanism<f64>>();
+    let entry = models::slack_belt::ENTRY;
     let (mass, field, stiffness) = (4.0, 200.0, 2e4);
     for slack in [0.0, 0.01, 0.04] {
         let run = run(&entry, &[("slack", slack)], TOLERANCE);

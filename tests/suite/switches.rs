@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 const TOLERANCE: f64 = 1e-9;
 
 fn entry() -> Entry {
-    Entry::of::<models::switches::Mechanism<f64>>()
+    models::switches::ENTRY
 }
 
 fn last(run: &Recording, name: &str) -> f64 {

@@ -124,7 +124,7 @@ fn ours_taut(entry: &Entry) -> bool {
 /// errors.
 #[test]
 fn a_falling_body_tends_to_its_terminal_velocity() {
-    let entry = Entry::of::<bundled::skydiver::Mechanism<f64>>();
+    let entry = bundled::find("skydiver").expect("it is bundled").entry;
     for area in [0.46, 1.0, 20.0] {
         let run = run(&entry, &[("drag_area", area)], TOLERANCE);
         let terminal = (2.0 * 80.0 * G / (1.225 * area)).sqrt();
@@ -152,7 +152,7 @@ fn a_falling_body_tends_to_its_terminal_velocity() {
 /// the wind.
 #[test]
 fn the_wind_takes_the_body_along() {
-    let entry = Entry::of::<bundled::skydiver::Mechanism<f64>>();
+    let entry = bundled::find("skydiver").expect("it is bundled").entry;
     let run = run(&entry, &[("wind", 10.0), ("drag_area", 20.0)], TOLERANCE);
     let (speed, last) = (run.column("speed"), run.times.len() - 1);
     let terminal = (2.0 * 80.0 * G / (1.225 * 20.0)).sqrt();
@@ -168,7 +168,7 @@ fn the_wind_takes_the_body_along() {
 }
 
 fn held(excitation: f64) -> Recording {
-    let entry = Entry::of::<models::elbow_hold::Mechanism<f64>>();
+    let entry = models::elbow_hold::ENTRY;
     run(&entry, &[("excitation", excitation)], TOLERANCE)
 }
 
@@ -262,7 +262,7 @@ fn a_muscle_holds_the_forearm_where_the_moments_balance() {
 /// The power of the muscle in the balance is −T L̇, up to the rounding of a product.
 #[test]
 fn the_work_of_the_muscle_is_counted() {
-    let entry = Entry::of::<models::elbow_hold::Mechanism<f64>>();
+    let entry = models::elbow_hold::ENTRY;
     let at = entry.info.powers.iter().position(|p| *p == "user biceps");
     let at = at.expect("the muscle is among the effects that do work");
     assert_eq!(entry.info.auxiliaries, ["user biceps: activation"]);
@@ -290,7 +290,7 @@ fn the_work_of_the_muscle_is_counted() {
 fn a_function_of_the_user_computes_in_single_precision() {
     let compiled = bryant_tests::compiled::Compiled {
         path: "../models/elbow.yaml",
-        entry: Entry::of::<bundled::elbow::Mechanism<f64>>(),
+        entry: bundled::find("elbow").expect("it is bundled").entry,
         matrices: None,
     };
     let model = compiled.model();

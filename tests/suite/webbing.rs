@@ -12,7 +12,7 @@ const TOLERANCE: f64 = 1e-11;
 const LENGTH: f64 = 0.5;
 
 fn entry() -> Entry {
-    Entry::of::<models::webbing::Mechanism<f64>>()
+    models::webbing::ENTRY
 }
 
 /// Error of the integration if the largest rate of the mechanism is this \[1/s\].

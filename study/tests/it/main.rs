@@ -1,5 +1,6 @@
 //! Studies as their users run them, in one program, so that it is linked once.
 
+mod common;
 mod killed;
 mod reference;
 mod running;

@@ -1,6 +1,7 @@
 //! Runs of whole studies: the same bytes however they are run, and messages if they cannot be run.
 
-use crate::common::parquet::Cell;
+use crate::common;
+use crate::common::parquet::{self, Cell};
 use crate::common::{Closed, NO_WAY, ishigami, open, program, study};
 use bryant_study::engine::{Engine, EngineError, Outcomes, Series, Worker};
 use bryant_study::results::{Results, ResultsError};
