@@ -10,7 +10,7 @@
 //!
 //! A flag of each thread says which force it evaluates.
 //!
-//! On Windows the loader says that the process ends, and a filter of exceptions takes the place of signal handlers. A function that aborts cannot be
+//! On Windows a callback at the end of the thread that ends the process, and a filter of exceptions, take the place of exit and signal handlers. A function that aborts cannot be
 //! caught there: the system ends the program at once, with an exit code that is not 0. On systems that are neither Unix nor Windows there are only
 //! the flag and the watching thread.
 #![expect(
@@ -58,6 +58,8 @@ thread_local! {
             now: AtomicPtr::new(std::ptr::null_mut()),
         }));
         THREADS.lock().unwrap_or_else(PoisonError::into_inner).push(calls);
+        #[cfg(windows)]
+        windows::watch_thread();
         calls
     };
 }
@@ -319,7 +321,7 @@ mod windows {
     use std::io::{IsTerminal, Write};
     use std::os::windows::io::{AsHandle, AsRawHandle};
     use std::sync::Once;
-    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
     use windows_sys::Win32::Foundation::{
         EXCEPTION_ACCESS_VIOLATION, EXCEPTION_ILLEGAL_INSTRUCTION, EXCEPTION_IN_PAGE_ERROR,
         EXCEPTION_INT_DIVIDE_BY_ZERO, EXCEPTION_INT_OVERFLOW, EXCEPTION_STACK_OVERFLOW, NTSTATUS,
@@ -328,7 +330,9 @@ mod windows {
     use windows_sys::Win32::System::Diagnostics::Debug::{
         EXCEPTION_POINTERS, SetUnhandledExceptionFilter,
     };
-    use windows_sys::Win32::System::Threading::{GetCurrentProcess, TerminateProcess};
+    use windows_sys::Win32::System::Threading::{
+        FLS_OUT_OF_INDEXES, FlsAlloc, FlsSetValue, GetCurrentProcess, TerminateProcess,
+    };
 
     /// The exceptions of faults, and the message for each.
     const EXCEPTIONS: [(NTSTATUS, &str); 6] = [
@@ -341,18 +345,30 @@ mod windows {
     ];
     /// What a filter returns so that the system goes on looking for handlers.
     const CONTINUE_SEARCH: i32 = 0;
-    /// The reason for which the loader calls when a process ends.
-    const PROCESS_ENDS: u32 = 0;
 
     /// If two threads fail at once, only the first one reports.
     static TOLD: AtomicBool = AtomicBool::new(false);
 
+    /// The place of each thread whose callback the system calls when the thread ends, or the process by it; none before [`watch`].
+    static PLACE: AtomicU32 = AtomicU32::new(FLS_OUT_OF_INDEXES);
+
     pub fn watch() {
         static ONCE: Once = Once::new();
-        // SAFETY: the filter lives as long as the program.
+        // SAFETY: filter and callback live as long as the program.
         ONCE.call_once(|| unsafe {
             SetUnhandledExceptionFilter(Some(failed));
+            PLACE.store(FlsAlloc(Some(ending)), Ordering::Relaxed);
         });
+    }
+
+    /// The same for `exit` on this thread.
+    pub fn watch_thread() {
+        let place = PLACE.load(Ordering::Relaxed);
+        if place != FLS_OUT_OF_INDEXES {
+            let any = std::ptr::from_ref(&PLACE).cast();
+            // SAFETY: the callback is called where there is any value, and does not use it.
+            unsafe { FlsSetValue(place, any) };
+        }
     }
 
     /// Ends the program at once.
@@ -389,16 +405,8 @@ mod windows {
         CONTINUE_SEARCH
     }
 
-    // SAFETY: the section holds addresses of functions that the loader calls when threads and the process begin and end, with these arguments.
-    #[used]
-    #[unsafe(link_section = ".CRT$XLC")]
-    static AT_THE_END: unsafe extern "system" fn(*mut c_void, u32, *mut c_void) = ending;
-
-    /// The thread that ends the process by `exit` is in here with the reason [`PROCESS_ENDS`].
-    unsafe extern "system" fn ending(_: *mut c_void, reason: u32, _: *mut c_void) {
-        if reason == PROCESS_ENDS {
-            tell(EXITED, "");
-        }
+    unsafe extern "system" fn ending(_: *const c_void) {
+        tell(EXITED, "");
     }
 
     /// A terminal stays as it is: the library writes characters to it, and a file would write bytes in another encoding.
