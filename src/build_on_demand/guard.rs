@@ -10,9 +10,9 @@
 //!
 //! A flag of each thread says which force it evaluates.
 //!
-//! On Windows a callback at the end of the thread that ends the process, and a filter of exceptions, take the place of exit and signal handlers. A function that aborts cannot be
-//! caught there: the system ends the program at once, with an exit code that is not 0. On systems that are neither Unix nor Windows there are only
-//! the flag and the watching thread.
+//! On Windows a callback at the end of the thread that ends the process, and a handler of exceptions, take the place of exit and signal handlers. A
+//! function that aborts cannot be caught there: the system ends the program at once, with an exit code that is not 0. On systems that are neither
+//! Unix nor Windows there are only the flag and the watching thread.
 #![expect(
     unsafe_code,
     reason = "handlers of exits and signals are the system's; threads read what others point to"
@@ -328,7 +328,7 @@ mod windows {
     };
     use windows_sys::Win32::System::Console::{STD_OUTPUT_HANDLE, SetStdHandle};
     use windows_sys::Win32::System::Diagnostics::Debug::{
-        EXCEPTION_POINTERS, SetUnhandledExceptionFilter,
+        AddVectoredExceptionHandler, EXCEPTION_POINTERS,
     };
     use windows_sys::Win32::System::Threading::{
         FLS_OUT_OF_INDEXES, FlsAlloc, FlsSetValue, GetCurrentProcess, TerminateProcess,
@@ -343,7 +343,7 @@ mod windows {
         (EXCEPTION_INT_DIVIDE_BY_ZERO, DIVISION),
         (EXCEPTION_INT_OVERFLOW, DIVISION),
     ];
-    /// What a filter returns so that the system goes on looking for handlers.
+    /// What a handler returns so that the system goes on looking for handlers.
     const CONTINUE_SEARCH: i32 = 0;
 
     /// If two threads fail at once, only the first one reports.
@@ -354,9 +354,10 @@ mod windows {
 
     pub fn watch() {
         static ONCE: Once = Once::new();
-        // SAFETY: filter and callback live as long as the program.
+        // SAFETY: handler and callback live as long as the program.
         ONCE.call_once(|| unsafe {
-            SetUnhandledExceptionFilter(Some(failed));
+            // the first of all handlers: that of the standard library leaves little of a stack that is full
+            AddVectoredExceptionHandler(1, Some(failed));
             PLACE.store(FlsAlloc(Some(ending)), Ordering::Relaxed);
         });
     }
@@ -396,7 +397,7 @@ mod windows {
         end();
     }
 
-    unsafe extern "system" fn failed(about: *const EXCEPTION_POINTERS) -> i32 {
+    unsafe extern "system" fn failed(about: *mut EXCEPTION_POINTERS) -> i32 {
         // SAFETY: the system passes a record that lives during the call.
         let code = unsafe { (*(*about).ExceptionRecord).ExceptionCode };
         if let Some((_, what)) = EXCEPTIONS.iter().find(|(of, _)| *of == code) {
