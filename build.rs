@@ -1,8 +1,11 @@
-//! Tells the program the commit that it is built from ("unknown" without a repository), and puts the texts of the bundled models into it.
+//! Tells the program the commit that it is built from ("unknown" where nothing says it), and puts the texts of the bundled models into it.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+/// Digits of a commit that are told.
+const DIGITS: usize = 12;
 
 fn main() -> std::io::Result<()> {
     tell_commit();
@@ -42,29 +45,51 @@ fn collect(directory: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
     Ok(())
 }
 
+/// The commit: that of the repository, or, in a package, the one that cargo wrote into it.
 fn tell_commit() {
+    println!("cargo::rerun-if-changed=build.rs");
+    let commit = of_repository().or_else(of_package);
+    println!(
+        "cargo::rustc-env=BRYANT_COMMIT={}",
+        commit.as_deref().unwrap_or("unknown")
+    );
+}
+
+fn of_repository() -> Option<String> {
     let git = |arguments: &[&str]| {
         let output = Command::new("git").args(arguments).output().ok()?;
         let text = String::from_utf8(output.stdout).ok()?;
         output.status.success().then(|| text.trim().to_owned())
     };
     // a package inside of another repository has no commit of its own
-    let here = std::env::current_dir().and_then(std::fs::canonicalize).ok();
-    let top =
-        git(&["rev-parse", "--show-toplevel"]).and_then(|top| std::fs::canonicalize(top).ok());
-    let own = here.is_some() && here == top;
-    let commit = git(&["rev-parse", "--short=12", "HEAD"]).filter(|_| own);
-    println!(
-        "cargo::rustc-env=BRYANT_COMMIT={}",
-        commit.as_deref().unwrap_or("unknown")
-    );
-    println!("cargo::rerun-if-changed=build.rs");
-    // every commit and every change of branch writes to these files
-    for file in ["HEAD", "logs/HEAD"] {
-        if let Some(path) = git(&["rev-parse", "--git-path", file]).filter(|_| own)
-            && std::path::Path::new(&path).exists()
+    let here = std::env::current_dir().and_then(std::fs::canonicalize);
+    let top = std::fs::canonicalize(git(&["rev-parse", "--show-toplevel"])?);
+    if here.ok()? != top.ok()? {
+        return None;
+    }
+    // Every commit and every change of branch writes to one of these files. Of a file that does not exist cargo would always say that it has
+    // changed.
+    let branch = git(&["symbolic-ref", "--quiet", "HEAD"]);
+    for file in ["HEAD", "logs/HEAD", "packed-refs"]
+        .into_iter()
+        .chain(branch.as_deref())
+    {
+        if let Some(path) = git(&["rev-parse", "--git-path", file])
+            && Path::new(&path).exists()
         {
             println!("cargo::rerun-if-changed={path}");
         }
     }
+    git(&["rev-parse", &format!("--short={DIGITS}"), "HEAD"])
+}
+
+fn of_package() -> Option<String> {
+    let about = std::fs::read_to_string(".cargo_vcs_info.json").ok()?;
+    println!("cargo::rerun-if-changed=.cargo_vcs_info.json");
+    let (_, rest) = about.split_once("\"sha1\": \"")?;
+    let commit = rest.get(..DIGITS)?;
+    commit
+        .bytes()
+        .all(|b| b.is_ascii_hexdigit())
+        .then(|| commit.to_owned())
 }

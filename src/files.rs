@@ -34,8 +34,9 @@ fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
         return Err(io::Error::other("it is a directory"));
     }
     std::fs::create_dir_all(directory)?;
-    // A file that is not regular (a pipe, /dev/null) cannot be replaced, only written to.
-    if path.exists() && !path.is_file() {
+    // A file that is not regular (a pipe, /dev/null, NUL) cannot be replaced, only written to.
+    let device = cfg!(windows) && path.as_os_str().eq_ignore_ascii_case("NUL");
+    if device || path.exists() && !path.is_file() {
         let mut file = BufWriter::new(std::fs::OpenOptions::new().write(true).open(path)?);
         content(&mut file)?;
         return file.flush();
@@ -60,6 +61,31 @@ fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     }
     temporary.persist(path).map_err(|error| error.error)?;
     Ok(())
+}
+
+/// Why Windows has no file of this name. Some of these names mean devices there, others something beside a file, and what is written is lost.
+///
+/// Microsoft, *Naming Files, Paths, and Namespaces*.
+pub fn refusal_of_windows(name: &str) -> Option<&'static str> {
+    if name
+        .contains(|c: char| c.is_control() || matches!(c, '<' | '>' | ':' | '"' | '|' | '?' | '*'))
+    {
+        return Some("has a character that Windows allows in no name");
+    }
+    if name.ends_with(['.', ' ']) {
+        return Some("ends in a dot or a space, which Windows leaves out");
+    }
+    let stem = name.split('.').next().unwrap_or_default().trim_end();
+    let device = match stem.to_ascii_lowercase().as_str() {
+        "con" | "prn" | "aux" | "nul" => true,
+        stem => ["com", "lpt"].iter().any(|kind| {
+            let number = stem.strip_prefix(kind);
+            number.is_some_and(|n| {
+                matches!(n, "¹" | "²" | "³") || matches!(n.as_bytes(), [b'0'..=b'9'])
+            })
+        }),
+    };
+    device.then_some("is the name of a device on Windows")
 }
 
 /// Largest number of links on the way to a file, the same as in Linux.
@@ -114,6 +140,19 @@ mod tests {
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
         let files = std::fs::read_dir(path.parent().unwrap()).unwrap().count();
         assert_eq!(files, 1);
+    }
+
+    #[test]
+    fn names_of_devices_are_no_names_of_files_on_windows() {
+        let bad = "con con.csv CON.tar.gz aux nul.svg prn.h com1.csv LPT9 lpt0.x com¹.csv a:b.csv what?.csv a. b<c \u{7}";
+        for name in bad.split(' ').chain(["a ", "con .csv"]) {
+            assert!(refusal_of_windows(name).is_some(), "{name}");
+        }
+        for name in
+            "child-seat.csv console.csv com.csv com10.svg lpt .hidden a.con nul-1.csv".split(' ')
+        {
+            assert_eq!(refusal_of_windows(name), None, "{name}");
+        }
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! Ctrl-C: the computation ends, and the results so far are kept.
 //!
 //! A long command calls [`watch`] at its beginning. After that, the first Ctrl-C makes [`asked`] true, and loops over parts begin no
-//! further part. The second Ctrl-C ends the program at once. On systems that are not Unix, the first one does.
+//! further part. The second Ctrl-C ends the program at once. On systems that are neither Unix nor Windows, the first one does.
 #![cfg_attr(
-    unix,
+    any(unix, windows),
     expect(unsafe_code, reason = "handlers of signals are the system's")
 )]
 
@@ -32,14 +32,17 @@ pub fn unless_asked() -> ControlFlow<()> {
 pub fn watch() {
     #[cfg(unix)]
     unix::watch();
+    #[cfg(windows)]
+    windows::watch();
 }
+
+#[cfg(any(unix, windows))]
+const SAID: &str = "\nstopping; Ctrl-C again ends at once\n";
 
 #[cfg(unix)]
 mod unix {
-    use super::{ASKED, Ordering};
+    use super::{ASKED, Ordering, SAID};
     use libc::{SA_RESETHAND, SA_RESTART, SIG_IGN, SIGINT, c_int, c_void, sigaction};
-
-    const SAID: &str = "\nstopping; Ctrl-C again ends at once\n";
 
     pub fn watch() {
         // SAFETY: the handler lives as long as the program, and uses only an atomic flag and `write`. A structure of zeros has no flags.
@@ -61,5 +64,33 @@ mod unix {
         ASKED.store(true, Ordering::Relaxed);
         // SAFETY: pointer and length are those of the text. A failed write is ignored.
         unsafe { libc::write(2, SAID.as_ptr().cast::<c_void>(), SAID.len()) };
+    }
+}
+
+#[cfg(windows)]
+mod windows {
+    use super::{ASKED, Ordering, SAID};
+    use std::io::Write;
+    use windows_sys::Win32::System::Console::{
+        CTRL_BREAK_EVENT, CTRL_C_EVENT, SetConsoleCtrlHandler,
+    };
+    use windows_sys::core::BOOL;
+
+    pub fn watch() {
+        // SAFETY: the handler lives as long as the program. If the system does not take it, the first Ctrl-C ends the program. A program
+        // that was started to ignore Ctrl-C is not told of it.
+        unsafe { SetConsoleCtrlHandler(Some(interrupted), 1) };
+    }
+
+    /// The system calls it on a thread of its own.
+    unsafe extern "system" fn interrupted(event: u32) -> BOOL {
+        let first = matches!(event, CTRL_C_EVENT | CTRL_BREAK_EVENT)
+            && !ASKED.swap(true, Ordering::Relaxed);
+        if first {
+            // a failed write is ignored
+            let _ = std::io::stderr().write_all(SAID.as_bytes());
+        }
+        // whatever is not handled here ends the program
+        first.into()
     }
 }

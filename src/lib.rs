@@ -53,6 +53,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+/// Version of the program, with the commit that it was built from.
+pub const VERSION: &str = concat!(
+    env!("CARGO_PKG_VERSION"),
+    " (commit ",
+    env!("BRYANT_COMMIT"),
+    ")"
+);
+
 pub use bryant_generator as generator;
 pub use bryant_runtime as runtime;
 pub use bryant_study::quantity;

@@ -1,9 +1,9 @@
 //! Effects of the system on a process, before `main` or without a message, turned into errors.
 #![cfg_attr(
-    unix,
+    any(unix, windows),
     expect(
         unsafe_code,
-        reason = "what is open when a process begins, and what signals do, is the system's"
+        reason = "what is open when a process begins, what signals do and what a terminal shows is the system's"
     )
 )]
 
@@ -11,16 +11,38 @@
 ///
 /// The standard library opens `/dev/null` in place of closed descriptors before `main` begins. After that, writing succeeds and the loss
 /// cannot be detected. So the descriptor is checked earlier: the loader of programs calls the functions in the section `.init_array` first.
-/// On systems that are not Unix there is no check, and a closed output counts as open.
+/// On Windows a process without an output has no handle for it, and writing succeeds, too. Elsewhere a closed output counts as open.
 pub fn stdout_was_closed() -> bool {
     #[cfg(unix)]
     return early::CLOSED.load(std::sync::atomic::Ordering::Relaxed);
-    #[cfg(not(unix))]
+    #[cfg(windows)]
+    return std::os::windows::io::AsRawHandle::as_raw_handle(&std::io::stdout()).is_null();
+    #[cfg(not(any(unix, windows)))]
     false
 }
 
+/// Whether the terminal of standard error shows colours. On Windows it is asked to.
+pub fn shows_colours() -> bool {
+    #[cfg(windows)]
+    {
+        use std::os::windows::io::AsRawHandle;
+        use windows_sys::Win32::System::Console::{
+            ENABLE_VIRTUAL_TERMINAL_PROCESSING, GetConsoleMode, SetConsoleMode,
+        };
+        let terminal = std::io::stderr().as_raw_handle();
+        let mut mode = 0;
+        // SAFETY: the handle stays open, and there is room for the mode.
+        return unsafe {
+            GetConsoleMode(terminal, &raw mut mode) != 0
+                && SetConsoleMode(terminal, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0
+        };
+    }
+    #[cfg(not(windows))]
+    true
+}
+
 /// From now on, a file that grows beyond the limit of the process (`ulimit -f`) is an error for the code that writes it, and that code
-/// removes the unfinished file. Otherwise a signal would end the program and leave the file.
+/// removes the unfinished file. Otherwise a signal would end the program and leave the file. Other systems have no such signal.
 pub fn outlive_limits_of_files() {
     // SAFETY: no handler is called.
     #[cfg(unix)]

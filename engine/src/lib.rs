@@ -31,7 +31,7 @@
 //! | `info` | the facts of a model, in the form of the runtime |
 
 mod call;
-#[cfg(all(target_arch = "x86_64", unix, not(bryant_interpret)))]
+#[cfg(all(target_arch = "x86_64", any(unix, windows), not(bryant_interpret)))]
 mod code;
 mod evaluate;
 mod execute;
@@ -41,11 +41,16 @@ mod interpret;
 mod jacobian;
 mod model;
 #[cfg_attr(
-    not(all(target_arch = "x86_64", unix, not(bryant_interpret))),
+    not(all(target_arch = "x86_64", any(unix, windows), not(bryant_interpret))),
     path = "no_native.rs"
 )]
 mod native;
-#[cfg(all(test, target_arch = "x86_64", unix, not(bryant_interpret)))]
+#[cfg(all(
+    test,
+    target_arch = "x86_64",
+    any(unix, windows),
+    not(bryant_interpret)
+))]
 mod tests;
 mod user;
 

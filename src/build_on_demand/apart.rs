@@ -31,6 +31,9 @@ pub(super) fn library(
     source: &Source<'_>,
     stage: &mut dyn FnMut(Stage),
 ) -> Result<PathBuf, BuildError> {
+    if cfg!(all(target_env = "musl", target_feature = "crt-static")) {
+        return Err(BuildError::Static);
+    }
     let cache = Cache::find()?;
     let runtime_files = || {
         let files = bryant_runtime::source::FILES.iter();

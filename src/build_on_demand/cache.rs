@@ -3,7 +3,7 @@
 //! What is in it is loaded and run. So it must belong to this user or to root, nobody else may write into it, and the file of an entry is
 //! compared with its length and its SHA-256, which stand beside it.
 
-use super::BuildError;
+use super::{BuildError, HOME};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, Read};
@@ -34,13 +34,11 @@ impl Cache {
 
     fn of(variable: impl Fn(&str) -> Option<PathBuf>) -> Result<Self, BuildError> {
         let under = |base: PathBuf| base.join("bryant");
-        let home = if cfg!(windows) {
-            variable("LOCALAPPDATA")
-        } else if cfg!(target_os = "macos") {
-            variable("HOME").map(|home| home.join("Library/Caches"))
-        } else {
-            variable("HOME").map(|home| home.join(".cache"))
-        };
+        let home = variable(HOME).map(|home| match std::env::consts::OS {
+            "windows" => home,
+            "macos" => home.join("Library/Caches"),
+            _ => home.join(".cache"),
+        });
         let root = variable("BRYANT_CACHE")
             // the XDG specification says that relative paths are ignored
             .or_else(|| {
@@ -171,12 +169,19 @@ fn seal(directory: &Path, file: &str) -> io::Result<()> {
         let mode = std::fs::metadata(path)?.permissions().mode();
         std::fs::set_permissions(path, std::fs::Permissions::from_mode(mode & !0o022))?;
     }
-    File::open(&file)?.sync_all()?;
+    sync(&file)?;
     let seal = seal_of(&file);
     std::fs::write(&seal, checksum(&file)?)?;
-    File::open(&seal)?.sync_all()?;
+    sync(&seal)?;
     sync_directory(directory);
     Ok(())
+}
+
+/// Writes a file to the disk.
+fn sync(file: &Path) -> io::Result<()> {
+    // Windows flushes only what is open for writing
+    let file = std::fs::OpenOptions::new().write(true).open(file)?;
+    file.sync_all()
 }
 
 /// Writes the names in a directory to the disk, where the system lets a program do that.

@@ -8,7 +8,11 @@
 //! | does not return | a watching thread says so after ten seconds, or one second after Ctrl-C, and ends the program with exit code 3 |
 //! | prints | the output goes to standard error: standard output is moved out of its reach |
 //!
-//! A flag of each thread says which force it evaluates. On systems that are not Unix there are only the flag and the watching thread.
+//! A flag of each thread says which force it evaluates.
+//!
+//! On Windows a callback at the end of the thread that ends the process, and a handler of exceptions, take the place of exit and signal handlers. A
+//! function that aborts cannot be caught there: the system ends the program at once, with an exit code that is not 0. On systems that are neither
+//! Unix nor Windows there are only the flag and the watching thread.
 #![expect(
     unsafe_code,
     reason = "handlers of exits and signals are the system's; threads read what others point to"
@@ -54,6 +58,8 @@ thread_local! {
             now: AtomicPtr::new(std::ptr::null_mut()),
         }));
         THREADS.lock().unwrap_or_else(PoisonError::into_inner).push(calls);
+        #[cfg(windows)]
+        windows::watch_thread();
         calls
     };
 }
@@ -140,7 +146,9 @@ fn end() -> ! {
     unsafe {
         libc::_exit(EXIT_CODE)
     }
-    #[cfg(not(unix))]
+    #[cfg(windows)]
+    windows::end();
+    #[cfg(not(any(unix, windows)))]
     std::process::exit(EXIT_CODE)
 }
 
@@ -150,6 +158,8 @@ pub fn watch() {
     look_on();
     #[cfg(unix)]
     unix::watch();
+    #[cfg(windows)]
+    windows::watch();
 }
 
 /// Standard output for results only: from now on, all other writes to standard output go to standard error. If that is not possible,
@@ -157,6 +167,10 @@ pub fn watch() {
 pub fn stdout_for_results() -> Box<dyn Output> {
     #[cfg(unix)]
     if let Some(file) = unix::moved_stdout() {
+        return Box::new(file);
+    }
+    #[cfg(windows)]
+    if let Some(file) = windows::moved_stdout() {
         return Box::new(file);
     }
     Box::new(std::io::stdout())
@@ -175,7 +189,7 @@ impl Output for std::io::Stdout {
     }
 }
 
-#[cfg(unix)]
+#[cfg(any(unix, windows))]
 impl Output for std::fs::File {
     fn width(&self) -> Option<usize> {
         let (width, _) = terminal_size::terminal_size_of(self)?;
@@ -183,8 +197,20 @@ impl Output for std::fs::File {
     }
 }
 
+/// What is said when a function ends the program.
+#[cfg(any(unix, windows))]
+mod words {
+    pub const HELP: &str = "\n  help: correct the function\n";
+    pub const EXITED: &str = " ended the program: it calls `exit`\n  help: return from the function instead; it must not end the program\n";
+    pub const MEMORY: &str =
+        " ended the program: it calls itself without end, or reads memory that is not its own";
+    pub const INSTRUCTION: &str = " ended the program by an invalid instruction";
+    pub const DIVISION: &str = " ended the program by an invalid division of integers";
+}
+
 #[cfg(unix)]
 mod unix {
+    use super::words::{DIVISION, EXITED, HELP, INSTRUCTION, MEMORY};
     use super::{INSIDE, end};
     use libc::{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, c_int, c_void, sigaction, siginfo_t};
     use std::fs::File;
@@ -195,22 +221,14 @@ mod unix {
     /// The signals of faults, and the message for each.
     const SIGNALS: [(c_int, &str); 5] = [
         (SIGABRT, " aborted the program"),
-        (
-            SIGSEGV,
-            " ended the program: it calls itself without end, or reads memory that is not its own",
-        ),
+        (SIGSEGV, MEMORY),
         (
             SIGBUS,
             " ended the program: it reads memory that is not its own",
         ),
-        (SIGILL, " ended the program by an invalid instruction"),
-        (
-            SIGFPE,
-            " ended the program by an invalid division of integers",
-        ),
+        (SIGILL, INSTRUCTION),
+        (SIGFPE, DIVISION),
     ];
-    const HELP: &str = "\n  help: correct the function\n";
-    const EXITED: &str = " ended the program: it calls `exit`\n  help: return from the function instead; it must not end the program\n";
 
     /// The handlers of these signals before: they are called if the fault is not in a user function.
     static BEFORE: OnceLock<[sigaction; 5]> = OnceLock::new();
@@ -290,5 +308,117 @@ mod unix {
             let kept = File::from_raw_fd(kept);
             (libc::dup2(2, 1) >= 0).then_some(kept)
         }
+    }
+}
+
+#[cfg(windows)]
+mod windows {
+    use super::words::{DIVISION, EXITED, HELP, INSTRUCTION, MEMORY};
+    use super::{EXIT_CODE, INSIDE};
+    use std::cell::Cell;
+    use std::ffi::c_void;
+    use std::fs::File;
+    use std::io::{IsTerminal, Write};
+    use std::os::windows::io::{AsHandle, AsRawHandle};
+    use std::sync::Once;
+    use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+    use windows_sys::Win32::Foundation::{
+        EXCEPTION_ACCESS_VIOLATION, EXCEPTION_ILLEGAL_INSTRUCTION, EXCEPTION_IN_PAGE_ERROR,
+        EXCEPTION_INT_DIVIDE_BY_ZERO, EXCEPTION_INT_OVERFLOW, EXCEPTION_STACK_OVERFLOW, NTSTATUS,
+    };
+    use windows_sys::Win32::System::Console::{STD_OUTPUT_HANDLE, SetStdHandle};
+    use windows_sys::Win32::System::Diagnostics::Debug::{
+        AddVectoredExceptionHandler, EXCEPTION_POINTERS,
+    };
+    use windows_sys::Win32::System::Threading::{
+        FLS_OUT_OF_INDEXES, FlsAlloc, FlsSetValue, GetCurrentProcess, TerminateProcess,
+    };
+
+    /// The exceptions of faults, and the message for each.
+    const EXCEPTIONS: [(NTSTATUS, &str); 6] = [
+        (EXCEPTION_ACCESS_VIOLATION, MEMORY),
+        (EXCEPTION_IN_PAGE_ERROR, MEMORY),
+        (EXCEPTION_STACK_OVERFLOW, MEMORY),
+        (EXCEPTION_ILLEGAL_INSTRUCTION, INSTRUCTION),
+        (EXCEPTION_INT_DIVIDE_BY_ZERO, DIVISION),
+        (EXCEPTION_INT_OVERFLOW, DIVISION),
+    ];
+    /// What a handler returns so that the system goes on looking for handlers.
+    const CONTINUE_SEARCH: i32 = 0;
+
+    /// If two threads fail at once, only the first one reports.
+    static TOLD: AtomicBool = AtomicBool::new(false);
+
+    /// The place of each thread whose callback the system calls when the thread ends, or the process by it; none before [`watch`].
+    static PLACE: AtomicU32 = AtomicU32::new(FLS_OUT_OF_INDEXES);
+
+    pub fn watch() {
+        static ONCE: Once = Once::new();
+        // SAFETY: handler and callback live as long as the program.
+        ONCE.call_once(|| unsafe {
+            // the first of all handlers: that of the standard library leaves little of a stack that is full
+            AddVectoredExceptionHandler(1, Some(failed));
+            PLACE.store(FlsAlloc(Some(ending)), Ordering::Relaxed);
+        });
+    }
+
+    /// The same for `exit` on this thread.
+    pub fn watch_thread() {
+        let place = PLACE.load(Ordering::Relaxed);
+        if place != FLS_OUT_OF_INDEXES {
+            let any = std::ptr::from_ref(&PLACE).cast();
+            // SAFETY: the callback is called where there is any value, and does not use it.
+            unsafe { FlsSetValue(place, any) };
+        }
+    }
+
+    /// Ends the program at once.
+    pub fn end() -> ! {
+        // SAFETY: it ends this process, without calling what waits for its end.
+        unsafe { TerminateProcess(GetCurrentProcess(), EXIT_CODE as u32) };
+        std::process::abort()
+    }
+
+    /// Reports what happened to the user function on this thread, and ends the program. It returns if there is none.
+    fn tell(what: &str, help: &str) {
+        let Some(inside) = INSIDE.try_with(Cell::get).ok().flatten() else {
+            return;
+        };
+        if TOLD.swap(true, Ordering::Relaxed) {
+            // another thread is reporting, and ends the program
+            loop {
+                std::thread::park();
+            }
+        }
+        for text in ["error: ", &inside.0, what, help] {
+            // a failed write is ignored
+            let _ = std::io::stderr().write_all(text.as_bytes());
+        }
+        end();
+    }
+
+    unsafe extern "system" fn failed(about: *mut EXCEPTION_POINTERS) -> i32 {
+        // SAFETY: the system passes a record that lives during the call.
+        let code = unsafe { (*(*about).ExceptionRecord).ExceptionCode };
+        if let Some((_, what)) = EXCEPTIONS.iter().find(|(of, _)| *of == code) {
+            tell(what, HELP);
+        }
+        CONTINUE_SEARCH
+    }
+
+    unsafe extern "system" fn ending(_: *const c_void) {
+        tell(EXITED, "");
+    }
+
+    /// A terminal stays as it is: the library writes characters to it, and a file would write bytes in another encoding.
+    pub fn moved_stdout() -> Option<File> {
+        let stdout = std::io::stdout();
+        if stdout.is_terminal() || crate::process::stdout_was_closed() {
+            return None;
+        }
+        let kept = stdout.as_handle().try_clone_to_owned().ok()?;
+        let other = std::io::stderr().as_raw_handle();
+        // SAFETY: it only sets which handle the process takes for standard output; that of standard error stays open.
+        (unsafe { SetStdHandle(STD_OUTPUT_HANDLE, other) } != 0).then(|| File::from(kept))
     }
 }

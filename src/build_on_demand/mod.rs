@@ -28,6 +28,12 @@ pub use user_forces::{UserFailure, UserForces};
 use bryant_generator::diagnostic::Diagnostics;
 use std::path::{Path, PathBuf};
 
+/// The variable with the directory that has the system's directory for caches.
+const HOME: &str = match cfg!(windows) {
+    true => "LOCALAPPDATA",
+    false => "HOME",
+};
+
 /// A model could not be compiled.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
@@ -54,10 +60,16 @@ pub enum BuildError {
         /// Its message.
         message: String,
     },
+    /// This program cannot load libraries.
+    #[error(
+        "user forces are compiled as a library, and this program cannot load any: it is linked statically, so that it runs on every Linux\n  \
+         help: use the program for x86_64-unknown-linux-gnu or aarch64-unknown-linux-gnu, or build it: cargo install bryant"
+    )]
+    Static,
     /// There is no linker.
     #[error(
         "the compiler found no linker: {message}\n  help: install a C compiler, which brings one \
-         (Debian and Ubuntu: apt install gcc; Fedora: dnf install gcc; macOS: xcode-select --install)"
+         (Debian and Ubuntu: apt install gcc; Fedora: dnf install gcc; macOS: xcode-select --install; Windows: the Build Tools for Visual Studio, with C++)"
     )]
     NoLinker {
         /// What the compiler said.
@@ -110,8 +122,9 @@ pub enum BuildError {
     },
     /// There is no place for a cache.
     #[error(
-        "there is no place for compiled models: neither BRYANT_CACHE nor XDG_CACHE_HOME nor HOME is set\n  \
-             help: name a writable directory by BRYANT_CACHE"
+        "there is no place for compiled models: neither BRYANT_CACHE nor XDG_CACHE_HOME nor {} is set\n  \
+             help: name a writable directory by BRYANT_CACHE",
+        HOME
     )]
     NoCache,
 }

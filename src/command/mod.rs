@@ -37,7 +37,7 @@ use terminal::Terminal;
 #[derive(Debug, Parser)]
 #[command(
     name = "bryant",
-    version,
+    version = crate::VERSION,
     about,
     long_about = "Reads the description of a mechanism (trees of rigid elements, the forces between them) in YAML, derives \
                   its equations of motion S(q) q̈ = r_s + r_k for exactly that mechanism, and runs it.\n\n\

@@ -7,7 +7,7 @@ use crate::own::{self, Kind};
 use crate::picture::Format;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// The places that are already taken.
 #[derive(Debug, Default)]
@@ -26,7 +26,10 @@ pub struct Replacing {
 }
 
 /// The file that accepts everything and keeps nothing.
-const NOWHERE: &str = "/dev/null";
+const NOWHERE: &str = match cfg!(windows) {
+    true => "NUL",
+    false => "/dev/null",
+};
 
 impl Outputs {
     /// No places taken yet, for a command that reads these files.
@@ -47,8 +50,11 @@ impl Outputs {
             true => PathBuf::from("-"),
             false => files::place(path),
         };
-        if place == Path::new(NOWHERE) {
+        if place == Path::new(NOWHERE) || path == Path::new(NOWHERE) {
             return Ok(());
+        }
+        if cfg!(windows) {
+            exists_on_windows(option, path)?;
         }
         if let Some((_, other)) = self.taken.iter().find(|(taken, _)| *taken == place) {
             let what = match is_standard(path) {
@@ -99,6 +105,23 @@ impl Outputs {
     }
 }
 
+/// Refuses a name that no file has on Windows.
+fn exists_on_windows(option: &str, path: &Path) -> Result<(), Error> {
+    for part in path.components() {
+        let Component::Normal(name) = part else {
+            continue;
+        };
+        if let Some(reason) = files::refusal_of_windows(&name.to_string_lossy()) {
+            return Err(Error::Input(format!(
+                "{option} would write to {}, and \"{}\" {reason}\n  help: name another file",
+                path.display(),
+                name.to_string_lossy().escape_debug()
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// Whether a path stands for standard output.
 pub fn is_standard(path: &Path) -> bool {
     // other names are standard error here: standard output is moved out of reach of user forces
@@ -145,10 +168,25 @@ mod tests {
         assert!(
             told("--csv", "/dev/stdout").contains("--json and --csv both write to standard output")
         );
-        assert_eq!(
-            told("--csv", "/dev/null") + &told("--picture", "/dev/null"),
-            ""
-        );
+        assert_eq!(told("--csv", NOWHERE) + &told("--picture", NOWHERE), "");
+    }
+
+    #[test]
+    fn a_name_that_windows_has_not_is_refused_with_the_option() {
+        let told = |path: &str| {
+            exists_on_windows("--csv", Path::new(path)).map_err(|error| match error {
+                Error::Input(message) => message,
+                error => panic!("{error:?}"),
+            })
+        };
+        assert_eq!(told("../out/child-seat.csv"), Ok(()));
+        for bad in ["con.csv", "out/aux.csv", "nul/a.csv"] {
+            let message = told(bad).unwrap_err();
+            assert!(
+                message.contains("--csv") && message.contains(bad) && message.contains("device"),
+                "{message}"
+            );
+        }
     }
 
     #[test]

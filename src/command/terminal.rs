@@ -19,9 +19,11 @@ pub struct Terminal {
 impl Terminal {
     /// The terminal of this process. From now on, output of user functions goes to standard error, so that it does not mix with results.
     pub fn new() -> Self {
+        // asked before standard output is moved
+        let closed = process::stdout_was_closed();
         Self {
             output: BufWriter::new(guard::stdout_for_results()),
-            closed: process::stdout_was_closed(),
+            closed,
             told: false,
             begin: Instant::now(),
         }
@@ -102,7 +104,7 @@ impl Terminal {
     pub fn colour(&self) -> bool {
         let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|t| t == "dumb");
-        io::stderr().is_terminal() && !refused && !dumb
+        io::stderr().is_terminal() && !refused && !dumb && process::shows_colours()
     }
 
     /// Characters per line of standard output; `None` where it is no terminal.

@@ -165,6 +165,31 @@ fn no_rust_toolchain_is_needed() {
 }
 
 #[test]
+fn the_version_has_the_commit() {
+    let git = |arguments: &[&str]| {
+        let mut git = std::process::Command::new("git");
+        let output = git
+            .arg("-C")
+            .arg(env!("CARGO_MANIFEST_DIR"))
+            .args(arguments)
+            .output();
+        let output = output.ok().filter(|output| output.status.success())?;
+        Some(String::from_utf8(output.stdout).unwrap().trim().to_owned())
+    };
+    let commit = match git(&["rev-parse", "--show-prefix"]).as_deref() {
+        Some("") => git(&["rev-parse", "--short=12", "HEAD"]).expect("a commit"),
+        // sources without a repository, or inside of another one
+        _ => "unknown".to_owned(),
+    };
+    let directory = tempfile::tempdir().unwrap();
+    let (stdout, _) = call(directory.path(), &["--version"], 0);
+    assert_eq!(
+        stdout,
+        format!("bryant {} (commit {commit})\n", env!("CARGO_PKG_VERSION"))
+    );
+}
+
+#[test]
 fn both_methods_agree_and_conserve_energy() {
     let directory = directory();
     let run = |more: &[&str]| {

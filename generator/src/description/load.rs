@@ -646,7 +646,7 @@ impl Reader<'_> {
             .last()
             .and_then(|p| p.parent())
             .unwrap_or(Path::new(""));
-        let path = normal(&from.join(at.node.text().unwrap_or_default()));
+        let path = normal(&from.join(at.node.text().unwrap_or_default().replace('\\', "/")));
         if let Some(begin) = self.open.iter().position(|p| *p == path) {
             let cycle: Vec<String> = self.open[begin..]
                 .iter()
@@ -837,10 +837,10 @@ impl Reader<'_> {
     }
 }
 
-/// The path of a file named in another.
+/// The path of a file named in another. Its parts are joined by `/` or by `\\`, on every system.
 pub fn beside(source: &str, file: &str) -> PathBuf {
     let directory = Path::new(source).parent().unwrap_or(Path::new(""));
-    normal(&directory.join(file))
+    normal(&directory.join(file.replace('\\', "/")))
 }
 
 /// The path without `.` and, as far as that is possible, `..`.
@@ -862,5 +862,8 @@ fn normal(path: &Path) -> PathBuf {
 
 /// A path as shown to the user, the same on every system.
 pub fn shown(path: &Path) -> String {
-    path.display().to_string().replace('\\', "/")
+    let path = path.display().to_string();
+    // of a path as Windows gives it in full, what a user writes; with the other sign the beginning would have no meaning
+    let path = path.strip_prefix(r"\\?\").unwrap_or(&path);
+    path.replace('\\', "/")
 }

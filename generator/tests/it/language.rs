@@ -688,6 +688,9 @@ forces: [{{ field: sled, acceleration: [pulse, {{ curve: pulse, stretch: 2 }}] }
         files,
         ["models/sled.yaml", "models/data/pulse.csv"].map(PathBuf::from)
     );
+    // as a path is written on Windows
+    let (same, same_files) = read(&text(r"file: data\..\data\pulse.csv, columns: [time, 3]"));
+    assert_eq!((&same.curves, same_files), (&model.curves, files));
     let anonymous = |model: Model| Model {
         digest: String::new(),
         ..model

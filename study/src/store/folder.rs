@@ -137,6 +137,10 @@ impl Folder {
                     at(&file, writeln!(out, "{text}"))
                 })?;
             }
+            // on Windows nobody else can read what a process has locked
+            Err(source) if cfg!(windows) && source.raw_os_error() == Some(LOCK_VIOLATION) => {
+                return Err(FolderError::Busy(path.to_owned()));
+            }
             Err(source) => return Err(FolderError::Read { path: file, source }),
         }
         at(path, fs::create_dir_all(path.join("blocks")))?;
@@ -289,6 +293,9 @@ impl Drop for Lock {
 /// Another process has locked a file.
 struct Locked;
 
+/// What Windows answers to the reader of a file that another process has locked.
+const LOCK_VIOLATION: i32 = 33;
+
 /// How often a file is opened anew that was removed before it was locked. Beyond that the file system does not tell files apart.
 const TRIES: usize = 16;
 
@@ -328,7 +335,36 @@ fn is_at(file: &fs::File, path: &Path) -> bool {
 }
 
 /// Whether a file is the one that a path names.
-#[cfg(not(unix))]
+#[cfg(windows)]
+fn is_at(file: &fs::File, path: &Path) -> bool {
+    let one = |file: io::Result<fs::File>| index(&file.ok()?);
+    match (index(file), one(fs::File::open(path))) {
+        (Some(ours), Some(there)) => ours == there,
+        _ => false,
+    }
+}
+
+/// The volume of a file, and its number there.
+#[cfg(windows)]
+#[expect(unsafe_code, reason = "the standard library does not tell it yet")]
+fn index(file: &fs::File) -> Option<[u32; 3]> {
+    use std::os::windows::io::AsRawHandle;
+    use windows_sys::Win32::Storage::FileSystem::{
+        BY_HANDLE_FILE_INFORMATION, GetFileInformationByHandle,
+    };
+    let mut about = BY_HANDLE_FILE_INFORMATION::default();
+    // SAFETY: the handle is open, and there is room for what is told.
+    let told = unsafe { GetFileInformationByHandle(file.as_raw_handle(), &raw mut about) };
+    let numbers = [
+        about.dwVolumeSerialNumber,
+        about.nFileIndexHigh,
+        about.nFileIndexLow,
+    ];
+    (told != 0).then_some(numbers)
+}
+
+/// Whether a file is the one that a path names.
+#[cfg(not(any(unix, windows)))]
 fn is_at(_: &fs::File, path: &Path) -> bool {
     path.exists()
 }

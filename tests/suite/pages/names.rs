@@ -383,7 +383,7 @@ fn manifests() -> Vec<(PathBuf, String)> {
         "picture",
         "generated",
         "tests",
-        "tests/hard",
+        "hard",
         "examples/stranger",
     ];
     let paths = crates.map(|name| root().join(name));

@@ -141,7 +141,7 @@ fn lanes_tell_what_single_runs_tell() {
 fn fixed_steps_that_go_over_something_are_told() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
-    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/hard/scenes/bullet.yaml");
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/hard/scenes/bullet.yaml");
     std::fs::copy(scene, at.join("bullet.yaml")).unwrap();
     // steps of some millimetres see the contact; steps of 0.1 m to 0.4 m do not: neither their ends nor their middles are within 20 mm of
     // the target

@@ -1,0 +1,23 @@
+//! Valid models to begin with; together they have every kind of force, motion, switch and output.
+
+use crate::scene::Scene;
+use bryant_generator::Diagnostics;
+use bryant_generator::model::{Model, read_str};
+use std::io;
+use std::path::Path;
+
+include!(concat!(env!("OUT_DIR"), "/samples.rs"));
+
+/// All models as scenes.
+pub fn scenes() -> impl Iterator<Item = Scene> {
+    ALL.iter().map(|(name, text)| Scene::new(*name, *text))
+}
+
+/// Reads text as a model; it may include `data/pulse.csv`.
+pub fn read(text: &str) -> Result<Model, Diagnostics> {
+    let loader = |path: &Path| match path.ends_with("data/pulse.csv") {
+        true => Ok(PULSE.to_owned()),
+        false => Err(io::Error::from(io::ErrorKind::NotFound)),
+    };
+    read_str("garbage.yaml", text, &loader).map(|(model, _)| model)
+}
