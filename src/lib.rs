@@ -52,6 +52,7 @@
 //! print!("{}", recording.table.text(Default::default()));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub use bryant_generator as generator;
 pub use bryant_runtime as runtime;

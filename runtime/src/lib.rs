@@ -154,6 +154,7 @@
 //!
 //! Nothing allocates and nothing needs the standard library, except `apart`, `batch`, `program` and `real::lanes`. Without `std` and `libm` the crate
 //! still builds, but `f64` and `f32` then have no elementary functions and are no scalars; [`DoubleDouble`] has its own.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 #[cfg(feature = "std")]

@@ -251,7 +251,7 @@ impl Axes {
         let mut from = [-6.0, -4.0];
         let mut to = [0.0, -1.0];
         for axis in 0..2 {
-            let exponents = points().map(|p| p[axis].log10());
+            let exponents = points().map(|p| libm::log10(p[axis]));
             let (low, high) = exponents.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), e| {
                 (l.min(e), h.max(e))
             });
@@ -261,7 +261,7 @@ impl Axes {
             }
         }
         Axes {
-            low: from.map(|exponent| 10f64.powf(exponent)),
+            low: from.map(|exponent| libm::pow(10.0, exponent)),
             from,
             to,
         }
@@ -272,7 +272,7 @@ impl Axes {
         let [left, top, width, height] = FRAME;
         let part = |axis: usize| {
             let span = self.to[axis] - self.from[axis];
-            (point[axis].log10() - self.from[axis]) / span
+            (libm::log10(point[axis]) - self.from[axis]) / span
         };
         [left + part(0) * width, top + (1.0 - part(1)) * height]
     }
@@ -286,7 +286,7 @@ impl Axes {
         exponents
             .map(|exponent| {
                 let mut point = self.low;
-                point[axis] = 10f64.powi(exponent);
+                point[axis] = libm::pow(10.0, f64::from(exponent));
                 (exponent, self.place(point)[axis])
             })
             .collect()
@@ -389,7 +389,7 @@ pub(super) mod tests {
         assert_eq!((axes.from, axes.to), ([-9.0, -4.5], [-2.0, -3.0]));
         let corner = axes.place([1e-9, 1e-3]);
         assert!((corner[0] - left).abs() < 1e-9 && (corner[1] - top).abs() < 1e-9);
-        let middle = axes.place([10f64.powf(-5.5), 10f64.powf(-3.75)]);
+        let middle = axes.place([libm::pow(10.0, -5.5), libm::pow(10.0, -3.75)]);
         assert!((middle[0] - left - 0.5 * width).abs() < 1e-9);
         assert!((middle[1] - top - 0.5 * height).abs() < 1e-9);
     }

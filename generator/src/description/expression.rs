@@ -291,7 +291,7 @@ impl Reader {
                 let (power, end) = self.power()?;
                 length = end - offset;
                 unit = Unit {
-                    factor: unit.factor.powi(power),
+                    factor: libm::pow(unit.factor, f64::from(power)),
                     dimension: unit.dimension.power(power),
                 };
             }

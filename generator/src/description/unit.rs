@@ -232,7 +232,10 @@ pub fn unit(name: &str) -> Option<Unit> {
 
 /// Powers of ten multiplied without a rounding that their decimal product would not have (kg is exactly 1).
 fn scale_of(factor: f64, scale: f64) -> f64 {
-    10f64.powi((factor.log10() + scale.log10()).round() as i32)
+    libm::pow(
+        10.0,
+        f64::from((libm::log10(factor) + libm::log10(scale)).round() as i32),
+    )
 }
 
 #[cfg(test)]

@@ -32,6 +32,7 @@ macro_rules! plain {
             }
 
             #[inline(always)]
+            #[allow(clippy::disallowed_methods, reason = "it is asked for by name")]
             fn fused(self, a: Self, b: Self) -> Self {
                 #[cfg(any(feature = "std", test))]
                 return $float::mul_add(self, a, b);
