@@ -50,7 +50,7 @@ pub fn text(header: &Header, energy: &Energy, all: bool) -> String {
 
 /// The number rounded to this many decimals; zero has no sign.
 fn rounded(value: f64, decimals: usize) -> f64 {
-    let scale = libm::pow(10.0, f64::from(decimals as i32));
+    let scale = bryant_picture::chart::power_of_ten(decimals as i32);
     (value * scale).round() / scale + 0.0
 }
 

@@ -226,10 +226,11 @@ fn spacing_decimals(column: &Column) -> Option<usize> {
     }
     (0..=9).find(|&decimals| {
         let whole = |value: f64| {
-            let scaled = value * libm::pow(10.0, f64::from(decimals as i32));
+            let scaled = value * bryant_picture::chart::power_of_ten(decimals as i32);
             (scaled - scaled.round()).abs() < 1e-3
         };
-        step * libm::pow(10.0, f64::from(decimals as i32)) > 0.5 && values.iter().all(|v| whole(*v))
+        step * bryant_picture::chart::power_of_ten(decimals as i32) > 0.5
+            && values.iter().all(|v| whole(*v))
     })
 }
 

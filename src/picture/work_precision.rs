@@ -286,7 +286,7 @@ impl Axes {
         exponents
             .map(|exponent| {
                 let mut point = self.low;
-                point[axis] = libm::pow(10.0, f64::from(exponent));
+                point[axis] = bryant_picture::chart::power_of_ten(exponent);
                 (exponent, self.place(point)[axis])
             })
             .collect()
@@ -389,7 +389,7 @@ pub(super) mod tests {
         assert_eq!((axes.from, axes.to), ([-9.0, -4.5], [-2.0, -3.0]));
         let corner = axes.place([1e-9, 1e-3]);
         assert!((corner[0] - left).abs() < 1e-9 && (corner[1] - top).abs() < 1e-9);
-        let middle = axes.place([libm::pow(10.0, -5.5), libm::pow(10.0, -3.75)]);
+        let middle = axes.place([10f64.powf(-5.5), 10f64.powf(-3.75)]);
         assert!((middle[0] - left - 0.5 * width).abs() < 1e-9);
         assert!((middle[1] - top - 0.5 * height).abs() < 1e-9);
     }

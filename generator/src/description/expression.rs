@@ -291,7 +291,7 @@ impl Reader {
                 let (power, end) = self.power()?;
                 length = end - offset;
                 unit = Unit {
-                    factor: libm::pow(unit.factor, f64::from(power)),
+                    factor: super::unit::whole_power(unit.factor, power),
                     dimension: unit.dimension.power(power),
                 };
             }

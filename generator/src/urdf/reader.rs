@@ -480,7 +480,7 @@ fn half_unit(text: &str) -> f64 {
     if is_zero {
         0.0
     } else {
-        0.5 * libm::pow(10.0, f64::from(last))
+        0.5 * crate::description::unit::whole_power(10.0, last)
     }
 }
 
