@@ -56,7 +56,7 @@ pub fn turns(scene: &Value) -> Vec<Vec<f64>> {
         let angle = |(a, b): (&[f64], &[f64])| {
             let [a, b] = [a, b].map(|one| unit([one[4], one[5], one[6], one[3]]));
             let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
-            2.0 * product.abs().min(1.0).acos()
+            2.0 * libm::acos(product.abs().min(1.0))
         };
         bodies.map(angle).collect()
     };
@@ -473,9 +473,9 @@ fn sphere() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
     let (rings, sides) = AROUND;
     let mut places = Vec::new();
     for i in 0..=rings {
-        let (sine, cosine) = (PI * i as f64 / rings as f64).sin_cos();
+        let (sine, cosine) = libm::sincos(PI * i as f64 / rings as f64);
         for j in 0..=sides {
-            let (y, x) = (TAU * j as f64 / sides as f64).sin_cos();
+            let (y, x) = libm::sincos(TAU * j as f64 / sides as f64);
             places.push([sine * x, sine * y, cosine]);
         }
     }
@@ -494,7 +494,7 @@ fn sphere() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
 fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
     let (mut places, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
     for j in 0..=SIDES {
-        let (y, x) = (TAU * j as f64 / SIDES as f64).sin_cos();
+        let (y, x) = libm::sincos(TAU * j as f64 / SIDES as f64);
         for z in [0.0, 1.0] {
             places.push([x, y, z]);
             normals.push([x, y, 0.0]);

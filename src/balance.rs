@@ -50,14 +50,14 @@ pub fn text(header: &Header, energy: &Energy, all: bool) -> String {
 
 /// The number rounded to this many decimals; zero has no sign.
 fn rounded(value: f64, decimals: usize) -> f64 {
-    let scale = 10f64.powi(decimals as i32);
+    let scale = bryant_picture::chart::power_of_ten(decimals as i32);
     (value * scale).round() / scale + 0.0
 }
 
 /// Digits behind the point that show four digits of the largest value.
 fn decimals(largest: f64) -> usize {
     if largest > 0.0 {
-        (3 - largest.log10().floor() as i32).clamp(0, 9) as usize
+        (3 - libm::log10(largest).floor() as i32).clamp(0, 9) as usize
     } else {
         0
     }

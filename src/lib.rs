@@ -52,6 +52,7 @@
 //! print!("{}", recording.table.text(Default::default()));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 /// Version of the program, with the commit that it was built from.
 pub const VERSION: &str = concat!(

@@ -91,7 +91,7 @@ impl WithoutCharts {
         let mut from = self.lengths[0];
         for &Charted { angles, rates, .. } in &self.elements {
             y.extend(&state[from..rates]);
-            let [first, second] = [0, 1].map(|i| state[angles + i].sin_cos());
+            let [first, second] = [0, 1].map(|i| libm::sincos(state[angles + i]));
             y.extend(omega(first, second, [0, 1, 2].map(|i| state[rates + i])));
             from = rates + 3;
         }
@@ -105,7 +105,7 @@ const CHANGE: f64 = 0.8;
 
 /// The unit quaternion and the angular velocity in absolute axes of Bryant angles and their rates in a chart.
 pub(crate) fn without_chart(angles: [f64; 3], rates: [f64; 3], chart: f64) -> ([f64; 4], [f64; 3]) {
-    let [first, second] = [0, 1].map(|i| angles[i].sin_cos());
+    let [first, second] = [0, 1].map(|i| libm::sincos(angles[i]));
     (quaternion(angles, chart), omega(first, second, rates))
 }
 
@@ -118,11 +118,11 @@ pub(crate) fn in_chart(quaternion: [f64; 4], omega: [f64; 3]) -> ([f64; 3], [f64
         false => (a, 0.0),
     };
     let angles = [
-        (-r[1][2]).atan2(r[2][2]),
-        r[0][2].clamp(-1.0, 1.0).asin(),
-        (-r[0][1]).atan2(r[0][0]),
+        libm::atan2(-r[1][2], r[2][2]),
+        libm::asin(r[0][2].clamp(-1.0, 1.0)),
+        libm::atan2(-r[0][1], r[0][0]),
     ];
-    let [(s1, c1), (s2, c2)] = [0, 1].map(|i| f64::sin_cos(angles[i]));
+    let [(s1, c1), (s2, c2)] = [0, 1].map(|i| libm::sincos(angles[i]));
     let third = (c1 * omega[2] - s1 * omega[1]) / c2;
     let rates = [omega[0] - s2 * third, c1 * omega[1] + s1 * omega[2], third];
     (angles, rates, chart)
@@ -130,7 +130,7 @@ pub(crate) fn in_chart(quaternion: [f64; 4], omega: [f64; 3]) -> ([f64; 3], [f64
 
 /// The unit quaternion of Rx(φ₁) Ry(φ₂) Rz(φ₃), turned by −90° about the element's y in chart 1.
 fn quaternion(angles: [f64; 3], chart: f64) -> [f64; 4] {
-    let [(s1, c1), (s2, c2), (s3, c3)] = angles.map(|angle| (0.5 * angle).sin_cos());
+    let [(s1, c1), (s2, c2), (s3, c3)] = angles.map(|angle| libm::sincos(0.5 * angle));
     let [w, x, y, z] = [
         c1 * c2 * c3 - s1 * s2 * s3,
         s1 * c2 * c3 + c1 * s2 * s3,

@@ -321,7 +321,7 @@ pub fn dot(a: Vec3, b: Vec3) -> f64 {
 
 /// Rx(φ₁) Ry(φ₂) Rz(φ₃), by rows.
 pub fn bryant_rotation([a, b, c]: Vec3) -> [Vec3; 3] {
-    let ((s1, c1), (s2, c2), (s3, c3)) = (a.sin_cos(), b.sin_cos(), c.sin_cos());
+    let ((s1, c1), (s2, c2), (s3, c3)) = (libm::sincos(a), libm::sincos(b), libm::sincos(c));
     [
         [c2 * c3, -c2 * s3, s2],
         [c1 * s3 + s1 * s2 * c3, c1 * c3 - s1 * s2 * s3, -s1 * c2],

@@ -393,7 +393,7 @@ impl<'m> Motion<'m> {
                     true => worst.max(e.abs()),
                     false => f64::INFINITY,
                 });
-            let change = 0.9 * worst.max(1e-6).powf(-1.0 / 3.0);
+            let change = 0.9 * libm::pow(worst.max(1e-6), -1.0 / 3.0);
             if worst <= 1.0 {
                 self.last_step = h;
                 self.step_length = (h * change.clamp(0.2, 5.0)).min(LONGEST_STEP);

@@ -172,7 +172,7 @@ impl Format {
             return Format::Decimals(natural);
         }
         let wanted = digits.unwrap_or(3).max(1);
-        let exponent = largest.log10().floor() as i64;
+        let exponent = libm::log10(largest).floor() as i64;
         if !(-6..=9).contains(&exponent) {
             return Format::Scientific(wanted - 1);
         }
@@ -226,10 +226,11 @@ fn spacing_decimals(column: &Column) -> Option<usize> {
     }
     (0..=9).find(|&decimals| {
         let whole = |value: f64| {
-            let scaled = value * 10f64.powi(decimals as i32);
+            let scaled = value * bryant_picture::chart::power_of_ten(decimals as i32);
             (scaled - scaled.round()).abs() < 1e-3
         };
-        step * 10f64.powi(decimals as i32) > 0.5 && values.iter().all(|v| whole(*v))
+        step * bryant_picture::chart::power_of_ten(decimals as i32) > 0.5
+            && values.iter().all(|v| whole(*v))
     })
 }
 

@@ -29,6 +29,7 @@
 //! | `call` | the functions that lists call: curves, force laws, functions of the user |
 //! | `user` | functions of the user, which take and return plain numbers |
 //! | `info` | the facts of a model, in the form of the runtime |
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod call;
 #[cfg(all(target_arch = "x86_64", any(unix, windows), not(bryant_interpret)))]

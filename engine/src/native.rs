@@ -36,7 +36,6 @@ pub fn target<T: Real>() -> Option<Target> {
         fused: layout.fused,
         many_registers: wide && is_x86_feature_detected!("avx512vl"),
         slopes: layout.slopes,
-        calls_angle: layout.platform_angle,
     })
 }
 

@@ -164,7 +164,7 @@ impl CarPart {
         }
         text.push_str("surfaces:\n");
         for plane in planes {
-            let normal = [plane.leans.cos(), 0.0, plane.leans.sin()];
+            let normal = [libm::cos(plane.leans), 0.0, libm::sin(plane.leans)];
             let along = match self.planar {
                 true => String::new(),
                 false => format!(", along: {}", self.vector([normal[2], 0.0, -normal[0]])),
@@ -201,7 +201,7 @@ impl CarPart {
         } = self;
         let tilt = self.angle.unwrap_or(25f64.to_radians());
         // away from the driver, and down
-        let axis = [tilt.cos(), 0.0, -tilt.sin()];
+        let axis = [libm::cos(tilt), 0.0, -libm::sin(tilt)];
         let rim = match self.planar {
             true => ("[0.02, 0.19]".to_owned(), format!("{tilt}")),
             false => ("[0.02, 0.19, 0.19]".to_owned(), format!("[0, {tilt}, 0]")),

@@ -36,6 +36,7 @@
 //!
 //! The steps in between are functions, too: [`model::read`] checks a description, [`dynamics::derive`] makes its equations, [`target::rust::module`]
 //! writes them.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod car_part;
 pub mod config;

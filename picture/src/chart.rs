@@ -193,9 +193,15 @@ fn ticks(range: &Range<f64>, pixels: f64, room: impl Fn(f64) -> f64) -> Vec<f64>
     best
 }
 
+/// 10^`exponent`: exact where it is whole and at most 10²², and the nearest double where it is a reciprocal of these.
+pub fn power_of_ten(exponent: i32) -> f64 {
+    let power = libm::pow(10.0, f64::from(exponent.abs()));
+    if exponent < 0 { 1.0 / power } else { power }
+}
+
 /// The smallest of 1, 2, 5 times a power of ten that is not below `value` (positive).
 fn round_above(value: f64) -> f64 {
-    let power = 10f64.powf(value.log10().floor());
+    let power = power_of_ten(libm::log10(value).floor() as i32);
     let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= value);
     factor.unwrap_or(10.0) * power
 }
@@ -223,12 +229,12 @@ fn step(ticks: &[f64]) -> f64 {
 
 /// A label with as many digits as distinguish ticks at this distance.
 pub fn label(value: f64, step: f64) -> String {
-    let power = (step * (1.0 + 1e-9)).log10().floor();
+    let power = libm::log10(step * (1.0 + 1e-9)).floor();
     let size = value.abs();
     let text = match size {
         _ if size < 1e-6 * step => "0".to_owned(),
         _ if size >= 1e6 || (power < -5.0 && size < 1e-2) => {
-            let digits = (size.log10().floor() - power).clamp(0.0, 12.0) as usize;
+            let digits = (libm::log10(size).floor() - power).clamp(0.0, 12.0) as usize;
             format!("{value:.digits$e}")
         }
         _ => format!("{value:.*}", (-power).clamp(0.0, 12.0) as usize),

@@ -7,6 +7,7 @@
 //! | [`chart`] | a frame with axes, round ticks and a legend |
 //! | [`raster`] | PNG, with a font that is part of the program |
 //! | [`text`] | splits text into lines |
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod chart;
 pub mod drawing;

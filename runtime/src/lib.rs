@@ -152,8 +152,9 @@
 //! | `program` (feature `std`) | a run described by a few words and delivered as a stream: the stand-alone program |
 //! | `source` (feature `embedded-source`) | the text of this crate, for compiling a scene on demand |
 //!
-//! Nothing allocates and nothing needs the standard library, except `apart`, `batch`, `program` and `real::lanes`. Without `std` and `libm` the crate
-//! still builds, but `f64` and `f32` then have no elementary functions and are no scalars; [`DoubleDouble`] has its own.
+//! Nothing allocates and nothing needs the standard library, except `apart`, `batch` and `program`; `real::lanes` needs `libm` without it. Without
+//! both the crate still builds, but `f64` and `f32` then have no square roots and are no scalars; [`DoubleDouble`] has its own.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 #[cfg(feature = "std")]

@@ -112,6 +112,7 @@ files! {
     "real/lanes/tests.rs",
     "real/layout.rs",
     "real/number.rs",
+    "real/plain.rs",
     "real/words.rs",
     "response/answer.rs",
     "response/channel.rs",

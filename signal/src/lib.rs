@@ -11,6 +11,7 @@
 //! | [`unit`](mod@unit) | units of channels, as they are spelled |
 //!
 //! Nothing here knows a model or a run.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod filter;
 pub mod mme;

@@ -161,7 +161,8 @@ fn corridor(reference: &[f64], comparison: &[f64]) -> f64 {
         } else if distance > outer {
             0.0
         } else {
-            ((outer - distance) / (outer - inner)).powi(2)
+            let share = (outer - distance) / (outer - inner);
+            share * share
         }
     };
     let scores: f64 = reference.iter().zip(comparison).map(score).sum();
@@ -227,7 +228,8 @@ fn warped_error(reference: &[f64], comparison: &[f64]) -> f64 {
             let Some(j) = (i + k).checked_sub(band).filter(|j| *j < count) else {
                 continue;
             };
-            let cost = (reference[i] - comparison[j]).powi(2);
+            let difference = reference[i] - comparison[j];
+            let cost = difference * difference;
             // in the row above, the same j is one place further right
             let both = if i > 0 && j > 0 {
                 before[k]

@@ -186,8 +186,8 @@ impl Scene<'_> {
             self.value(&self.element.mass),
             self.value(&self.element.inertia[1]),
         );
-        let arm = cg[0].hypot(cg[1]);
-        let strength = self.field[0].hypot(self.field[1]);
+        let arm = libm::hypot(cg[0], cg[1]);
+        let strength = libm::hypot(self.field[0], self.field[1]);
         let start = self.value(&self.element.angles[1]);
         let rate = self.value(&self.element.angular_velocity[1]);
         let square = mass * arm * strength / (inertia + mass * arm * arm);
@@ -200,18 +200,18 @@ impl Scene<'_> {
             });
         }
         let frequency = square.sqrt();
-        let turned = start + cg[0].atan2(cg[1]) - self.field[0].atan2(self.field[1]);
+        let turned = start + libm::atan2(cg[0], cg[1]) - libm::atan2(self.field[0], self.field[1]);
         // θ at the start, in −π..π
         let theta = turned - 2.0 * PI * (turned / (2.0 * PI)).round();
-        let half = (0.5 * theta).sin();
+        let half = libm::sin(0.5 * theta);
         let swing = 0.5 * rate / frequency;
-        let modulus = half.hypot(swing);
+        let modulus = libm::hypot(half, swing);
         if (modulus - 1.0).abs() < SEPARATRIX || modulus == 0.0 {
             return None;
         }
         let motion = if modulus < 1.0 {
             // k sn u₀ = sin θ/2, k cn u₀ = θ̇/(2√κ)
-            let phi = half.atan2(swing);
+            let phi = libm::atan2(half, swing);
             Motion::Oscillation {
                 modulus,
                 phase: quarter_wise(phi, modulus),
@@ -260,7 +260,7 @@ fn quarter_wise(phi: f64, modulus: f64) -> f64 {
 
 /// A local vector (x, z) in absolute axes, the element turned by φ about y.
 fn turned([x, z]: [f64; 2], phi: f64) -> [f64; 2] {
-    let (sin, cos) = phi.sin_cos();
+    let (sin, cos) = libm::sincos(phi);
     [x * cos + z * sin, z * cos - x * sin]
 }
 
@@ -271,8 +271,8 @@ impl Pendulum {
             Motion::Uniform { start } => [start + self.rate * t, self.rate],
             Motion::Oscillation { modulus, phase } => {
                 let am = amplitude(self.frequency * t + phase, modulus);
-                let theta = 2.0 * (modulus * am.sin()).asin();
-                let rate = 2.0 * modulus * self.frequency * am.cos();
+                let theta = 2.0 * libm::asin(modulus * libm::sin(am));
+                let rate = 2.0 * modulus * self.frequency * libm::cos(am);
                 [self.equilibrium + theta, rate]
             }
             Motion::Rotation {
@@ -281,7 +281,7 @@ impl Pendulum {
                 sign,
             } => {
                 let am = amplitude(self.frequency * t / inverse + phase, inverse);
-                let product = inverse * am.sin();
+                let product = inverse * libm::sin(am);
                 let dn = ((1.0 - product) * (1.0 + product)).sqrt();
                 let rate = sign * 2.0 * self.frequency / inverse * dn;
                 [self.equilibrium + sign * 2.0 * am, rate]

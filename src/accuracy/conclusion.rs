@@ -123,7 +123,7 @@ pub fn bounded_by_stability(study: &Study) -> Vec<(String, f64, f64)> {
         let bounded = done.windows(2).rev().find(|pair| {
             let finer = pair[0].0.setting.pace.value() / pair[1].0.setting.pace.value();
             let order = f64::from(pair[0].0.setting.formula.order());
-            let expected = finer.powf(1.0 / order);
+            let expected = libm::pow(finer, 1.0 / order);
             let grown = pair[1].1 as f64 / pair[0].1 as f64;
             // most of the growth that the accuracy would require is missing
             pair[0].1 > MANY_STEPS && grown < 1.0 + 0.25 * (expected - 1.0)

@@ -103,11 +103,11 @@ fn motion(model: &dyn Adjustable<f64>, t: f64, y: &[f64]) -> Option<(f64, Vec<f6
         }
         // the first vector is not of length 1
         if k >= FORGOTTEN {
-            growth += size.ln();
+            growth += libm::log(size);
         }
         x = product.iter().map(|x| x / size).collect();
     }
-    Some(((growth / (PRODUCTS - FORGOTTEN) as f64).exp(), x))
+    Some((libm::exp(growth / (PRODUCTS - FORGOTTEN) as f64), x))
 }
 
 /// The effect whose power is curved most along a motion.

@@ -51,7 +51,9 @@ pub struct Digits {
 /// The regression over points with positive error; `None` if there are fewer than three, or they span less than one digit.
 pub fn digits(points: &[Cost]) -> Option<Digits> {
     let usable = points.iter().filter(|p| p.error > 0.0 && p.time > 0.0);
-    let pairs: Vec<(f64, f64)> = usable.map(|p| (-p.error.log10(), p.time.log10())).collect();
+    let pairs: Vec<(f64, f64)> = usable
+        .map(|p| (-libm::log10(p.error), libm::log10(p.time)))
+        .collect();
     let fold = |pick: fn(f64, f64) -> f64, start: f64| pairs.iter().map(|p| p.0).fold(start, pick);
     let (least, most) = (
         fold(f64::min, f64::INFINITY),
@@ -60,9 +62,9 @@ pub fn digits(points: &[Cost]) -> Option<Digits> {
     // If there is no point, the range is NaN, which is not enough either.
     let enough = pairs.len() >= 3 && most - least >= 1.0;
     enough.then(|| Digits {
-        factor: 10f64.powf(slope(&pairs)),
-        from: 10f64.powf(-least),
-        to: 10f64.powf(-most),
+        factor: libm::pow(10.0, slope(&pairs)),
+        from: libm::pow(10.0, -least),
+        to: libm::pow(10.0, -most),
         points: pairs.len(),
     })
 }
@@ -73,7 +75,7 @@ fn slope(pairs: &[(f64, f64)]) -> f64 {
     let mean = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / count;
     let (x, y) = (mean(|p| p.0), mean(|p| p.1));
     let moment = |of: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>();
-    moment(&|p| (p.0 - x) * (p.1 - y)) / moment(&|p| (p.0 - x).powi(2))
+    moment(&|p| (p.0 - x) * (p.1 - y)) / moment(&|p| (p.0 - x) * (p.0 - x))
 }
 
 #[cfg(test)]

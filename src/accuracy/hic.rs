@@ -23,7 +23,7 @@ pub fn hic(times: &[f64], accelerations: &[f64], window: f64) -> Option<f64> {
     let mut consider = |from: f64, to: f64, velocity: f64| {
         let length = to - from;
         if length > 0.0 && velocity > 0.0 {
-            largest = largest.max(length * (velocity / (G * length)).powf(2.5));
+            largest = largest.max(length * libm::pow(velocity / (G * length), 2.5));
         }
     };
     // Slightly more than the window: the times of samples are rounded.

@@ -189,7 +189,7 @@ fn angle_between(a: &[f64], b: &[f64], first: usize) -> f64 {
         aw * bz - az * bw - ax * by + ay * bx,
     ];
     let length = vector.iter().map(|v| v * v).sum::<f64>().sqrt();
-    2.0 * length.atan2(scalar.abs())
+    2.0 * libm::atan2(length, scalar.abs())
 }
 
 #[cfg(test)]

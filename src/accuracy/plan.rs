@@ -105,8 +105,8 @@ impl Range {
     fn ladder(&self, halves: bool) -> Vec<f64> {
         let digits: &[u32] = if halves { &[3, 1] } else { &[1] };
         let (high, low) = (
-            self.from.log10().ceil() as i32,
-            self.to.log10().floor() as i32,
+            libm::log10(self.from).ceil() as i32,
+            libm::log10(self.to).floor() as i32,
         );
         let mut values = vec![self.from];
         for exponent in (low..=high).rev() {
@@ -135,7 +135,7 @@ impl Range {
     /// three times these, down to a thousandth of it.
     pub fn of_steps(every: f64, duration: f64) -> Range {
         let longest = every.min(0.1 * duration);
-        let exponent = longest.log10().floor() as i32;
+        let exponent = libm::log10(longest).floor() as i32;
         let of = |digit: u32| format!("{digit}e{exponent}").parse().unwrap_or(longest);
         let [one, three]: [f64; 2] = [of(1), of(3)];
         let hair = longest * (1.0 + 1e-9);

@@ -192,7 +192,7 @@ pub fn orders(points: &[&Point], own: &Own) -> Vec<Option<f64>> {
             let now = known(point);
             let order = before.zip(now).and_then(|((e1, h1), (e2, h2))| {
                 // An error as large as the motion itself says nothing about the order.
-                (h1 > h2 && e1 < 1.0).then(|| (e1 / e2).ln() / (h1 / h2).ln())
+                (h1 > h2 && e1 < 1.0).then(|| libm::log(e1 / e2) / libm::log(h1 / h2))
             });
             before = now;
             order

@@ -140,7 +140,7 @@ pub fn compute(
     };
     let first = solve(Scalar::F64, OF_DOUBLES[0])?;
     let evaluations = first.report.evaluations as f64;
-    let finer = |to: f64| (OF_DOUBLES[0] / to).powf(1.0 / ORDER);
+    let finer = |to: f64| libm::pow(OF_DOUBLES[0] / to, 1.0 / ORDER);
     let of_pair = finer(TOLERANCES[0]) + finer(TOLERANCES[1]);
     let in_double_double = of_pair * evaluations * time_of_evaluation(&*engine.in_double_double());
     let (scalar, tolerances, mut last) = match in_double_double <= patience {
@@ -152,7 +152,7 @@ pub fn compute(
     };
     let mut check: Option<Solution> = None;
     for &tolerance in tolerances {
-        let growth = (last.tolerance / tolerance).powf(1.0 / ORDER);
+        let growth = libm::pow(last.tolerance / tolerance, 1.0 / ORDER);
         let left = patience - start.elapsed().as_secs_f64();
         if check.is_some() && last.took.as_secs_f64() * growth > left {
             break;

@@ -178,7 +178,7 @@ impl Line {
         let order = f64::from(setting.formula.order());
         Some(match setting.pace {
             Pace::Step(_) => cost.time * finer,
-            Pace::Tolerance(_) => cost.time * finer.powf(1.0 / order),
+            Pace::Tolerance(_) => cost.time * libm::pow(finer, 1.0 / order),
         })
     }
 
@@ -230,7 +230,7 @@ fn far(all: &[Cost], cost: Cost) -> f64 {
     let as_accurate = all.iter().filter(|other| other.error <= cost.error);
     let fastest = as_accurate.fold(f64::INFINITY, |least, other| least.min(other.time));
     match cost.time.is_finite() {
-        true => (cost.time / fastest).ln(),
+        true => libm::log(cost.time / fastest),
         false => f64::INFINITY,
     }
 }

@@ -338,12 +338,12 @@ fn outline(
         |i: usize, j: usize| -> f64 { seen.iter().map(|&k| columns[k][i] * columns[k][j]).sum() };
     let (xx, xz, zz) = (entry(0, 0), entry(0, 1), entry(1, 1));
     let (mean, difference) = ((xx + zz) / 2.0, (xx - zz) / 2.0);
-    let radius = difference.hypot(xz);
+    let radius = libm::hypot(difference, xz);
     Ellipse {
         system: system_of(center.on),
         centre: view.seen(pose.point(&numbers, center)),
         semi_axes: [(mean + radius).sqrt(), (mean - radius).max(0.0).sqrt()],
-        angle: 0.5 * xz.atan2(difference),
+        angle: 0.5 * libm::atan2(xz, difference),
     }
 }
 
@@ -476,7 +476,7 @@ impl Surface {
         let body = pose.body(self.on);
         let corners = self.corners().map(|local| view.seen(body.point(local)));
         let normal = view.seen(body.direction(self.normal));
-        let length = normal[0].hypot(normal[1]);
+        let length = libm::hypot(normal[0], normal[1]);
         if length < (1.0 - EDGE_ON * EDGE_ON).sqrt() {
             return Seen::Face(corners);
         }

@@ -74,7 +74,9 @@ pub fn times([first, last]: [f64; 2], count: usize, every: f64) -> Vec<f64> {
     if !(last.is_finite() && last > first) || count < 2 {
         return vec![first];
     }
-    let power = 10f64.powf(((last - first) / count as f64).log10().floor());
+    let power = bryant_picture::chart::power_of_ten(
+        libm::log10((last - first) / count as f64).floor() as i32,
+    );
     let steps = [1.0, 2.0, 2.5, 5.0, 10.0, 20.0].map(|factor| factor * power);
     let sampled = |step: &f64| {
         let samples = step / every;
@@ -106,7 +108,7 @@ fn multiples([first, last]: [f64; 2], step: f64) -> Vec<f64> {
 
 /// The smallest of 1, 2, 5 times a power of ten that is not below `value` (positive).
 fn nice_above(value: f64) -> f64 {
-    let power = 10f64.powf(value.log10().floor());
+    let power = bryant_picture::chart::power_of_ten(libm::log10(value).floor() as i32);
     let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= value);
     factor.unwrap_or(10.0) * power
 }

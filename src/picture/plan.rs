@@ -150,7 +150,7 @@ impl Plan {
         let mut lengths: Vec<f64> = figure
             .bones
             .iter()
-            .map(|(_, a, b)| self.scale * (b[0] - a[0]).hypot(b[1] - a[1]))
+            .map(|(_, a, b)| self.scale * libm::hypot(b[0] - a[0], b[1] - a[1]))
             .collect();
         lengths.sort_by(f64::total_cmp);
         lengths
@@ -242,7 +242,7 @@ fn multiples(step: f64, [low, high]: [f64; 2]) -> std::ops::RangeInclusive<i64> 
 
 /// A label of a multiple of a step.
 fn tick(step: f64, value: f64) -> String {
-    let decimals = (-(step * (1.0 + 1e-9)).log10().floor()).clamp(0.0, 9.0) as usize;
+    let decimals = (-libm::log10(step * (1.0 + 1e-9)).floor()).clamp(0.0, 9.0) as usize;
     format!("{:.decimals$}", value + 0.0).replace('-', "−")
 }
 

@@ -355,7 +355,7 @@ fn coil([from, to]: [Point; 2]) -> Vec<Point> {
     const TEETH: usize = 6;
     const HALF_WIDTH: f64 = 4.0;
     let span = [to[0] - from[0], to[1] - from[1]];
-    let length = span[0].hypot(span[1]);
+    let length = libm::hypot(span[0], span[1]);
     if length == 0.0 {
         return vec![from, to];
     }
@@ -437,7 +437,7 @@ const BUSHING: f64 = 6.0;
 /// Short strokes behind a plane.
 fn hatch(from: Point, to: Point, back: Point) -> Vec<(Point, Point)> {
     let along = [to[0] - from[0], to[1] - from[1]];
-    let length = along[0].hypot(along[1]);
+    let length = libm::hypot(along[0], along[1]);
     if !(length.is_finite() && length > 0.0) {
         return Vec::new();
     }

@@ -251,7 +251,7 @@ impl Axes {
         let mut from = [-6.0, -4.0];
         let mut to = [0.0, -1.0];
         for axis in 0..2 {
-            let exponents = points().map(|p| p[axis].log10());
+            let exponents = points().map(|p| libm::log10(p[axis]));
             let (low, high) = exponents.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), e| {
                 (l.min(e), h.max(e))
             });
@@ -261,7 +261,7 @@ impl Axes {
             }
         }
         Axes {
-            low: from.map(|exponent| 10f64.powf(exponent)),
+            low: from.map(|exponent| libm::pow(10.0, exponent)),
             from,
             to,
         }
@@ -272,7 +272,7 @@ impl Axes {
         let [left, top, width, height] = FRAME;
         let part = |axis: usize| {
             let span = self.to[axis] - self.from[axis];
-            (point[axis].log10() - self.from[axis]) / span
+            (libm::log10(point[axis]) - self.from[axis]) / span
         };
         [left + part(0) * width, top + (1.0 - part(1)) * height]
     }
@@ -286,7 +286,7 @@ impl Axes {
         exponents
             .map(|exponent| {
                 let mut point = self.low;
-                point[axis] = 10f64.powi(exponent);
+                point[axis] = bryant_picture::chart::power_of_ten(exponent);
                 (exponent, self.place(point)[axis])
             })
             .collect()

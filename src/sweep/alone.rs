@@ -50,7 +50,7 @@ pub fn alone(engine: &Engine, job: &Job, row: &[f64]) -> Option<Alone> {
             if good || sharpened == AGAIN || !fine.doubts.is_empty() {
                 break;
             }
-            let tolerance = tolerances.relative * APART.powi(-(sharpened as i32) - 1);
+            let tolerance = tolerances.relative / libm::pow(APART, f64::from(sharpened) + 1.0);
             let Some(sharper) = at(tolerance) else {
                 break;
             };

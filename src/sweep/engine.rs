@@ -136,7 +136,7 @@ impl<'a> Lanes<'a> {
         if row.status == Ended::Slow {
             self.slow.fetch_add(1, Ordering::Relaxed);
         }
-        let order = 10f64.powi(row.step.log10().floor() as i32);
+        let order = bryant_picture::chart::power_of_ten(libm::log10(row.step).floor() as i32);
         match row.status {
             Ended::TooManySteps => format!(
                 "the limit of {} steps is reached, with steps of some {} at the time reached",

@@ -80,7 +80,7 @@ impl Distribution {
             } => {
                 let [low, high] = self.ends();
                 let z = normal::truncated(u, low, high);
-                limited(median * (deviation * z).exp(), *min, *max)
+                limited(median * libm::exp(deviation * z), *min, *max)
             }
             Distribution::Triangular { from, mode, to } => {
                 let (left, right, all) = (mode - from, to - mode, to - from);
@@ -116,7 +116,7 @@ impl Distribution {
                 min,
                 max,
             } => {
-                let z = |x: f64| (x / median).ln() / deviation;
+                let z = |x: f64| libm::log(x / median) / deviation;
                 let low = min.filter(|&min| min > 0.0);
                 [low.map_or(infinite[0], z), max.map_or(infinite[1], z)]
             }

@@ -236,8 +236,8 @@ fn is_gravity(field: &Field, defaults: &[f64]) -> bool {
             FieldComponent::Curve(_) => f64::NAN,
         });
     let [x, y, z] = constant;
-    let across = x.hypot(y);
-    across.hypot(z) <= LARGEST * STANDARD_GRAVITY && across <= SLOPE * -z
+    let across = libm::hypot(x, y);
+    libm::hypot(across, z) <= LARGEST * STANDARD_GRAVITY && across <= SLOPE * -z
 }
 
 impl ParameterFact {

@@ -18,7 +18,7 @@ pub fn quantile(p: f64) -> f64 {
     if tail <= 0.0 {
         return q * f64::INFINITY;
     }
-    let r = (-tail.ln()).sqrt();
+    let r = (-libm::log(tail)).sqrt();
     let z = if r <= 5.0 {
         ratio(&MIDDLE, r - 1.6)
     } else {

@@ -172,11 +172,11 @@ fn call(function: Function, a: Value) -> Result<Value, QuantityError> {
             named(angle)
         )),
         Function::Sine => Ok(Value {
-            number: a.number.sin(),
+            number: libm::sin(a.number),
             dimension: None,
         }),
         Function::Cosine => Ok(Value {
-            number: a.number.cos(),
+            number: libm::cos(a.number),
             dimension: None,
         }),
     }

@@ -4,6 +4,7 @@
 //! order mark. A field may stand between quotation marks. The first line may have headings such as `ax [g]`, with the unit of the column.
 //!
 //! What could be read in two ways is refused: a line with more or fewer fields than the first one, and a decimal comma.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod heading;
 

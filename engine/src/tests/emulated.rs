@@ -287,11 +287,9 @@ impl<F: Real> OfAnyWidth<F> for AllTargets {
                         fused: self.fused,
                         many_registers,
                         slopes: false,
-                        calls_angle: false,
                     };
                     let slopes = Target {
                         slopes: true,
-                        calls_angle: many_registers,
                         ..target
                     };
                     let plainly = Emulated::new(&list, target);

@@ -239,14 +239,30 @@ impl ByEngine<'_> {
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 struct Fused(f64);
 
-/// Sine and cosine as in lanes with fused multiply-adds, as a task.
-struct SinCos(f64);
+/// The elementary functions in lanes with fused multiply-adds, as tasks.
+enum Elementary {
+    SinCos(f64),
+    Atan2(f64, f64),
+    Power(f64, f64),
+}
 
-impl OfAnyWidth<f64> for SinCos {
-    type Output = (f64, f64);
-    fn run<T: Several<One = f64>>(self) -> (f64, f64) {
-        let (sine, cosine) = T::of_lanes(&[self.0; MOST_LANES]).sin_cos();
-        (sine.lane(0), cosine.lane(0))
+impl OfAnyWidth<f64> for Elementary {
+    type Output = [f64; 2];
+    fn run<T: Several<One = f64>>(self) -> [f64; 2] {
+        let of = |x: f64| T::of_lanes(&[x; MOST_LANES]);
+        let (first, second) = match self {
+            Elementary::SinCos(x) => of(x).sin_cos(),
+            Elementary::Atan2(y, x) => (of(y).atan2(of(x)), of(0.0)),
+            Elementary::Power(x, power) => (of(x).powf(of(power)), of(0.0)),
+        };
+        [first.lane(0), second.lane(0)]
+    }
+}
+
+impl Elementary {
+    fn fused(self) -> [Fused; 2] {
+        let found = with_width(Width::One, self).expect("a processor that fuses");
+        found.map(Fused)
     }
 }
 
@@ -303,15 +319,13 @@ impl Real for Fused {
         Fused(self.0.sqrt())
     }
     fn sin_cos(self) -> (Self, Self) {
-        let (sine, cosine) =
-            with_width(Width::One, SinCos(self.0)).expect("a processor that fuses");
-        (Fused(sine), Fused(cosine))
+        Elementary::SinCos(self.0).fused().into()
     }
     fn atan2(self, x: Self) -> Self {
-        Fused(self.0.atan2(x.0))
+        Elementary::Atan2(self.0, x.0).fused()[0]
     }
     fn powf(self, power: Self) -> Self {
-        Fused(self.0.powf(power.0))
+        Elementary::Power(self.0, power.0).fused()[0]
     }
     fn abs(self) -> Self {
         Fused(self.0.abs())
@@ -443,7 +457,12 @@ fn compare_models(first: usize) -> usize {
         compare(name, "unfused", &plain, &by_engine.over::<f64>());
         if fuses {
             // with optimisation, GCC gives −(a·b + c) the sign of −a·b − c where the result is 0
-            let fused = by_c(directory.path(), name, &["-mfma", "-O0"], &cases);
+            let fused = by_c(
+                directory.path(),
+                name,
+                &["-mfma", "-DBRYANT_FUSED", "-O0"],
+                &cases,
+            );
             compare(name, "fused", &fused, &by_engine.over::<Fused>());
         }
         compared += 1;

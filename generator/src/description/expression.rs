@@ -291,7 +291,7 @@ impl Reader {
                 let (power, end) = self.power()?;
                 length = end - offset;
                 unit = Unit {
-                    factor: unit.factor.powi(power),
+                    factor: super::unit::whole_power(unit.factor, power),
                     dimension: unit.dimension.power(power),
                 };
             }

@@ -230,9 +230,25 @@ pub fn unit(name: &str) -> Option<Unit> {
         })
 }
 
+/// A whole power by products: the square of the square and so on, and the reciprocal of that where the exponent is negative.
+pub fn whole_power(base: f64, exponent: i32) -> f64 {
+    let (mut square, mut left, mut power) = (base, exponent.unsigned_abs(), 1.0);
+    while left > 0 {
+        if left & 1 == 1 {
+            power *= square;
+        }
+        square *= square;
+        left >>= 1;
+    }
+    if exponent < 0 { 1.0 / power } else { power }
+}
+
 /// Powers of ten multiplied without a rounding that their decimal product would not have (kg is exactly 1).
 fn scale_of(factor: f64, scale: f64) -> f64 {
-    10f64.powi((factor.log10() + scale.log10()).round() as i32)
+    whole_power(
+        10.0,
+        (libm::log10(factor) + libm::log10(scale)).round() as i32,
+    )
 }
 
 #[cfg(test)]

@@ -39,7 +39,7 @@ pub trait Scalar:
 }
 
 macro_rules! scalar {
-    ($($real:ident),*) => {$(
+    ($($real:ident: $sin:ident, $cos:ident, $atan2:ident;)*) => {$(
         impl Scalar for $real {
             fn from_f64(value: f64) -> Self {
                 value as $real
@@ -48,13 +48,13 @@ macro_rules! scalar {
                 $real::sqrt(self)
             }
             fn sin(self) -> Self {
-                $real::sin(self)
+                libm::$sin(self)
             }
             fn cos(self) -> Self {
-                $real::cos(self)
+                libm::$cos(self)
             }
             fn atan2(self, x: Self) -> Self {
-                $real::atan2(self, x)
+                libm::$atan2(self, x)
             }
             fn max(self, other: Self) -> Self {
                 $real::max(self, other)
@@ -68,7 +68,10 @@ macro_rules! scalar {
         }
     )*};
 }
-scalar!(f32, f64);
+scalar! {
+    f32: sinf, cosf, atan2f;
+    f64: sin, cos, atan2;
+}
 
 /// Evaluates calls of functions that are not algebra. Closures over (function, arguments) implement it.
 pub trait Functions<S> {

@@ -336,7 +336,7 @@ impl<'g> Expr<'g> {
     /// sin x
     pub fn sin(self) -> Expr<'g> {
         match (self.as_constant(), self.negated()) {
-            (Some(c), _) => self.graph.constant(c.sin()),
+            (Some(c), _) => self.graph.constant(libm::sin(c)),
             (_, Some(a)) => -a.sin(),
             _ => self.graph.intern(Node::Sin(self.id)),
         }
@@ -345,7 +345,7 @@ impl<'g> Expr<'g> {
     /// cos x
     pub fn cos(self) -> Expr<'g> {
         match (self.as_constant(), self.negated()) {
-            (Some(c), _) => self.graph.constant(c.cos()),
+            (Some(c), _) => self.graph.constant(libm::cos(c)),
             (_, Some(a)) => a.cos(),
             _ => self.graph.intern(Node::Cos(self.id)),
         }
@@ -354,7 +354,7 @@ impl<'g> Expr<'g> {
     /// Angle of the point (`x`, `self`) \[rad\].
     pub fn atan2(self, x: Expr<'g>) -> Expr<'g> {
         match (self.as_constant(), x.as_constant()) {
-            (Some(a), Some(b)) => self.graph.constant(a.atan2(b)),
+            (Some(a), Some(b)) => self.graph.constant(libm::atan2(a, b)),
             _ => self.graph.intern(Node::Atan2(self.id, x.id)),
         }
     }

@@ -312,7 +312,10 @@ impl<'d> Built<'d> {
     /// Moments of inertia about the sagittal, transverse and longitudinal axis \[kg m²\].
     fn inertia(&self, segment: &Segment) -> [f64; 3] {
         let (mass, length) = (self.mass * segment.mass, self.length(segment));
-        segment.radii.map(|radius| mass * (radius * length).powi(2))
+        segment.radii.map(|radius| {
+            let r = radius * length;
+            mass * (r * r)
+        })
     }
 
     /// All ellipsoids. `size` gives outer dimensions \[m\], `sole` is the distance of the soles below the ankles \[m\].

@@ -164,7 +164,10 @@ fn radius(mass: f64, length: f64) -> f64 {
 
 /// A uniform elliptical cylinder of depth `a` and breadth `b`, about its middle.
 fn cylinder(mass: f64, length: f64, [a, b]: [f64; 2]) -> Segment {
-    let [a, b] = [a, b].map(|width| (0.5 * width / length).powi(2) / 4.0);
+    let [a, b] = [a, b].map(|width| {
+        let share = 0.5 * width / length;
+        share * share / 4.0
+    });
     let lengthwise = 1.0 / 12.0;
     Segment {
         mass,
@@ -193,7 +196,8 @@ impl Child {
         let apart = [centers[0] - center, centers[1] - center].map(|distance| distance * distance);
         let radii = [0, 1, 2].map(|axis| {
             let [of_head_apart, of_neck_apart] = if axis == 2 { [0.0; 2] } else { apart };
-            let of_neck = (of_neck.radii[axis] * self.neck).powi(2);
+            let radius = of_neck.radii[axis] * self.neck;
+            let of_neck = radius * radius;
             let square = head * (of_head[axis] + of_head_apart) + neck * (of_neck + of_neck_apart);
             (square / mass).sqrt() / length
         });

@@ -46,6 +46,6 @@ impl Posture {
     pub fn hip_height(&self, body: &Body) -> f64 {
         let thigh = self.angle("trunk") + self.angle("thighs");
         let shank = thigh + self.angle("shanks");
-        body.thigh * thigh.cos() + body.shank * shank.cos() + body.sole
+        body.thigh * libm::cos(thigh) + body.shank * libm::cos(shank) + body.sole
     }
 }

@@ -92,7 +92,7 @@ fn normal(p: f64) -> f64 {
             term *= z * z / n;
             sum += term;
         }
-        0.5 + sum * f64::exp(-0.5 * z * z) / f64::sqrt(2.0 * std::f64::consts::PI)
+        0.5 + sum * libm::exp(-0.5 * z * z) / f64::sqrt(2.0 * std::f64::consts::PI)
     };
     let (mut low, mut high) = (-5.0, 5.0);
     while high - low > 1e-12 {

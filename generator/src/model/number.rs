@@ -103,7 +103,7 @@ impl Number {
     /// sin a, folded.
     pub fn sine(a: Number) -> Number {
         match a {
-            Number::Constant(a) => Number::Constant(a.sin()),
+            Number::Constant(a) => Number::Constant(libm::sin(a)),
             a => Number::Sine(Box::new(a)),
         }
     }
@@ -111,7 +111,7 @@ impl Number {
     /// cos a, folded.
     pub fn cosine(a: Number) -> Number {
         match a {
-            Number::Constant(a) => Number::Constant(a.cos()),
+            Number::Constant(a) => Number::Constant(libm::cos(a)),
             a => Number::Cosine(Box::new(a)),
         }
     }
@@ -178,8 +178,8 @@ impl Number {
             Number::Quotient(a, b) => a.value(parameters) / b.value(parameters),
             Number::Smaller(a, b) => a.value(parameters).min(b.value(parameters)),
             Number::SquareRoot(a) => a.value(parameters).sqrt(),
-            Number::Sine(a) => a.value(parameters).sin(),
-            Number::Cosine(a) => a.value(parameters).cos(),
+            Number::Sine(a) => libm::sin(a.value(parameters)),
+            Number::Cosine(a) => libm::cos(a.value(parameters)),
         }
     }
 }

@@ -158,7 +158,7 @@ fn binding(pairs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let mut by_angle: Vec<(f64, [f64; 2])> = pairs
         .into_iter()
         .filter(|pair| *pair != [0.0, 0.0])
-        .map(|[a, b]| ((-b).atan2(a), [a, b]))
+        .map(|[a, b]| (libm::atan2(-b, a), [a, b]))
         .collect();
     by_angle.sort_by(|a, b| a.0.total_cmp(&b.0));
     by_angle.dedup_by(|a, b| a.0 == b.0);

@@ -477,7 +477,11 @@ fn half_unit(text: &str) -> f64 {
     };
     let is_zero = !mantissa.contains(|c: char| ('1'..='9').contains(&c));
     let last = exponent.saturating_sub(i32::try_from(decimals.len()).unwrap_or(i32::MAX));
-    if is_zero { 0.0 } else { 0.5 * 10f64.powi(last) }
+    if is_zero {
+        0.0
+    } else {
+        0.5 * crate::description::unit::whole_power(10.0, last)
+    }
 }
 
 #[cfg(test)]

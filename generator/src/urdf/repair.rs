@@ -15,7 +15,7 @@ const DENSITY: f64 = 1000.0;
 
 /// The moments of inertia of a ball of water: 2/5 m r², m = 4/3 π ρ r³.
 pub fn ball(mass: f64) -> Matrix {
-    let radius = (mass / (4.0 / 3.0 * std::f64::consts::PI * DENSITY)).cbrt();
+    let radius = libm::cbrt(mass / (4.0 / 3.0 * std::f64::consts::PI * DENSITY));
     IDENTITY.map(|row| scale(row, 0.4 * mass * radius * radius))
 }
 

@@ -474,7 +474,7 @@ impl<'a, S: Real> Table<'a, S> {
             Pace::Fixed(Fixed { method, .. }) => {
                 let smooth = info.kinks.is_empty();
                 let order = if smooth { method.formula().order() } else { 1 };
-                LONGER.powi(order as i32) - 1.0
+                whole_power(LONGER, order) - 1.0
             }
         };
     }
@@ -624,7 +624,7 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
             (Turn::First, _) => 1.0,
             (Turn::Coarser, Pace::Adaptive(_)) => COARSER,
             (Turn::Coarser, Pace::Fixed(_)) => LONGER,
-            (Turn::Sharper, _) => SHARPER.powi(self.sharpened[row] as i32 + 1),
+            (Turn::Sharper, _) => whole_power(SHARPER, self.sharpened[row] + 1),
         }
     }
 
@@ -773,7 +773,7 @@ impl<S: Real> Table<'_, S> {
         match self.job.settings.pace {
             Pace::Fixed(_) => false,
             Pace::Adaptive(tolerances) => {
-                let sharper = tolerances.relative * SHARPER.powi(often as i32 + 1);
+                let sharper = tolerances.relative * whole_power(SHARPER, often + 1);
                 often < AGAIN && sharper >= ROUNDINGS * self.epsilon
             }
         }
@@ -793,4 +793,9 @@ impl<S: Real> Task for Reduce<'_, S> {
     fn run(self) -> S {
         reduce(self.response, self.samples, self.every, self.scratch)
     }
+}
+
+/// A whole power, by products in one order.
+fn whole_power(base: f64, exponent: u32) -> f64 {
+    (0..exponent).fold(1.0, |power, _| power * base)
 }

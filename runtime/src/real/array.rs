@@ -1,9 +1,9 @@
-//! Several doubles side by side, each of which behaves exactly as `f64`. The elementary functions are those of `f64`; those of
-//! [`lanes`](super::lanes) are different.
+//! Several doubles side by side, each of which behaves exactly as `f64`: products and sums are rounded one after the other, and not fused as those of
+//! [`lanes`](super::lanes).
 //!
 //! Over [`Dual`](super::Dual) they hold a value, the same in every lane, and its derivatives in several directions: columns of a Jacobian side by
-//! side. Each column has the bits that `Dual<f64>` gives. They need no special instructions, and use wide ones where these exist. Products and sums
-//! are fused as those of `f64` are. Machine code works on them in whole registers ([`Layout`](super::Layout)).
+//! side. Each column has the bits that `Dual<f64>` gives. They need no special instructions, and use wide ones where these exist. Machine code works on
+//! them in whole registers ([`Layout`](super::Layout)).
 //!
 //! On x86-64, tasks over an array are compiled for processors that hold it in one register, and for no others: ask [`Array4::there`] and
 //! [`Array8::there`] before.

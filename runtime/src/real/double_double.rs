@@ -70,7 +70,7 @@ impl DoubleDouble {
     /// `self` / `n`, at compile time, `n` a whole number.
     const fn over(self, n: f64) -> Self {
         let quotient = self.hi / n;
-        let (product, error) = two_product_split(quotient, n);
+        let (product, error) = two_product(quotient, n);
         let rest = ((self.hi - product) - error) + self.lo;
         DoubleDouble::settled(quotient, rest / n)
     }
@@ -99,30 +99,9 @@ const fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, b - (sum - a))
 }
 
-/// `a` · `b` = product + error, exactly, with an instruction that rounds product and sum at once.
-#[cfg(all(
-    any(feature = "std", test),
-    any(target_feature = "fma", target_arch = "aarch64")
-))]
-#[inline(always)]
-fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let product = a * b;
-    (product, f64::mul_add(a, b, -product))
-}
-
-/// `a` · `b` = product + error, exactly.
-#[cfg(not(all(
-    any(feature = "std", test),
-    any(target_feature = "fma", target_arch = "aarch64")
-)))]
-#[inline(always)]
-fn two_product(a: f64, b: f64) -> (f64, f64) {
-    two_product_split(a, b)
-}
-
 /// `a` · `b` = product + error, exactly, by halves whose products are exact (Dekker).
 #[inline(always)]
-const fn two_product_split(a: f64, b: f64) -> (f64, f64) {
+const fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let ((a_hi, a_lo), (b_hi, b_lo)) = (halves(a), halves(b));
     let error = ((a_hi * b_hi - product) + a_hi * b_lo + a_lo * b_hi) + a_lo * b_lo;

@@ -132,7 +132,8 @@ impl fmt::Display for Filter {
 
 /// The coefficients a₀, a₁, a₂, b₁, b₂ of a class, for samples with this interval \[s\].
 pub fn coefficients(class: Class, standard: Standard, interval: f64) -> [f64; 5] {
-    let omega = (PI * standard.factor() * class.frequency() * interval).tan();
+    let (sine, cosine) = Real::sin_cos(PI * standard.factor() * class.frequency() * interval);
+    let omega = sine / cosine;
     let below = 1.0 + SQRT_2 * omega + omega * omega;
     let a = omega * omega / below;
     [

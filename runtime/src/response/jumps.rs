@@ -289,7 +289,7 @@ fn hic<T: Real>(knots: &[Knot<T>], longest: f64) -> T {
         for (i, [from, before]) in ends.iter().enumerate().take(j).skip(first) {
             let length = t - from;
             // shorter windows gain too little even on the highest level
-            if highest.powi(5) * length * length <= best.score {
+            if to_the_fifth(highest) * length * length <= best.score {
                 break;
             }
             best.take(v - before, length, || Window {
@@ -307,6 +307,11 @@ fn hic<T: Real>(knots: &[Knot<T>], longest: f64) -> T {
     }
 }
 
+fn to_the_fifth(x: f64) -> f64 {
+    let square = x * x;
+    square * square * x
+}
+
 /// The window found so far with the largest score, and its score: the mean to the fifth power times the square of the length.
 struct Best<T> {
     score: f64,
@@ -316,8 +321,9 @@ struct Best<T> {
 impl<T> Best<T> {
     fn take(&mut self, gain: f64, length: f64, window: impl FnOnce() -> Window<T>) {
         // compared without a division
-        if gain > 0.0 && gain.powi(5) > self.score * length.powi(3) {
-            self.score = gain.powi(5) / length.powi(3);
+        let (above, below) = (to_the_fifth(gain), length * length * length);
+        if gain > 0.0 && above > self.score * below {
+            self.score = above / below;
             self.window = Some(window());
         }
     }

@@ -206,7 +206,7 @@ pub fn digits(value: f64) -> String {
     if !value.is_finite() {
         return "-".into();
     }
-    let exponent = value.abs().max(1e-9).log10().floor() as i32;
+    let exponent = libm::log10(value.abs().max(1e-9)).floor() as i32;
     let decimals = (2 - exponent).clamp(0, 6) as usize;
     format!("{value:.decimals$}")
 }

@@ -225,7 +225,7 @@ impl Several {
             let across = cross(one.axis, other.axis);
             let squared: f64 = across.iter().map(|c| c * c).sum();
             let alike = one.turns == other.turns && pure(one) && pure(other) && squared < CLOSE;
-            let angle = squared.sqrt().asin().to_degrees();
+            let angle = libm::asin(squared.sqrt()).to_degrees();
             let angle = match angle < 0.1 {
                 true => format!("{angle:.0e}"),
                 false => format!("{angle:.1}"),
@@ -478,7 +478,7 @@ fn cross(a: Vector, b: Vector) -> Vector {
 
 /// A rotation followed by a rotation about an axis, both in absolute axes (Rodrigues).
 fn turned(rotation: &[Vector; 3], axis: Vector, angle: f64) -> [Vector; 3] {
-    let (sine, cosine) = angle.sin_cos();
+    let (sine, cosine) = libm::sincos(angle);
     let columns: [Vector; 3] = std::array::from_fn(|j| {
         let column = [rotation[0][j], rotation[1][j], rotation[2][j]];
         let across = cross(axis, column);

@@ -344,7 +344,7 @@ pub fn near_right_angle(model: &Model, pose: &Pose) -> Option<[String; 2]> {
         let [carrier, child] = [carrier, Body::Element(law.child)].map(|body| pose.body(body));
         let column = |rotation: [Vec3; 3], i: usize| rotation.map(|row| row[i]);
         let sine = law.order.hand() * dot(column(carrier.rotation, first), column(child.rotation, last));
-        let angle = sine.clamp(-1.0, 1.0).asin();
+        let angle = libm::asin(sine.clamp(-1.0, 1.0));
         (angle.abs() > std::f64::consts::FRAC_PI_2 - NEAR).then(|| {
             [
                 format!(

@@ -156,7 +156,7 @@ fn number(value: f64) -> String {
     match size {
         0.0 => "0".into(),
         _ if (1e-3..1e6).contains(&size) => {
-            let decimals = (6 - size.log10().floor() as i32).max(0) as usize;
+            let decimals = (6 - libm::log10(size).floor() as i32).max(0) as usize;
             format!("{value:.decimals$}")
         }
         _ => format!("{value:.6e}"),

@@ -190,7 +190,7 @@ fn duration(seconds: f64) -> String {
         s => (s * 1e9, "ns"),
     };
     // Times on a busy machine are not more precise than three digits.
-    let decimals = (2 - value.log10().floor() as i32).clamp(0, 3) as usize;
+    let decimals = (2 - libm::log10(value).floor() as i32).clamp(0, 3) as usize;
     let text = format!("{value:.decimals$}");
     match text.contains('.') {
         true => format!(

@@ -263,7 +263,7 @@ fn digits(value: f64) -> String {
     match size {
         0.0 => "0".into(),
         _ if (1e-4..1e7).contains(&size) => {
-            let decimals = DIGITS - 1 - size.log10().floor() as i32;
+            let decimals = DIGITS - 1 - libm::log10(size).floor() as i32;
             format!("{value:.*}", decimals.max(0) as usize)
         }
         _ => format!("{value:.*e}", DIGITS as usize - 1),

@@ -83,9 +83,9 @@ pub fn start(
 /// The three Bryant angles of a rotation \[rad\].
 fn bryant([first, second, third]: [Vec3; 3]) -> Vec3 {
     [
-        (-second[2]).atan2(third[2]),
-        first[2].clamp(-1.0, 1.0).asin(),
-        (-first[1]).atan2(first[0]),
+        libm::atan2(-second[2], third[2]),
+        libm::asin(first[2].clamp(-1.0, 1.0)),
+        libm::atan2(-first[1], first[0]),
     ]
 }
 

@@ -52,7 +52,7 @@ fn number(value: f64) -> String {
         false => text.to_owned(),
     };
     if (0.01..1e4).contains(&size) {
-        let before = size.log10().floor() as i32;
+        let before = libm::log10(size).floor() as i32;
         let digits = (2 - before).clamp(0, 4) as usize;
         return short(&format!("{value:.digits$}"));
     }

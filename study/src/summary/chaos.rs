@@ -44,7 +44,7 @@ pub fn indices(sample: &Sample, response: usize) -> Option<Sensitivity> {
     let values = values.add_scalar(-mean);
     let variance = values.norm_squared() / n as f64;
     // a constant varies by rounding only
-    if variance <= (1e-14 * mean).powi(2) {
+    if variance <= squared(1e-14 * mean) {
         return None;
     }
     let terms = basis.terms.len();
@@ -183,7 +183,7 @@ impl Basis {
                 }
             }
             begin = end;
-            let left_out = |(r, h): (&f64, &f64)| (r / (1.0 - h)).powi(2);
+            let left_out = |(r, h): (&f64, &f64)| squared(r / (1.0 - h));
             let error = residual.iter().zip(&leverage).map(left_out).sum::<f64>() / n as f64;
             if degree > 0 && best.is_none_or(|(_, least)| error < least) {
                 best = Some((degree, error));
@@ -223,7 +223,7 @@ struct Fit {
 impl Fit {
     /// The fit with all terms.
     fn new(matrix: &DMatrix<f64>, values: &DVector<f64>) -> Option<Fit> {
-        Fit::solved(matrix * matrix.transpose(), matrix * values)
+        Fit::solved(gram(matrix, matrix.nrows()), matrix * values)
     }
 
     fn solved(gram: DMatrix<f64>, right: DVector<f64>) -> Option<Fit> {
@@ -277,6 +277,25 @@ impl Fit {
     }
 }
 
+/// Ψ Ψᵀ of the first rows of Ψ, on and below the diagonal, and 0 above it. nalgebra multiplies large matrices by other steps on each kind of
+/// processor; here the bits are the same on all.
+fn gram(matrix: &DMatrix<f64>, terms: usize) -> DMatrix<f64> {
+    let mut gram = DMatrix::zeros(terms, terms);
+    for column in matrix.as_slice().chunks_exact(matrix.nrows()) {
+        for (i, factor) in column[..terms].iter().enumerate() {
+            let sums = &mut gram.as_mut_slice()[i * terms + i..(i + 1) * terms];
+            for (sum, other) in sums.iter_mut().zip(&column[i..terms]) {
+                *sum += factor * other;
+            }
+        }
+    }
+    gram
+}
+
+fn squared(x: f64) -> f64 {
+    x * x
+}
+
 /// Half the interval of each share: fits without one part of the runs, var = (m − 1)/m Σ (θ_k − θ̄)².
 fn jackknife(
     basis: &Basis,
@@ -293,13 +312,13 @@ fn jackknife(
         parts[order.of(row as u64) as usize % PARTS].push(row);
     }
     let used = matrix.rows(0, terms);
-    let (gram, right) = (used * used.transpose(), used * values);
+    let (whole, right) = (gram(matrix, terms), used * values);
     let mut found: Vec<Vec<[f64; 2]>> = Vec::new();
     for part in &parts {
         let left_out = used.select_columns(part);
         let part_values = DVector::from_iterator(part.len(), part.iter().map(|row| values[*row]));
         let fit = Fit::solved(
-            &gram - &left_out * left_out.transpose(),
+            &whole - gram(&left_out, terms),
             &right - &left_out * part_values,
         )?;
         found.push(basis.shares(&fit.coefficients(terms)?)?);
@@ -308,7 +327,7 @@ fn jackknife(
     let half = |parameter: usize, which: usize| {
         let of = |shares: &Vec<[f64; 2]>| shares[parameter][which];
         let mean = found.iter().map(of).sum::<f64>() / m;
-        let squares: f64 = found.iter().map(|shares| (of(shares) - mean).powi(2)).sum();
+        let squares: f64 = found.iter().map(|shares| squared(of(shares) - mean)).sum();
         WIDTH * ((m - 1.0) / m * squares).sqrt()
     };
     Some(

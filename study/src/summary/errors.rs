@@ -124,7 +124,7 @@ fn percent(error: f64) -> String {
     }
     let digits = match percent {
         0.0 => 0,
-        _ => (1 - percent.log10().floor() as i32).clamp(0, 6) as usize,
+        _ => (1 - libm::log10(percent).floor() as i32).clamp(0, 6) as usize,
     };
     format!("{percent:.digits$} %")
 }

@@ -156,7 +156,7 @@ fn number(value: f64) -> String {
     let magnitude = if value == 0.0 {
         0
     } else {
-        value.abs().log10().floor() as i32
+        libm::log10(value.abs()).floor() as i32
     };
     if (-4..7).contains(&magnitude) {
         let decimals = (DIGITS as i32 - 1 - magnitude).max(0) as usize;

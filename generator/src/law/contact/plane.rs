@@ -36,7 +36,10 @@ fn normal(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> [Number; 3] {
 /// A vector at unit length. Its components are neither so large nor so small that their squares overflow or lose their digits.
 pub(crate) fn unit(resolver: &Resolver<'_>, vector: [Number; 3]) -> [Number; 3] {
     let length = if vector.iter().all(|n| n.constant().is_some()) {
-        let squares = vector.iter().map(|n| n.value(&resolver.defaults).powi(2));
+        let squares = vector.iter().map(|n| {
+            let n = n.value(&resolver.defaults);
+            n * n
+        });
         Number::Constant(squares.sum::<f64>().sqrt())
     } else {
         let squares = vector.iter().map(|n| Number::product(n.clone(), n.clone()));
@@ -87,7 +90,10 @@ fn tangent(
         return unit(resolver, tangent);
     }
     // of a normal without a direction there is none along the plane
-    let squares = tangent.iter().map(|n| n.value(&resolver.defaults).powi(2));
+    let squares = tangent.iter().map(|n| {
+        let n = n.value(&resolver.defaults);
+        n * n
+    });
     match squares.sum::<f64>() > 0.0 {
         true => unit(resolver, tangent),
         false => NOWHERE,

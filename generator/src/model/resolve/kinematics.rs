@@ -14,17 +14,17 @@ pub fn values(numbers: &[Number; 3], parameters: &[f64]) -> Vector {
 pub fn rotation([a, b, c]: Vector) -> Matrix {
     let x = [
         [1.0, 0.0, 0.0],
-        [0.0, a.cos(), -a.sin()],
-        [0.0, a.sin(), a.cos()],
+        [0.0, libm::cos(a), -libm::sin(a)],
+        [0.0, libm::sin(a), libm::cos(a)],
     ];
     let y = [
-        [b.cos(), 0.0, b.sin()],
+        [libm::cos(b), 0.0, libm::sin(b)],
         [0.0, 1.0, 0.0],
-        [-b.sin(), 0.0, b.cos()],
+        [-libm::sin(b), 0.0, libm::cos(b)],
     ];
     let z = [
-        [c.cos(), -c.sin(), 0.0],
-        [c.sin(), c.cos(), 0.0],
+        [libm::cos(c), -libm::sin(c), 0.0],
+        [libm::sin(c), libm::cos(c), 0.0],
         [0.0, 0.0, 1.0],
     ];
     product(&product(&x, &y), &z)
@@ -48,7 +48,10 @@ pub fn sum(a: Vector, b: Vector) -> Vector {
 }
 
 pub fn distance(a: Vector, b: Vector) -> f64 {
-    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+    (0..3)
+        .map(|i| (a[i] - b[i]) * (a[i] - b[i]))
+        .sum::<f64>()
+        .sqrt()
 }
 
 /// Rotation and origin of every element of a system at the start; `reference` is the rotation of what carries its root.

@@ -452,8 +452,8 @@ fn eigen(a: &Matrix) -> (Vector, [Vector; 3]) {
             if a[p][q] == 0.0 {
                 continue;
             }
-            let angle = 0.5 * (2.0 * a[p][q]).atan2(a[q][q] - a[p][p]);
-            let (s, c) = angle.sin_cos();
+            let angle = 0.5 * libm::atan2(2.0 * a[p][q], a[q][q] - a[p][p]);
+            let (s, c) = libm::sincos(angle);
             let mut turn = IDENTITY;
             turn[p][p] = c;
             turn[q][q] = c;

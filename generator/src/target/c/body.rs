@@ -144,6 +144,7 @@ impl Writer<'_> {
     fn algebra(&mut self, operation: Operation) -> String {
         match operation {
             Operation::MulAdd(..) => self.support.want("multiply_add"),
+            Operation::Atan2(..) => self.support.want("angle"),
             Operation::Max(..) => self.support.want("maximum"),
             Operation::Min(..) => self.support.want("minimum"),
             _ => {}
@@ -159,7 +160,7 @@ impl Writer<'_> {
                 format!("MULTIPLY_ADD({}, {}, {})", of(a), of(b), of(c))
             }
             Operation::Sqrt(a) => format!("sqrt({})", of(a)),
-            Operation::Atan2(a, b) => format!("atan2({}, {})", of(a), of(b)),
+            Operation::Atan2(a, b) => format!("bryant_angle({}, {})", of(a), of(b)),
             Operation::Max(a, b) => format!("bryant_maximum({}, {})", of(a), of(b)),
             Operation::Min(a, b) => format!("bryant_minimum({}, {})", of(a), of(b)),
             Operation::SinCos(_) | Operation::Call { .. } => {

@@ -9,9 +9,9 @@
 //! | `support` | laws and curves as static functions; their text is in the folder of that name |
 //! | `names` | identifiers |
 //!
-//! Results have the bits of the Rust text over `f64` under three conditions: the compiler obeys IEEE 754 (no `-ffast-math`); both
-//! round a·b + c alike (once if the instruction exists, twice otherwise); and the platform's `atan2` and `pow` are the same. When GCC optimises and
-//! fuses, it turns −(a·b + c) into −a·b − c; if that is 0, its sign differs.
+//! Results have the bits of the Rust text over `f64` if the compiler obeys IEEE 754 (no `-ffast-math`). Elementary functions are part of the text; of
+//! the platform's library it needs only exact functions. With `BRYANT_FUSED` they have the bits of lanes; but when GCC optimises and fuses, it turns
+//! −(a·b + c) into −a·b − c, and if that is 0, its sign differs.
 
 mod body;
 mod curve;
@@ -81,9 +81,11 @@ pub fn source(lists: &Lists, about: &[String]) -> Result<Source, NoC> {
     let about = format!("/*\n{} */\n", lines.collect::<String>());
     let header = header::header(lists, &name, &about, &functions);
     let mut text = format!(
-        "/* Functions of {name}.h, where it says what they do. Compile with optimisation, and with fused multiply-adds where the\n   \
-         processor has them (-O2 -mfma). */\n#include \"{name}.h\"\n\n#include <math.h>\n#include <stddef.h>\n\n\
-         #ifdef __clang__\n#pragma STDC FP_CONTRACT OFF\n#endif\n\n{}",
+        "/* Functions of {name}.h, where it says what they do. Compile with optimisation (-O2). Where BRYANT_FUSED is\n   \
+         defined, products and sums are rounded at once (-O2 -mfma -DBRYANT_FUSED); results then differ by rounding. */\n\
+         #include \"{name}.h\"\n\n#include <math.h>\n#include <stddef.h>\n#include <string.h>\n\n\
+         /* no product and sum are fused unasked */\n#ifdef __clang__\n#pragma STDC FP_CONTRACT OFF\n\
+         #elif defined __GNUC__\n#pragma GCC optimize (\"fp-contract=off\")\n#endif\n\n{}",
         support.text()
     );
     if support.has("curve") {

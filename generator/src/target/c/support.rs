@@ -1,6 +1,6 @@
 //! Functions that generated C calls: laws and curves, as small static functions, each in a file of its own.
 //!
-//! Each does the same as the function of the runtime with the same name does for one double, operation for operation.
+//! Each does the same as the function of the runtime does for one double, operation for operation.
 
 /// A function and the names of the functions that it calls.
 struct Part {
@@ -22,15 +22,17 @@ macro_rules! parts {
 /// All parts. Each stands after those that it needs.
 const PARTS: &[Part] = parts! {
     "multiply_add";
+    "horner" ["multiply_add"];
     "sin_cos" ["multiply_add"];
+    "angle" ["horner"];
     "maximum";
     "minimum";
     "choose";
-    "power";
+    "power" ["horner"];
     "normal_force";
     "coulomb";
     "coulomb_scale";
-    "support" ["maximum"];
+    "support" ["maximum" "power"];
     "approach_space" ["multiply_add"];
     "approach_plane" ["multiply_add"];
     "curve";

@@ -53,8 +53,6 @@ pub struct Target {
     pub many_registers: bool,
     /// Whether every scalar is a dual number: a value and, in the next slot, its slope.
     pub slopes: bool,
-    /// Whether `atan2` is called and not written out.
-    pub calls_angle: bool,
 }
 
 /// A function in machine code.

@@ -127,8 +127,7 @@ pub(super) fn steps(list: &List, curves: &[Curve], target: &Target) -> Steps {
         curves,
         slopes: target.slopes,
         one_lane: target.length == Length::Scalar,
-        writes_sine: doubles,
-        writes_angle: doubles && !target.calls_angle,
+        writes_elementary: doubles,
         of: vec![None; list.values()],
         callees: FxHashMap::default(),
         numbers: Numbers::new(target.fused),
@@ -193,10 +192,8 @@ pub(super) struct Lowering<'a> {
     pub slopes: bool,
     /// Whether a number is one lane.
     pub one_lane: bool,
-    /// Whether sine and cosine are steps, not calls.
-    writes_sine: bool,
-    /// Whether `atan2` is steps, not a call.
-    writes_angle: bool,
+    /// Whether sine, cosine and `atan2` are steps, not calls.
+    writes_elementary: bool,
     /// The term of each value of the list.
     of: Vec<Option<Term>>,
     callees: FxHashMap<Callee, u32>,
@@ -239,7 +236,7 @@ impl Lowering<'_> {
                 let (a, b) = (self.term(a), self.term(b));
                 self.smaller(a, b)
             }
-            Operation::SinCos(a) if self.writes_sine => {
+            Operation::SinCos(a) if self.writes_elementary => {
                 let a = self.term(a);
                 let [sine, cosine] = self.sin_cos(a);
                 self.of[defines] = Some(sine);
@@ -247,7 +244,7 @@ impl Lowering<'_> {
                 return;
             }
             Operation::SinCos(a) => return self.call(Callee::SinCos, &[a], 2, defines),
-            Operation::Atan2(a, b) if self.writes_angle => {
+            Operation::Atan2(a, b) if self.writes_elementary => {
                 let (a, b) = (self.term(a), self.term(b));
                 self.angle(a, b)
             }

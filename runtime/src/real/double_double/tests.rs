@@ -5,7 +5,7 @@
     reason = "the tables are numbers of another program, letter for letter"
 )]
 
-use super::{DoubleDouble, two_product_split, two_sum};
+use super::{DoubleDouble, two_product, two_sum};
 use crate::Real;
 
 /// u² = 2⁻¹⁰⁶
@@ -78,7 +78,7 @@ fn whole_numbers_of_106_bits_are_exact() {
         let [a, b, c] = [a, b, c].map(|n| dd(n as f64));
         assert_eq!(whole(a * b - c), signed);
         assert_eq!(whole(a.mul_add(b, -c)), signed);
-        let (product, error) = two_product_split(a.hi, b.hi);
+        let (product, error) = two_product(a.hi, b.hi);
         assert_eq!(product as i128 + error as i128, a.hi as i128 * b.hi as i128);
         // the quotient of an exact product is exact within its bound
         close(a * b / b, a, 15.0 * U2);

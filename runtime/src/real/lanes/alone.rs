@@ -1,23 +1,23 @@
-//! A single number as a register: for processors without wide registers, and for tests that the width changes
+//! A single number as a register: for processors without wide registers, for `f64` and `f32` alone, and for tests that the width changes
 //! nothing.
 
 use super::elementary::Elementary;
 use super::register::{Doubles, Instructions, MOST_LANES, Register, Singles};
-use crate::real::{Base, Task};
+use crate::real::{Base, Plain, Task};
 
 /// One double or single. Products and sums are fused if `FUSED` says so, as they are in wide registers.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
 pub struct Alone<F, const FUSED: bool>(F);
 
-impl<const FUSED: bool> Alone<f64, FUSED> {
+impl<F, const FUSED: bool> Alone<F, FUSED> {
     #[inline(always)]
-    pub(super) fn of(number: f64) -> Self {
+    pub(in crate::real) fn of(number: F) -> Self {
         Alone(number)
     }
 
     #[inline(always)]
-    pub(super) fn number(self) -> f64 {
+    pub(in crate::real) fn number(self) -> F {
         self.0
     }
 }
@@ -34,17 +34,14 @@ fn compiled_for_fused<W: Task>(task: W) -> W::Output {
 }
 
 impl<F> Instructions for Alone<F, true> {
-    /// Every 64-bit ARM has fused multiply-adds.
+    /// On x86-64, whether there are registers of four, of which it is one lane. Every 64-bit ARM has fused multiply-adds. Elsewhere a function has
+    /// the same bits.
     #[inline(always)]
     fn there() -> bool {
         #[cfg(target_arch = "x86_64")]
-        {
-            <super::avx2::Avx2 as Instructions>::there()
-        }
+        return <super::avx2::Avx2 as Instructions>::there();
         #[cfg(not(target_arch = "x86_64"))]
-        {
-            cfg!(target_arch = "aarch64")
-        }
+        return true;
     }
 
     #[cfg(target_arch = "x86_64")]
@@ -59,7 +56,7 @@ impl<F> Instructions for Alone<F, true> {
     #[cfg(not(target_arch = "x86_64"))]
     #[inline(always)]
     fn dispatch<W: Task>(task: W) -> W::Output {
-        task.run()
+        plain(task)
     }
 }
 
@@ -143,7 +140,7 @@ macro_rules! register {
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
                 if FUSED {
-                    Alone($float::mul_add(self.0, a.0, b.0))
+                    Alone(self.0.fused(a.0, b.0))
                 } else {
                     Alone(self.0 * a.0 + b.0)
                 }
@@ -151,7 +148,7 @@ macro_rules! register {
 
             #[inline(always)]
             fn sqrt(self) -> Self {
-                Alone($float::sqrt(self.0))
+                Alone(self.0.root())
             }
 
             #[inline(always)]

@@ -21,12 +21,23 @@ fn compiled_for_avx2<W: Task>(task: W) -> W::Output {
 impl Instructions for Avx2 {
     #[inline(always)]
     fn there() -> bool {
-        is_x86_feature_detected!("avx2")
+        #[cfg(any(feature = "std", test))]
+        return is_x86_feature_detected!("avx2")
             && is_x86_feature_detected!("fma")
             && is_x86_feature_detected!("bmi1")
             && is_x86_feature_detected!("bmi2")
             && is_x86_feature_detected!("lzcnt")
-            && is_x86_feature_detected!("popcnt")
+            && is_x86_feature_detected!("popcnt");
+        // without the standard library, what the program is compiled for
+        #[cfg(not(any(feature = "std", test)))]
+        return cfg!(all(
+            target_feature = "avx2",
+            target_feature = "fma",
+            target_feature = "bmi1",
+            target_feature = "bmi2",
+            target_feature = "lzcnt",
+            target_feature = "popcnt",
+        ));
     }
 
     #[inline(always)]

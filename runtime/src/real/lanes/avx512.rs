@@ -23,7 +23,8 @@ fn compiled_for_avx512<W: Task>(task: W) -> W::Output {
 impl Instructions for Avx512 {
     #[inline(always)]
     fn there() -> bool {
-        is_x86_feature_detected!("avx512f")
+        #[cfg(any(feature = "std", test))]
+        return is_x86_feature_detected!("avx512f")
             && is_x86_feature_detected!("avx512dq")
             && is_x86_feature_detected!("avx512vl")
             && is_x86_feature_detected!("avx512bw")
@@ -33,7 +34,22 @@ impl Instructions for Avx512 {
             && is_x86_feature_detected!("bmi1")
             && is_x86_feature_detected!("bmi2")
             && is_x86_feature_detected!("lzcnt")
-            && is_x86_feature_detected!("popcnt")
+            && is_x86_feature_detected!("popcnt");
+        // without the standard library, what the program is compiled for
+        #[cfg(not(any(feature = "std", test)))]
+        return cfg!(all(
+            target_feature = "avx512f",
+            target_feature = "avx512dq",
+            target_feature = "avx512vl",
+            target_feature = "avx512bw",
+            target_feature = "avx512cd",
+            target_feature = "avx2",
+            target_feature = "fma",
+            target_feature = "bmi1",
+            target_feature = "bmi2",
+            target_feature = "lzcnt",
+            target_feature = "popcnt",
+        ));
     }
 
     #[inline(always)]

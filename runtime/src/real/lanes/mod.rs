@@ -22,7 +22,7 @@ mod alone;
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
-mod elementary;
+pub(super) mod elementary;
 mod register;
 mod several;
 #[cfg(test)]
@@ -33,23 +33,14 @@ pub(crate) use alone::Alone;
 pub(crate) use avx2::{Avx2, Avx2Singles};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::{Avx512, Avx512Singles};
-use elementary::Elementary;
 pub use register::MOST_LANES;
 pub(crate) use register::{Instructions, Register};
 pub use several::Several;
 
-use super::{Form, Layout, Mask, Real, Task};
+#[cfg(feature = "std")]
+use super::Layout;
+use super::{Form, Mask, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
-
-/// A double as a lane. Products and sums are fused as in [`Real::mul_add`] of a double.
-type Lane = Alone<f64, { cfg!(any(target_feature = "fma", target_arch = "aarch64")) }>;
-
-/// (sin `x`, cos `x`) as in all lanes.
-#[inline]
-pub(super) fn sin_cos_of_double(x: f64) -> (f64, f64) {
-    let (sine, cosine) = Elementary::sin_cos(Lane::of(x));
-    (sine.number(), cosine.number())
-}
 
 /// A number in each lane of a register.
 #[derive(Clone, Copy, Debug)]
@@ -63,10 +54,9 @@ pub struct LaneMask<R: Register>(pub(crate) R::Mask);
 /// A width of registers: the number of doubles in one. If there is more than one, a register holds twice as many singles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Width {
-    /// One double, where a product and a sum are rounded one after the other: for processors that cannot fuse them. Results differ from
-    /// those of the other widths by rounding.
+    /// One double, where a product and a sum are rounded one after the other. Results differ from those of the other widths by rounding.
     Plain,
-    /// One double, with fused multiply-adds.
+    /// One double, with fused multiply-adds. On x86-64 the processor must have them; processors of other kinds that lack them call a function.
     One,
     /// Four doubles: AVX2.
     Four,
@@ -188,6 +178,7 @@ pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Optio
 }
 
 /// The layout of a scalar that is a register of any width, or a dual number over one; `None` for any other scalar.
+#[cfg(feature = "std")]
 pub(super) fn layout<T: Real>() -> Option<Layout> {
     fn is<T: Real, R: Register>(fused: bool) -> Option<Layout> {
         let layout = Layout {
@@ -195,7 +186,6 @@ pub(super) fn layout<T: Real>() -> Option<Layout> {
             single: size_of::<R::One>() == size_of::<f32>(),
             fused,
             slopes: false,
-            platform_angle: false,
         };
         layout.if_over::<T, Lanes<R>>()
     }

@@ -108,7 +108,7 @@ impl Search<'_, '_> {
             let link = &framed.links[at];
             let mut turns = vec![0.0];
             let mut towards = |x: f64, y: f64| {
-                if x.hypot(y) > 1e-9 {
+                if libm::hypot(x, y) > 1e-9 {
                     let quarter = std::f64::consts::FRAC_PI_2;
                     let angle = libm::atan2(y, x);
                     let turn = angle - (angle / quarter).round() * quarter;

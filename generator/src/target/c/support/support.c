@@ -11,10 +11,10 @@ static void bryant_support(const double argument[4], double result[4])
     for (i = 0; i < 3; i++) {
         /* in parts of the largest, so that no power is too large or too small for a double */
         const double part = bryant_maximum(size[i] / largest, 1e-200);
-        rest[i] = pow(part, power - 1.0);
+        rest[i] = bryant_power(part, power - 1.0);
         sum = i == 0 ? part * rest[i] : sum + part * rest[i];
     }
-    reach = pow(sum, 1.0 / power);
+    reach = bryant_power(sum, 1.0 / power);
     scale = reach / sum;
     result[0] = largest * reach;
     for (i = 0; i < 3; i++) {

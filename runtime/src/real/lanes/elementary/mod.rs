@@ -10,7 +10,7 @@
 //! | `angle` | [`atan2`] | 1 ulp |
 //! | `widened` | all of them for singles, by doubles | 0.500 000 01 ulp of singles |
 //!
-//! They use only arithmetic, bits and selection. So a lane has the same bits in every register and whatever its
+//! `f64` and `f32` alone have them, too. They use only arithmetic, bits and selection. So a lane has the same bits in every register and whatever its
 //! neighbours hold, and no library of the platform is called. Where a rare lane needs another way, a branch asks whether
 //! there is such a lane.
 //!
