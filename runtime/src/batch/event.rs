@@ -16,9 +16,10 @@ pub const fn width<T: Several>() -> f64 {
     }
 }
 
-/// Half of the distance over which the rate of an event function is taken, as a part of the step: the error is of its square, and of rounding
-/// over it.
-const APART: f64 = 1e-4;
+/// The share of a step over which it is told whether a function jumps, and how many times as much as near its zero one that does not jump changes there. It is
+/// [`width`] there, a millionth of that share or less, or rounding.
+const FAR: f64 = 1e-6;
+const MORE: f64 = 3.0;
 
 /// Where one of the functions has changed its sign.
 #[inline(always)]
@@ -35,17 +36,6 @@ fn begins_apart<T: Several>(zero: Zero, before: T) -> T::Mask {
         Zero::Positive => T::Mask::of_lanes(u32::MAX),
         Zero::Neither => T::Part::from_f64(0.0).lt(before.part(0).abs()),
     }
-}
-
-/// [`change`] of those functions whose [time is their own](begins_apart); −∞ where there are none.
-#[inline(always)]
-fn crossing<T: Several>(zero: Zero, before: &[T], values: &[T]) -> T {
-    let never = T::from_f64(f64::NEG_INFINITY);
-    let pairs = before.iter().zip(values);
-    pairs.fold(never, |worst, (before, value)| {
-        let value = opposite(zero, *before, *value);
-        worst.max(T::select(begins_apart(zero, *before), value, never))
-    })
 }
 
 /// The functions of a model whose signs matter.
@@ -103,6 +93,71 @@ impl<T: Several> Probe<'_, T> {
         self.at(theta);
         change(self.functions.zero(), before, self.values)
     }
+
+    /// [`opposite`] of one function in each lane, by its index, at t + θh.
+    #[inline(always)]
+    fn opposite(&mut self, before: &[T], index: T::Part, theta: T) -> T {
+        self.at(theta);
+        let zero = self.functions.zero();
+        let mut of_index = T::from_f64(0.0);
+        for (i, (before, value)) in before.iter().zip(&*self.values).enumerate() {
+            let apart = (index - T::Part::from_f64(i as f64)).abs();
+            let chosen = apart.lt(T::Part::from_f64(0.5));
+            of_index = T::select(chosen, opposite(zero, *before, *value), of_index);
+        }
+        of_index
+    }
+
+    /// When the function of an index changes its sign in each lane, as a part of the step, where it is `there` at the part `found`. The zero of g(θ, p)
+    /// moves by dθ/dp = −(∂g/∂p)/(∂g/∂θ). With dθ/dp = −(∂g/∂p)/r, of any r, g changes by ρ = ∂g/∂p − (∂g/∂θ)(∂g/∂p)/r, and so
+    /// ∂g/∂θ = r (1 − ρ/(∂g/∂p)) to rounding. A difference quotient over a short step would be rounding itself.
+    #[inline(always)]
+    fn time(&mut self, before: &[T], index: T::Part, found: T::Part, there: T) -> T {
+        let (nought, one) = (T::Part::from_f64(0.0), T::Part::from_f64(1.0));
+        // r: the mean rate from the beginning of the step on, which is of the size of ∂g/∂θ
+        let mut beginning = nought;
+        for (i, before) in before.iter().enumerate() {
+            let apart = (index - T::Part::from_f64(i as f64)).abs();
+            let chosen = apart.lt(T::Part::from_f64(0.5));
+            beginning = T::Part::select(chosen, before.part(0).abs(), beginning);
+        }
+        let mean = (there.part(0).abs() + beginning) / found;
+        let mean = T::Part::select(nought.lt(mean), mean, one);
+        let trial = (there.frozen() - there) / T::of_part(mean);
+        let left = self.opposite(before, index, T::of_part(found) + trial);
+        // of the part that tells most
+        let (mut largest, mut share) = (nought, nought);
+        for part in 1..T::PARTS {
+            let by = there.part(part);
+            let tells = largest.lt(by.abs());
+            let by = T::Part::select(tells, by, one);
+            share = T::Part::select(tells, one - left.part(part) / by, share);
+            largest = largest.max(there.part(part).abs());
+        }
+        let moves = nought.lt(share.abs());
+        let share = T::Part::select(moves, share, one);
+        let found = T::of_part(found);
+        T::select(moves, trial / T::of_part(share) + found, found)
+    }
+
+    /// Where the function of an index changes its sign in a jump between two parts of the step, at the first of which it is `there`: it changes no more over
+    /// far more of the step.
+    #[inline(always)]
+    fn jumps(
+        &mut self,
+        before: &[T],
+        index: T::Part,
+        [other, same]: [T::Part; 2],
+        there: T,
+    ) -> T::Mask {
+        let nought = T::Part::from_f64(0.0);
+        let far = (other - T::Part::from_f64(FAR)).max(nought).min(same);
+        let [near, far] = [same, far].map(|part| {
+            let value = self.opposite(before, index, T::of_part(part));
+            there.part(0) - value.part(0)
+        });
+        far.lt(T::Part::from_f64(MORE) * near)
+    }
 }
 
 /// Fractions of a step on both sides of a change of sign, no further apart than can be told, with the derivative of when that is.
@@ -112,6 +167,9 @@ pub struct Sides<T: Real> {
     pub behind: T,
     /// Where several functions change their signs there, whose times depend on parameters otherwise.
     pub at_odds: T::Mask,
+    /// Where the time is not that of the function: it changes its sign in a jump, and the time is that of what makes it jump; or it was [left at
+    /// once](begins_apart).
+    pub jumps: T::Mask,
 }
 
 /// Times that differ by less than this share of a step for a change of a parameter by its size, or by this share of themselves, depend on it alike.
@@ -165,57 +223,59 @@ pub fn first_change<T: Several>(
             ahead: behind - between,
             behind,
             at_odds: none,
+            jumps: none,
         };
     }
-    // g(θ, p) = 0 on the way: dθ/dp = −∂g/∂p / ∂g/∂θ
-    let ends = [(found - c(APART)).max(nought), (found + c(APART)).min(one)];
-    let moved = |there: T, [left, right]: [T::Part; 2]| {
-        let rate = (right - left) / (ends[1] - ends[0]);
-        let moves = wanted.and(nought.lt(rate.abs()));
-        let rate = T::Part::select(moves, rate, one);
-        let shift = (there - there.frozen()) / T::of_part(rate);
-        let behind = T::select(moves, T::of_part(found) - shift, T::of_part(found));
-        (behind, moves)
-    };
     let zero = probe.functions.zero();
     probe.at(T::of_part(found));
-    let real = nought.lt(crossing(zero, before, probe.values).part(0));
-    let worst = |values: &[T]| {
-        let crossing = crossing(zero, before, values);
-        T::select(real, crossing, change(zero, before, values))
-    };
-    let there = worst(probe.values);
-    let (mut alone, mut several) = (none, none);
-    for (before, value) in before.iter().zip(&*probe.values) {
+    // the function that is farthest on the other side, and where there is one
+    let (mut index, mut there, mut alone, mut several) = (nought, T::from_f64(0.0), none, none);
+    for (i, (before, value)) in before.iter().zip(&*probe.values).enumerate() {
         let value = opposite(zero, *before, *value);
         let changed = nought.lt(value.part(0)).and(wanted);
         let changed = changed.and(begins_apart(zero, *before));
+        let farthest = changed.and(there.part(0).lt(value.part(0)));
+        index = T::Part::select(farthest, c(i as f64), index);
+        there = T::select(farthest, value, there);
         several = several.or(alone.and(changed));
         alone = alone.or(changed);
     }
-    let sides = ends.map(|end| {
-        probe.at(T::of_part(end));
-        worst(probe.values).part(0)
-    });
-    let (behind, _) = moved(there, sides);
-    let mut at_odds = none;
-    if several.any() {
-        for (i, before) in before.iter().enumerate() {
-            let mut alone = |theta: T::Part| {
-                probe.at(T::of_part(theta));
-                opposite(zero, *before, probe.values[i])
-            };
-            let there = alone(found);
-            let (time, moves) = moved(there, ends.map(|end| alone(end).part(0)));
-            let counts = several.and(moves).and(nought.lt(there.part(0)));
-            let counts = counts.and(begins_apart(zero, *before));
-            at_odds = at_odds.or(Sides::differ(time, behind).and(counts));
-        }
+    let mut behind = T::of_part(found);
+    let (mut jumps, mut at_odds) = (none, none);
+    let same = found - between.part(0);
+    if alone.any() {
+        let time = probe.time(before, index, found, there);
+        behind = T::select(alone, time, behind);
+        jumps = probe.jumps(before, index, [found, same], there).and(alone);
     }
+    if several.any() {
+        let mut odd = none;
+        for (i, before_of) in before.iter().enumerate() {
+            let index = c(i as f64);
+            let there = probe.opposite(before, index, T::of_part(found));
+            let counts = several.and(nought.lt(there.part(0)));
+            let counts = counts.and(begins_apart(zero, *before_of));
+            if !counts.any() {
+                continue;
+            }
+            let time = probe.time(before, index, found, there);
+            let by_itself = probe.jumps(before, index, [found, same], there).not();
+            // the first that does not jump stands for all that do
+            let first = counts.and(by_itself).and(jumps);
+            behind = T::select(first, time, behind);
+            jumps = jumps.and(first.not());
+            let differ = Sides::differ(time, behind).and(counts);
+            at_odds = at_odds.or(differ.and(by_itself));
+            odd = odd.or(differ);
+        }
+        at_odds = at_odds.or(odd.and(jumps));
+    }
+    let jumps = jumps.or(wanted.and(alone.not()));
     Sides {
         ahead: behind - between,
         behind,
         at_odds,
+        jumps,
     }
 }
 

@@ -2,11 +2,12 @@
 
 use super::control::norm;
 use super::event::{Sides, width};
+use super::onset::END;
 use super::reach::Reach;
 use super::run::{Run, each, replace};
-use crate::Real;
 use crate::real::{Mask, Several};
 use crate::simulate::finest;
+use crate::{Arrival, Real};
 
 /// How the steps of lanes ended.
 pub(super) struct Landing<T: Real> {
@@ -84,6 +85,7 @@ impl<T: Several> Run<'_, T> {
             ahead,
             behind,
             at_odds,
+            ..
         } = sides;
         let whole = whole.or(self.going_on(whole.not().and(accepted), behind));
         let broken = whole.not().and(accepted);
@@ -111,6 +113,9 @@ impl<T: Several> Run<'_, T> {
         if leads {
             let model = &self.models.all;
             model.derivative(short.min(self.step.latest), &self.state, &mut self.ahead);
+        }
+        if at_odds.any() {
+            self.remember_ahead(short);
         }
         if jumps {
             if leads {
@@ -193,7 +198,7 @@ impl<T: Several> Run<'_, T> {
                 goes_on = goes_on.or(self.moves_alike().and(alike));
             }
         }
-        self.tie(at_odds.and(going), renewed.any);
+        self.tie(at_odds.and(going));
         self.hold(moves.and(going), shift);
         // where memory stays, they are known
         let known = going.and(renewed.any.not());
@@ -221,23 +226,48 @@ impl<T: Several> Run<'_, T> {
         let shift = T::select(lanes, shift, T::from_f64(0.0));
         follow(lanes, &mut self.step.y, &self.step.k[0], -shift);
         self.step.t = self.step.t - shift;
+        self.hold_memory(lanes);
         self.rate(lanes);
     }
 
-    /// In these lanes the one event of several counted whose function was farthest. That is of no matter where none of them changes a rate or memory.
+    /// Memory that goes along with the state, as the foot of a line under load does, is of the time at which the next steps of these lanes begin, not of
+    /// that of the event. Its values are the same; where it stays as it is, so are its derivatives: of what laws make of a memory, what drags it comes
+    /// before what was kept where both are equal.
     #[inline(always)]
-    fn tie(&mut self, at_odds: T::Mask, renewed: T::Mask) {
+    fn hold_memory(&mut self, lanes: T::Mask) {
+        if self.info.memory.is_empty() {
+            return;
+        }
+        self.look_at_begin();
+        let same = differ(&self.renewed, &self.step.y).not();
+        replace(same.and(lanes), &mut self.step.y, &self.renewed);
+    }
+
+    /// What memory would become just ahead of an event, at a time \[s\] and the state in `state`. What is evaluated with it is evaluated again where steps end.
+    #[inline(always)]
+    fn remember_ahead(&mut self, t: T) {
+        let mut arrival = Arrival {
+            event_functions: &mut self.event_functions_ahead,
+            onsets: &mut self.onsets.values[END],
+            renewed: &mut self.renewed,
+            curves: &mut [],
+            account: None,
+        };
+        self.models.all.arrive(t, &self.state, &mut arrival);
+        let kept = &self.renewed[self.info.varying_length()..];
+        self.memory_ahead.copy_from_slice(kept);
+    }
+
+    /// In these lanes the one event of several counted whose function was farthest. That is of no matter where none of them makes a rate or memory jump.
+    #[inline(always)]
+    fn tie(&mut self, at_odds: T::Mask) {
         if !at_odds.any() {
             return;
         }
-        let mut jumps = renewed;
         let entries = self.info.varying_length();
-        for (before, behind) in self.ahead.iter().zip(&self.step.k[0]).take(entries) {
-            let [before, behind] = [before.part(0), behind.part(0)];
-            let size = before.abs().max(behind.abs());
-            let trifle = T::Part::from_f64(TRIFLE) * size;
-            jumps = jumps.or(trifle.lt((behind - before).abs()));
-        }
+        let (continuous, memory) = self.step.y.split_at(entries);
+        let rates = jump(&self.ahead[..entries], &self.step.k[0][..entries], &[]);
+        let jumps = rates.or(jump(&self.memory_ahead, memory, continuous));
         self.tied |= at_odds.and(jumps).lanes();
     }
 
@@ -272,8 +302,33 @@ impl<T: Several> Run<'_, T> {
     }
 }
 
-/// A rate that changes by less than this share of itself does not jump.
+/// What changes by less than this share of itself does not jump, nor what changes by less than this share of the largest beside it: between both sides of an
+/// event everything moves a little.
 const TRIFLE: f64 = 1e-6;
+const NOTHING: f64 = 1e-12;
+
+/// The lanes in which any number jumps between both sides of an event, `beside` others.
+#[inline(always)]
+fn jump<T: Several>(ahead: &[T], behind: &[T], beside: &[T]) -> T::Mask {
+    let [trifle, nothing] = [TRIFLE, NOTHING].map(T::Part::from_f64);
+    let mut largest = T::Part::from_f64(0.0);
+    let beside = match beside.is_empty() {
+        true => behind,
+        false => beside,
+    };
+    for number in beside {
+        largest = largest.max(number.part(0).abs());
+    }
+    let mut jumps = T::Mask::of_lanes(0);
+    for (ahead, behind) in ahead.iter().zip(behind) {
+        let [ahead, behind] = [ahead.part(0), behind.part(0)];
+        let size = ahead.abs().max(behind.abs());
+        let apart = (behind - ahead).abs();
+        let more = (trifle * size).lt(apart);
+        jumps = jumps.or(more.and((nothing * largest).lt(apart)));
+    }
+    jumps
+}
 
 /// Moves a state in these lanes along its rate for a time \[s\], of which there are derivatives alone.
 #[inline(always)]

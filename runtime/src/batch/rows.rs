@@ -282,9 +282,9 @@ fn gradients_of_doubles(
 pub struct Gradients {
     /// How the run in each direction ended.
     pub rows: Vec<Row>,
-    /// The responses of the first.
+    /// The responses of the first; NaN where its run did not reach its end, or cannot be trusted.
     pub values: Vec<f64>,
-    /// Their derivatives, direction by direction.
+    /// Their derivatives, direction by direction; NaN where the run in that direction did not reach its end, or cannot be trusted.
     pub slopes: Vec<f64>,
 }
 
@@ -349,10 +349,15 @@ impl<S: Real> OfModels<Dual<S>> for Slopes<'_> {
         let asked = self.job.responses.len();
         let all = &table.responses;
         let first = all.get(..asked).unwrap_or(&[]);
+        // what is not known has no derivative either
+        let slope = |response: &Dual<S>| match response.value.to_f64() {
+            value if value.is_nan() => f64::NAN,
+            _ => response.slope.to_f64(),
+        };
         Gradients {
             rows: (0..directions).map(|row| table.row(row)).collect(),
             values: first.iter().map(|all| all.value.to_f64()).collect(),
-            slopes: all.iter().map(|all| all.slope.to_f64()).collect(),
+            slopes: all.iter().map(slope).collect(),
         }
     }
 }

@@ -147,6 +147,8 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) renewed: Box<[T]>,
     /// Room for the rate just ahead of the end of a step.
     pub(super) ahead: Box<[T]>,
+    /// Room for what memory would become there.
+    pub(super) memory_ahead: Box<[T]>,
     /// Room for a state.
     pub(super) state: Box<[T]>,
     /// The error allowed in each entry of a state; nothing where steps are fixed.
@@ -283,6 +285,7 @@ impl<'a, T: Several> Run<'a, T> {
             end: zeros(entries),
             renewed: zeros(entries),
             ahead: zeros(if T::PARTS > 1 { entries } else { 0 }),
+            memory_ahead: zeros(entries - info.varying_length()),
             state: zeros(entries),
             allowed: match &settings.pace {
                 Pace::Adaptive(tolerances) => Allowed::of(tolerances, info),

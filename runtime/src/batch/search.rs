@@ -168,6 +168,7 @@ impl<T: Several> Run<'_, T> {
             ahead: one,
             behind: one,
             at_odds: none,
+            jumps: none,
         };
         let mut whole = T::Mask::of_lanes(u32::MAX);
         if !self.event_functions.is_empty() {
@@ -197,12 +198,19 @@ impl<T: Several> Run<'_, T> {
                 let apart = (at.behind.part(0) - place.behind.part(0)).abs();
                 let together = T::Part::from_f64(TOGETHER * width::<T>()).lt(apart).not();
                 let both = together.and(crossed).and(whole.not());
-                let odd = Sides::differ(at.behind, place.behind).and(both);
+                let by_themselves = both.and(at.jumps.not()).and(place.jumps.not());
+                let odd = Sides::differ(at.behind, place.behind).and(by_themselves);
                 let at_odds = T::Mask::or(first.and(at.at_odds), first.not().and(place.at_odds));
+                // where one of both times is not its own, it is the other
+                let by_place = both.and(at.jumps).and(place.jumps.not());
+                let by_at = both.and(place.jumps).and(at.jumps.not());
+                let of_at = first.and(by_place.not()).or(by_at);
+                let time = T::select(of_at, at.behind, place.behind);
                 place = Sides {
                     at_odds: at_odds.or(odd),
-                    ahead: T::select(first, at.ahead, place.ahead),
-                    behind: T::select(first, at.behind, place.behind),
+                    ahead: T::select(first, at.ahead, place.ahead).moving_as(time),
+                    behind: T::select(first, at.behind, place.behind).moving_as(time),
+                    jumps: none,
                 };
                 whole = whole.and(first.not());
             }

@@ -39,6 +39,10 @@ const STRICT: f64 = 0.9;
 const MOST: f64 = 0.8;
 /// Tries of implicit steps after which it is asked whether they pay.
 const TRIAL: u64 = 20;
+/// Steps at the limit over which it is told how far explicit steps went lately, and by how much less that must be than in all such steps to count. A body that
+/// comes to rest on friction takes steps that are far shorter than those before.
+const LATELY: u32 = 200;
+const FAR_LESS: f64 = 0.1;
 /// How many times cheaper the implicit method must be.
 const PAYS: f64 = 2.0;
 /// Implicit steps in a row within the limit of the explicit method, after which that one goes on.
@@ -73,10 +77,12 @@ struct Rule {
     calm: u32,
     /// Steps at the limit that are close to it.
     strict: u32,
-    /// Time gone \[s\] and tries since the count began.
+    /// Time gone \[s\] and tries since the count began, and what they were when the last [`LATELY`] steps at the limit began.
     gone: f64,
     tries: u64,
-    /// How far a try of the explicit method went \[s\].
+    before: (f64, u64),
+    /// How far a try of the explicit method went lately, and in the end \[s\].
+    lately: f64,
     stride: f64,
 }
 
@@ -84,6 +90,7 @@ impl Rule {
     fn count_anew(&mut self) {
         (self.at_limit, self.calm, self.strict) = (0, 0, 0);
         (self.gone, self.tries) = (0.0, 0);
+        self.before = (0.0, 0);
     }
 
     fn add(&mut self, length: f64, rejected: u64) {
@@ -101,6 +108,11 @@ impl Rule {
         if is_at(AT) || rejected > 0 {
             (self.at_limit, self.calm) = (self.at_limit + 1, 0);
             self.strict += u32::from(is_at(STRICT));
+            if self.at_limit.is_multiple_of(LATELY) {
+                let (gone, tries) = self.before;
+                self.lately = (self.gone - gone) / (self.tries - tries) as f64;
+                self.before = (self.gone, self.tries);
+            }
         } else {
             self.calm += 1;
             if self.calm >= CALM {
@@ -170,6 +182,8 @@ impl<'w, T: Real> Switching<'w, T> {
                 strict: 0,
                 gone: 0.0,
                 tries: 0,
+                before: (0.0, 0),
+                lately: 0.0,
                 stride: 0.0,
             },
             cost: implicit / explicit,
@@ -404,7 +418,11 @@ impl<T: Real> Stepper<T> for Switching<'_, T> {
         if !self.rule.is_stiff([reach, self.limit()], rejected) {
             return None;
         }
-        self.rule.stride = self.rule.gone / self.rule.tries as f64;
+        let mean = self.rule.gone / self.rule.tries as f64;
+        self.rule.stride = match self.rule.lately < FAR_LESS * mean {
+            true => self.rule.lately,
+            false => mean,
+        };
         let close = f64::from(self.rule.strict) >= MOST * f64::from(self.rule.at_limit);
         self.rule.count_anew();
         (self.implicit, self.fastest) = (true, 0.0);

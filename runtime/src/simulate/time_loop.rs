@@ -511,8 +511,9 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 let smallest = adaptive.smallest_step.max(finest);
                 let largest = adaptive.largest_step.min(self.info.longest_step);
                 self.h = self.h.min(largest).max(smallest);
-                let stop = match self.info.longest_step.is_finite() {
-                    // a user force is looked at in each sample at least
+                // a user force is looked at in each sample at least; and within a step that damps what the explicit method has let grow, the interpolant
+                // still has its share of that, so a row is at its end
+                let stop = match self.info.longest_step.is_finite() || self.settles > 0 {
                     true => self.breakpoint.min(self.schedule.next_row()),
                     false => self.breakpoint,
                 };

@@ -14,6 +14,8 @@
 //!
 //! During a step p is held. The new foot gives the very force of the old one, so nothing jumps where a step ends; and a
 //! event function ends steps where the rate changes its sign, because a turning point inside a step would be forgotten.
+//!
+//! Where what drags the foot and the foot are equal, `max` and `min` take their left operand, so what drags stands there: its derivatives count.
 
 use super::switch::Gate;
 use super::{Acts, AppliedForces, choose};
@@ -64,7 +66,7 @@ pub fn apply<'g>(
 
     let furthest = abscissa - loading / slope;
     let renewed = match &law.unloading {
-        Some(_) => furthest.max(kept.min(abscissa - unloading / slope)),
+        Some(_) => furthest.max((abscissa - unloading / slope).min(kept)),
         None => furthest.max(kept),
     };
     applied.states.memory[index].next = renewed;
@@ -158,8 +160,8 @@ pub fn apply_both_ways<'g>(
     let renewed = choose(
         zero,
         abscissa,
-        furthest.max(kept.min(returns)),
-        furthest.min(kept.max(returns)),
+        furthest.max(returns.min(kept)),
+        furthest.min(returns.max(kept)),
     );
     applied.states.memory[index].next = renewed;
     applied.kink(

@@ -120,7 +120,8 @@ pub fn webbing<'g>(
     let mut length = base - taken + given;
     let limiter = paid.map(|(force, (paid, payout), (paying, pays))| {
         let yields = one + elongation(graph, belt, force);
-        let paid_now = payout.max(span / yields - length);
+        // what drags on the left: its derivatives count where both are equal
+        let paid_now = (span / yields - length).max(payout);
         let beyond = span - yields * (length + payout);
         length = length + choose(pays, half, payout, paid_now);
         applied.states.memory[paid].next = paid_now;
