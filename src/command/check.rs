@@ -154,7 +154,8 @@ impl Costs {
             matrices: false,
             ..Options::default()
         };
-        let costs = program::costs(model, &equations, &emitted);
+        let wanted = ["accelerations", "outputs"];
+        let costs = program::costs_of(model, &equations, &emitted, Some(&wanted));
         let of = |method: &str| {
             let found = costs.iter().find(|(name, _)| *name == method);
             found.map_or_else(Count::default, |(_, table)| table.total.clone())

@@ -98,9 +98,12 @@ impl Arguments {
             progress
                 .later(derivations.len() as f64 * time_of_one(&derivations[SCENE], users.clone())?);
         }
-        let generated = generate(&derivations, &mut |done| progress.set(done as f64));
-        let (costs, mut lists): (Vec<Option<Cost>>, Vec<Option<Lists>>) =
-            generated.into_iter().map(Option::unzip).unzip();
+        let generated = generate(&derivations, !self.no_time, &mut |done| {
+            progress.set(done as f64);
+        });
+        let generated = generated.into_iter().map(Option::unzip);
+        let generated = generated.map(|(cost, lists)| (cost, lists.flatten()));
+        let (costs, mut lists): (Vec<Option<Cost>>, Vec<Option<Lists>>) = generated.unzip();
         let of = |index: usize| costs[index].as_ref();
         let (Some(scene), Some(_), Some(general)) = (of(SCENE), of(OUTPUTS), of(GENERAL)) else {
             return Err(Error::Interrupted("no equations were derived yet".into()));
@@ -380,16 +383,20 @@ fn derivation(model: &Model, entry: &Entry) -> Option<Derivation> {
     })
 }
 
-/// The costs and lists of the variants that were derived before an interruption.
+/// The costs of the variants that were derived before an interruption, and their lists where they are to be timed.
 fn generate(
     derivations: &[Derivation],
+    timed: bool,
     progress: &mut dyn FnMut(usize),
-) -> Vec<Option<(Cost, Lists)>> {
-    parallel::map(
-        derivations,
-        |derivation| effect::counted(&derivation.variant),
-        progress,
-    )
+) -> Vec<Option<(Cost, Option<Lists>)>> {
+    let work = |Derivation { variant, .. }: &Derivation| match timed {
+        true => {
+            let (cost, lists) = effect::counted(variant);
+            (cost, Some(lists))
+        }
+        false => (effect::cost(variant), None),
+    };
+    parallel::map(derivations, work, progress)
 }
 
 fn count(cost: &Cost, method: Method) -> &Count {

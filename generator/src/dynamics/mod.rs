@@ -187,7 +187,7 @@ fn in_graph(
     };
     let systems: Vec<Spatial<'_, '_>> = trees.iter().enumerate().map(of_system).collect();
     let matrices = match options.matrices || route == Route::MassMatrix {
-        true => Matrices::of(graph, &layout, &systems, &applied),
+        true => Matrices::of(graph, &layout, &systems, &applied, options.matrices),
         false => Matrices::default(),
     };
     let pivots = pivots(graph, model, &layout, &systems, &matrices.mass);
@@ -280,6 +280,7 @@ impl<'g> Matrices<'g> {
         layout: &Layout,
         systems: &[Spatial<'g, '_>],
         applied: &AppliedForces<'g>,
+        wanted: bool,
     ) -> Self {
         let (none, size) = (graph.constant(0.0), layout.velocities.len());
         let mut matrices = Matrices {
@@ -287,7 +288,8 @@ impl<'g> Matrices<'g> {
             velocity_forces: bias_forces::velocity_forces(systems, none, size),
             applied_forces: applied_forces::applied_forces(systems, applied, none, size),
         };
-        for spatial in with_axes(systems) {
+        // accelerations by S have frames of their own, so this search is for who wants S itself
+        for spatial in with_axes(systems).filter(|_| wanted) {
             let forces = [
                 &mut matrices.velocity_forces[..],
                 &mut matrices.applied_forces[..],

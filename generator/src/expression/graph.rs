@@ -9,9 +9,11 @@
 //! the same model gives the same graph on every run and every machine.
 
 use super::node::{Function, Node, NodeId, Symbol};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHasher};
 use std::cell::{Ref, RefCell};
+use std::hash::{Hash, Hasher};
 use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::Arc;
 
 /// The graph. It only grows, and is cheap to share by reference.
 #[derive(Clone, Default)]
@@ -22,12 +24,104 @@ pub struct Graph {
 #[derive(Clone, Default)]
 struct Inner {
     nodes: Vec<Node>,
-    index: FxHashMap<Node, NodeId>,
+    index: Index,
     /// The section that created each node.
     section_of: Vec<u32>,
-    sections: Vec<String>,
+    /// The same for all graphs that passes make of each other.
+    sections: Arc<Sections>,
     current: u32,
     names: FxHashMap<NodeId, String>,
+}
+
+/// The names of sections, and the place of each.
+#[derive(Clone, Default)]
+struct Sections {
+    names: Vec<String>,
+    places: FxHashMap<String, u32>,
+}
+
+/// Finds a node by what it is: an open table of numbers of nodes, from 1, with 0 where nothing is. Its length is a power of two, of which at most
+/// half is in use. The nodes themselves are in the graph alone.
+#[derive(Clone, Default)]
+struct Index {
+    slots: Vec<u32>,
+    used: usize,
+}
+
+impl Index {
+    /// The smallest table.
+    const SMALLEST: usize = 256;
+
+    /// The node, or the slot where its number belongs. There must be a free slot.
+    #[inline]
+    fn find(&self, nodes: &[Node], node: &Node) -> Result<NodeId, usize> {
+        let mask = self.slots.len() - 1;
+        let mut at = hash(node) & mask;
+        loop {
+            match self.slots[at] {
+                0 => return Err(at),
+                number if nodes[number as usize - 1] == *node => return Ok(NodeId(number - 1)),
+                _ => at = (at + 1) & mask,
+            }
+        }
+    }
+
+    /// Makes room for one more node.
+    #[inline]
+    fn reserve(&mut self, nodes: &[Node]) {
+        if 2 * (self.used + 1) > self.slots.len() {
+            self.grow(nodes);
+        }
+    }
+
+    fn grow(&mut self, nodes: &[Node]) {
+        let length = (2 * self.slots.len()).max(Self::SMALLEST);
+        let before = std::mem::replace(&mut self.slots, vec![0; length]);
+        for number in before.into_iter().filter(|number| *number != 0) {
+            let mut at = hash(&nodes[number as usize - 1]) & (length - 1);
+            while self.slots[at] != 0 {
+                at = (at + 1) & (length - 1);
+            }
+            self.slots[at] = number;
+        }
+    }
+
+    /// Forgets all nodes. The table keeps the length that as many nodes need again, so that it is not cleared in vain.
+    fn clear(&mut self) {
+        let needed = (4 * self.used).next_power_of_two().max(Self::SMALLEST);
+        self.slots.truncate(needed);
+        self.slots.fill(0);
+        self.used = 0;
+    }
+}
+
+/// A number whose low bits depend on all of the node.
+#[inline]
+fn hash(node: &Node) -> usize {
+    // 2⁶⁴ over the golden ratio
+    const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
+    let mixed = |kind: u64, value: u64| {
+        let product = (value ^ kind << 58).wrapping_mul(SPREAD);
+        ((product ^ product >> 32).wrapping_mul(SPREAD) >> 32) as usize
+    };
+    let two = |kind, a: &NodeId, b: &NodeId| mixed(kind, u64::from(a.0) | u64::from(b.0) << 32);
+    match node {
+        Node::Constant(bits) => mixed(1, *bits),
+        Node::Neg(a) => two(2, a, a),
+        Node::Add(a, b) => two(3, a, b),
+        Node::Sub(a, b) => two(4, a, b),
+        Node::Mul(a, b) => two(5, a, b),
+        Node::Div(a, b) => two(6, a, b),
+        Node::Sin(a) => two(8, a, a),
+        Node::Cos(a) => two(9, a, a),
+        Node::Symbol(Symbol::Coordinate(i)) => mixed(10, u64::from(*i)),
+        Node::Symbol(Symbol::Parameter(i)) => mixed(11, u64::from(*i)),
+        other => {
+            let mut hasher = FxHasher::default();
+            other.hash(&mut hasher);
+            mixed(7, hasher.finish())
+        }
+    }
 }
 
 impl Inner {
@@ -63,12 +157,28 @@ impl Graph {
     pub fn section(&self, name: impl Into<String>) {
         let name = name.into();
         let mut inner = self.inner.borrow_mut();
-        let position = inner.sections.iter().rposition(|s| *s == name);
-        let index = position.unwrap_or_else(|| {
-            inner.sections.push(name);
-            inner.sections.len() - 1
+        let known = inner.sections.places.get(&name).copied();
+        inner.current = known.unwrap_or_else(|| {
+            let sections = Arc::make_mut(&mut inner.sections);
+            let place = sections.names.len() as u32;
+            sections.names.push(name.clone());
+            sections.places.insert(name, place);
+            place
         });
-        inner.current = index as u32;
+    }
+
+    /// An empty graph with the sections of another one.
+    pub(crate) fn with_sections_of(other: &Graph) -> Self {
+        let sections = other.inner.borrow().sections.clone();
+        let current = sections.names.len().saturating_sub(1) as u32;
+        let inner = Inner {
+            sections,
+            current,
+            ..Inner::default()
+        };
+        Graph {
+            inner: RefCell::new(inner),
+        }
     }
 
     /// Index of the section that new nodes belong to.
@@ -83,7 +193,7 @@ impl Graph {
 
     /// All sections, by index.
     pub fn sections(&self) -> Ref<'_, [String]> {
-        Ref::map(self.inner.borrow(), |i| i.sections.as_slice())
+        Ref::map(self.inner.borrow(), |i| i.sections.names.as_slice())
     }
 
     /// Index of the section that created a node.
@@ -126,6 +236,7 @@ impl Graph {
     }
 
     /// Whether a node has a name.
+    #[inline]
     pub(crate) fn is_named(&self, id: NodeId) -> bool {
         self.inner.borrow().names.contains_key(&id)
     }
@@ -150,6 +261,7 @@ impl Graph {
     }
 
     /// The node at an index.
+    #[inline]
     pub fn node(&self, id: NodeId) -> Node {
         self.inner.borrow().nodes[id.0 as usize]
     }
@@ -165,6 +277,7 @@ impl Graph {
     }
 
     /// The node of a number.
+    #[inline]
     pub fn constant(&self, value: f64) -> Expr<'_> {
         // Adding zero turns −0 into 0: a product with zero must not depend on the sign.
         self.intern(Node::Constant((value + 0.0).to_bits()))
@@ -224,13 +337,20 @@ impl Graph {
     }
 
     /// The node as it is, unfolded, shared with an equal one: for passes that rewrite a graph.
+    #[inline]
     pub fn intern(&self, node: Node) -> Expr<'_> {
         let mut inner = self.inner.borrow_mut();
-        if let Some(&id) = inner.index.get(&node) {
-            return Expr { graph: self, id };
-        }
-        let id = inner.push(node);
-        inner.index.insert(node, id);
+        let Inner { nodes, index, .. } = &mut *inner;
+        index.reserve(nodes);
+        let id = match index.find(nodes, &node) {
+            Ok(id) => id,
+            Err(slot) => {
+                let id = inner.push(node);
+                inner.index.slots[slot] = id.0 + 1;
+                inner.index.used += 1;
+                id
+            }
+        };
         Expr { graph: self, id }
     }
 
@@ -240,6 +360,7 @@ impl Graph {
         Expr { graph: self, id }
     }
 
+    #[inline]
     fn binary(&self, make: fn(NodeId, NodeId) -> Node, a: Expr<'_>, b: Expr<'_>) -> Expr<'_> {
         self.intern(make(a.id.min(b.id), a.id.max(b.id)))
     }
@@ -283,11 +404,13 @@ impl<'g> Expr<'g> {
     }
 
     /// The operation or input at this node.
+    #[inline]
     pub fn node(self) -> Node {
         self.graph.node(self.id)
     }
 
     /// The value, if it is a number.
+    #[inline]
     pub fn as_constant(self) -> Option<f64> {
         match self.node() {
             Node::Constant(bits) => Some(f64::from_bits(bits)),
@@ -296,15 +419,18 @@ impl<'g> Expr<'g> {
     }
 
     /// True for the number 0.
+    #[inline]
     pub fn is_zero(self) -> bool {
         self.as_constant() == Some(0.0)
     }
 
     /// True for the number 1.
+    #[inline]
     pub fn is_one(self) -> bool {
         self.as_constant() == Some(1.0)
     }
 
+    #[inline]
     fn negated(self) -> Option<Expr<'g>> {
         match self.node() {
             Node::Neg(a) => Some(self.graph.expr(a)),
@@ -313,6 +439,7 @@ impl<'g> Expr<'g> {
     }
 
     /// Splits `c · x` with a number c into (c, x).
+    #[inline]
     fn scaled(self) -> (f64, Expr<'g>) {
         if let Node::Mul(a, b) = self.node() {
             // The constant may be either operand, because operands are ordered by age.

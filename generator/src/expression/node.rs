@@ -214,11 +214,13 @@ pub enum Node {
 
 impl Node {
     /// True for a number and an input, which are no operations.
+    #[inline]
     pub fn is_leaf(&self) -> bool {
         matches!(self, Node::Constant(_) | Node::Symbol(_))
     }
 
     /// The operands, in order.
+    #[inline]
     pub fn operands(&self) -> impl Iterator<Item = NodeId> + use<> {
         let (ids, count) = match *self {
             Node::Constant(_) | Node::Symbol(_) => ([NodeId(0); 3], 0),
@@ -238,6 +240,7 @@ impl Node {
     }
 
     /// The same operation on other operands, unfolded.
+    #[inline]
     pub fn map_operands(self, mut map: impl FnMut(NodeId) -> NodeId) -> Node {
         match self {
             Node::Constant(_) | Node::Symbol(_) => self,

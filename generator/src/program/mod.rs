@@ -85,7 +85,17 @@ pub type Costs = Vec<(&'static str, Table)>;
 
 /// What each method of a model costs, by section: the operations after all passes.
 pub fn costs(model: &Model, equations: &Equations, options: &Options) -> Costs {
-    Plan::new(model, equations, options, None).costs()
+    costs_of(model, equations, options, None)
+}
+
+/// The same of the methods of these names alone, if some are named.
+pub fn costs_of(
+    model: &Model,
+    equations: &Equations,
+    options: &Options,
+    only: Option<&[&str]>,
+) -> Costs {
+    Plan::new(model, equations, options, only).costs()
 }
 
 /// By method: the operations that depend on parameters alone, and so are done at every call though nothing changes. There

@@ -217,6 +217,9 @@ pub(crate) fn finished(
     let graph = &equations.graph;
     let arguments = Arguments::of(graph, methods, &known(&derived[..before], inputs));
     let needs_more = |method: &Specification| {
+        if before == derived.len() {
+            return false;
+        }
         let live = Live::new(graph, &method.roots);
         derived[before..].iter().any(|&value| live.contains(value))
     };

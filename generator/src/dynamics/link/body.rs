@@ -3,6 +3,7 @@
 //! J = tr Σ · 1 − Σ is the inertia about the point. Σ = ∫ρρᵀ can be moved in parts, which regrouping needs: mass on the axis of a hinge
 //! acts on the carrier alone.
 
+use super::frames::Matrix;
 use super::tree::LinkJoint;
 use super::turn::Turn;
 use crate::expression::vector::{Sym3, Vec3};
@@ -153,8 +154,159 @@ impl<'g> Body<'g> {
     }
 }
 
+/// A [`Body`] of numbers. Its operations are those of a body, in the same order.
+#[derive(Clone, Copy)]
+pub struct Numbers {
+    mass: f64,
+    pub first: [f64; 3],
+    /// Symmetric.
+    second: Matrix,
+    /// As in [`Body::sizes`].
+    pub sizes: [f64; 2],
+}
+
+impl Numbers {
+    /// `None` if an entry is no number.
+    pub fn of(body: &Body<'_>) -> Option<Self> {
+        let mut second = [[0.0; 3]; 3];
+        for (i, row) in second.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = body.second.entry(i, j).as_constant()?;
+            }
+        }
+        Some(Numbers {
+            mass: body.mass.as_constant()?,
+            first: numbers(body.first)?,
+            second,
+            sizes: body.sizes,
+        })
+    }
+
+    /// A point at the origin.
+    pub fn point(mass: f64) -> Self {
+        Numbers {
+            mass,
+            first: [0.0; 3],
+            second: [[0.0; 3]; 3],
+            sizes: [0.0; 2],
+        }
+    }
+
+    /// The same in a graph.
+    pub fn body<'g>(&self, graph: &'g Graph) -> Body<'g> {
+        Body {
+            mass: graph.constant(self.mass),
+            first: Vec3(self.first.map(|h| graph.constant(h))),
+            second: Sym3::from_fn(|i, j| graph.constant(self.second[i][j])),
+            sizes: self.sizes,
+        }
+    }
+
+    fn sized(mut self, others: [f64; 2]) -> Self {
+        let largest = |entries: &[f64]| entries.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        let own = [largest(&self.first), largest(self.second.as_flattened())];
+        self.sizes = [0, 1].map(|i| own[i].max(others[i]));
+        self
+    }
+
+    /// See [`Body::moved`].
+    pub fn moved(&self, d: [f64; 3]) -> Self {
+        let first = [0, 1, 2].map(|i| self.first[i] + self.mass * d[i]);
+        let (h, k) = (self.first, first);
+        let second = symmetric(|i, j| {
+            let moved = match i == j && self.mass == 0.0 {
+                true => (2.0 * d[i]) * h[i],
+                false => h[i] * d[j] + d[i] * k[j],
+            };
+            self.second[i][j] + moved
+        });
+        Numbers {
+            first,
+            second,
+            ..*self
+        }
+        .sized(self.sizes)
+    }
+
+    /// See [`Body::in_axes`].
+    pub fn in_axes(&self, axes: &Matrix) -> Self {
+        let weighted = |w: [f64; 3], v: [f64; 3]| w[0] * v[0] + w[1] * v[1] + w[2] * v[2];
+        let half = axes.map(|row| self.second.map(|entries| weighted(row, entries)));
+        Numbers {
+            first: axes.map(|row| weighted(row, self.first)),
+            second: symmetric(|i, j| weighted(axes[i], half[j])),
+            ..*self
+        }
+    }
+
+    fn combined(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        Numbers {
+            mass: of(self.mass, other.mass),
+            first: [0, 1, 2].map(|i| of(self.first[i], other.first[i])),
+            second: symmetric(|i, j| of(self.second[i][j], other.second[i][j])),
+            sizes: self.sizes,
+        }
+        .sized([0, 1].map(|i| self.sizes[i].max(other.sizes[i])))
+    }
+
+    /// See [`Body::plus`].
+    pub fn plus(&self, other: &Self) -> Self {
+        self.combined(other, |a, b| a + b)
+    }
+
+    /// See [`Body::minus`].
+    pub fn minus(&self, other: &Self) -> Self {
+        self.combined(other, |a, b| a - b)
+    }
+
+    /// The part of a body that a hinge about z does not feel.
+    pub fn unfelt_about_z(&self) -> Self {
+        let mut unfelt = Self::point(self.mass);
+        unfelt.first[2] = self.first[2];
+        unfelt.second[2][2] = self.second[2][2];
+        unfelt
+    }
+
+    /// See [`Body::felt`]; the axis of a hinge is z.
+    pub fn felt(mut self, of_hinge: bool) -> Self {
+        if of_hinge {
+            self.first[2] = 0.0;
+            self.second[2][2] = 0.0;
+        }
+        let without = |value: f64, scale: f64| match value.abs() <= ROUNDING * scale {
+            true => 0.0,
+            false => value,
+        };
+        let [first, second] = self.sizes;
+        self.first = self.first.map(|h| without(h, first));
+        self.second = self.second.map(|row| row.map(|a| without(a, second)));
+        self
+    }
+
+    /// In another unit of length.
+    pub fn in_unit(&self, unit: f64) -> Self {
+        Numbers {
+            mass: (unit * unit) * self.mass,
+            first: self.first.map(|h| unit * h),
+            second: self.second,
+            sizes: [unit * self.sizes[0], self.sizes[1]],
+        }
+    }
+}
+
+/// The symmetric matrix with these entries, of which those with i ≤ j are asked for as in [`Sym3::from_fn`].
+fn symmetric(of: impl Fn(usize, usize) -> f64) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| of(i.min(j), i.max(j))))
+}
+
+/// The numbers of a constant vector; `None` if a component is no number.
+pub fn numbers(v: Vec3<'_>) -> Option<[f64; 3]> {
+    let [x, y, z] = v.0.map(|e| e.as_constant());
+    Some([x?, y?, z?])
+}
+
 /// The relative size below which a constant counts as rounding.
-pub const ROUNDING: f64 = 4e-15;
+const ROUNDING: f64 = 4e-15;
 
 fn largest<'a, 'g: 'a>(entries: impl Iterator<Item = &'a Expr<'g>>) -> f64 {
     let constants = entries.filter_map(|e| e.as_constant());
@@ -172,6 +324,18 @@ fn without_rounding<'g>(value: Expr<'g>, scale: f64) -> Expr<'g> {
 pub fn cleaned(v: Vec3<'_>) -> Vec3<'_> {
     let largest = largest(v.0.iter());
     Vec3(v.0.map(|a| without_rounding(a, largest)))
+}
+
+/// The same of numbers.
+pub fn cleaned_numbers(v: [f64; 3]) -> [f64; 3] {
+    let largest = v.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+    v.map(|c| {
+        if c.abs() <= ROUNDING * largest {
+            0.0
+        } else {
+            c
+        }
+    })
 }
 
 fn weighted<'g>(weights: [f64; 3], values: [Expr<'g>; 3]) -> Expr<'g> {

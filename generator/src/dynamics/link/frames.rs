@@ -5,7 +5,7 @@
 //!
 //! Bodies are regrouped, so of the bodies on a hinge only h_x, h_y and five entries of Σ are left.
 
-use super::body::{Body, cleaned, in_axes};
+use super::body::{Body, Numbers, cleaned, cleaned_numbers, in_axes, numbers};
 use super::keep::{Constant, kept};
 use super::tree::{LinkJoint, Tree};
 use super::turn::Turn;
@@ -51,6 +51,18 @@ pub struct LinkChoice {
 impl LinkChoice {
     /// All of it, as numbers that are equal where the choices are.
     pub fn words(&self) -> [u64; 3] {
+        let keep = self
+            .keep
+            .map_or(0, |(child, axis)| 1 + 4 * child as u64 + axis as u64);
+        [
+            self.turn.to_bits(),
+            self.place.to_bits(),
+            (keep << 16) + self.flags(),
+        ]
+    }
+
+    /// What is left of it when the link is in its frame: all but the frame and the body for the reference motion.
+    pub fn flags(&self) -> u64 {
         let flags = [
             self.aligned,
             self.by_inertia,
@@ -60,18 +72,9 @@ impl LinkChoice {
         let flags = flags.iter().fold(self.reference as u64, |word, flag| {
             2 * word + u64::from(*flag)
         });
-        let order = self
-            .order
+        self.order
             .iter()
-            .fold(flags, |word, axis| 4 * word + *axis as u64);
-        let keep = self
-            .keep
-            .map_or(0, |(child, axis)| 1 + 4 * child as u64 + axis as u64);
-        [
-            self.turn.to_bits(),
-            self.place.to_bits(),
-            (keep << 16) + order,
-        ]
+            .fold(flags, |word, axis| 4 * word + *axis as u64)
     }
 }
 
@@ -211,6 +214,16 @@ pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
 impl<'g> Framed<'g> {
     /// The tree in the frames of a choice.
     pub fn of(tree: &Tree<'g>, natural: &[(Matrix, f64)], choice: &Choice) -> Self {
+        Self::with(tree, natural, choice, Purpose::Equations)
+    }
+
+    /// The same for a trial, of which only the operations are counted.
+    pub fn in_trial(tree: &Tree<'g>, natural: &[(Matrix, f64)], choice: &Choice) -> Self {
+        let axes = tree.needs_axes();
+        Self::with(tree, natural, choice, Purpose::Trial { axes })
+    }
+
+    fn with(tree: &Tree<'g>, natural: &[(Matrix, f64)], choice: &Choice, purpose: Purpose) -> Self {
         let axes = (natural.iter().zip(&choice.links))
             .map(|((axes, _), link)| turned_axes(axes, link.turn))
             .collect();
@@ -218,6 +231,7 @@ impl<'g> Framed<'g> {
             tree,
             natural,
             choice,
+            purpose,
             axes,
             links: Vec::new(),
             constants: Vec::new(),
@@ -239,11 +253,24 @@ impl<'g> Framed<'g> {
     }
 }
 
+/// What the frames are for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Purpose {
+    /// The equations themselves.
+    Equations,
+    /// A count of operations: numbers are computed without a graph.
+    Trial {
+        /// Whether anything is in absolute axes.
+        axes: bool,
+    },
+}
+
 /// Brings the links into their frames, from the root to the leaves.
 struct Framing<'a, 'g> {
     tree: &'a Tree<'g>,
     natural: &'a [(Matrix, f64)],
     choice: &'a Choice,
+    purpose: Purpose,
     /// The axes of each frame, as columns.
     axes: Vec<Matrix>,
     links: Vec<FramedLink<'g>>,
@@ -316,7 +343,10 @@ impl<'g> Framing<'_, 'g> {
             }
         }
         let body = constant.body.turned(&own_turns);
-        let axes = self.absolute_axes(k, &turns);
+        let axes = match self.purpose {
+            Purpose::Trial { axes: false } => link.rotation,
+            _ => self.absolute_axes(k, &turns),
+        };
         self.links.push(FramedLink {
             turns,
             place,
@@ -340,16 +370,30 @@ impl<'g> Framing<'_, 'g> {
 
     /// What does not depend on the coordinates: the body, the place on the parent and the rotation against it.
     fn constant(&self, k: usize) -> Constant<'g> {
+        let carrier = self.tree.links[k].parent.map_or(IDENTITY, |p| self.axes[p]);
+        let against = snapped(&product(&transpose(&carrier), &self.axes[k]));
+        let in_numbers = match self.purpose {
+            Purpose::Equations => None,
+            Purpose::Trial { .. } => self.constant_in_numbers(k, &carrier),
+        };
+        let (body, place) = in_numbers.unwrap_or_else(|| self.constant_in_nodes(k, &carrier));
+        Constant {
+            body,
+            place,
+            against,
+        }
+    }
+
+    /// The body of a link and its place on the parent, whose axes are given.
+    fn constant_in_nodes(&self, k: usize, carrier: &Matrix) -> (Body<'g>, Vec3<'g>) {
         let (tree, unit) = (self.tree, self.choice.unit);
         let (graph, link) = (tree.graph, &tree.links[k]);
         let origin = |k: usize| {
             Vec3(origin_of(tree, self.natural, self.choice, k).map(|a| graph.constant(a)))
         };
-        let carrier = link.parent.map_or(IDENTITY, |p| self.axes[p]);
-        let against = snapped(&product(&transpose(&carrier), &self.axes[k]));
         let shift = link.parent.map_or(Vec3::zero(graph), origin);
         let place = link.place + origin(k) - shift;
-        let place = in_axes(&transpose(&carrier), place);
+        let place = in_axes(&transpose(carrier), place);
         let place = cleaned((1.0 / unit) * place);
         let body = link.body.moved(-origin(k));
         let mut body = body.in_axes(&transpose(&self.axes[k]));
@@ -362,11 +406,27 @@ impl<'g> Framing<'_, 'g> {
             second: body.second,
             sizes: [unit * body.sizes[0], body.sizes[1]],
         };
-        Constant {
-            body,
-            place,
-            against,
+        (body, place)
+    }
+
+    /// The same by the same operations, without a node for each step; `None` if something is no number.
+    fn constant_in_numbers(&self, k: usize, carrier: &Matrix) -> Option<(Body<'g>, Vec3<'g>)> {
+        let (tree, unit) = (self.tree, self.choice.unit);
+        let (graph, link) = (tree.graph, &tree.links[k]);
+        let origin = |k: usize| origin_of(tree, self.natural, self.choice, k);
+        let own = origin(k);
+        let shift = link.parent.map_or([0.0; 3], origin);
+        let place = numbers(link.place)?;
+        let place = [0, 1, 2].map(|i| place[i] + own[i] - shift[i]);
+        let place = transpose(carrier).map(|row| dot(row, place));
+        let place = cleaned_numbers(place.map(|r| (1.0 / unit) * r));
+        let body = Numbers::of(&link.body)?.moved(own.map(|a| -a));
+        let mut body = body.in_axes(&transpose(&self.axes[k]));
+        if !(k == 0 && tree.free) {
+            body = body.felt(link.joint.is_hinge());
         }
+        let body = body.in_unit(unit).body(graph);
+        Some((body, Vec3(place.map(|r| graph.constant(r)))))
     }
 
     /// A link on a ball.

@@ -4,11 +4,10 @@
 //! r_k is taken from the parent and given to the child, h_k of the parent is 0 and the child has m = μ. The part of the point that the parent's own
 //! hinge does not feel is passed on to its parent.
 
-use super::body::{Body, ROUNDING};
+use super::body::{Body, Numbers, numbers};
 use super::frames::{Choice, Matrix};
 use super::tree::{LinkJoint, Tree};
-use crate::expression::Graph;
-use crate::expression::vector::{Sym3, Vec3};
+use crate::expression::vector::Vec3;
 
 /// The constant properties of a link.
 pub struct Constant<'g> {
@@ -122,7 +121,7 @@ impl Keeper<'_, '_> {
                 return Some(mass);
             }
             let unfelt = rest.unfelt_about_z();
-            self.set(link, rest.minus(&unfelt).felt_about_z(), before);
+            self.set(link, rest.minus(&unfelt).felt(true), before);
             match tree.links[link].parent {
                 Some(parent) if parent > 0 || tree.carrier.is_none() => {
                     let place = numbers(links[link].place)?;
@@ -139,138 +138,4 @@ impl Keeper<'_, '_> {
     fn set(&mut self, link: usize, body: Numbers, before: &mut Vec<(usize, Numbers)>) {
         before.extend(self.numbers[link].replace(body).map(|own| (link, own)));
     }
-}
-
-fn numbers(v: Vec3<'_>) -> Option<[f64; 3]> {
-    let [x, y, z] = v.0.map(|e| e.as_constant());
-    Some([x?, y?, z?])
-}
-
-/// A [`Body`] of numbers. Its operations are those of a body, in the same order.
-#[derive(Clone, Copy)]
-struct Numbers {
-    mass: f64,
-    first: [f64; 3],
-    /// Symmetric.
-    second: Matrix,
-    sizes: [f64; 2],
-}
-
-impl Numbers {
-    /// `None` if an entry is no number.
-    fn of(body: &Body<'_>) -> Option<Self> {
-        let mut second = [[0.0; 3]; 3];
-        for (i, row) in second.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                *entry = body.second.entry(i, j).as_constant()?;
-            }
-        }
-        Some(Numbers {
-            mass: body.mass.as_constant()?,
-            first: numbers(body.first)?,
-            second,
-            sizes: body.sizes,
-        })
-    }
-
-    /// A point at the origin.
-    fn point(mass: f64) -> Self {
-        Numbers {
-            mass,
-            first: [0.0; 3],
-            second: [[0.0; 3]; 3],
-            sizes: [0.0; 2],
-        }
-    }
-
-    fn body<'g>(&self, graph: &'g Graph) -> Body<'g> {
-        Body {
-            mass: graph.constant(self.mass),
-            first: Vec3(self.first.map(|h| graph.constant(h))),
-            second: Sym3::from_fn(|i, j| graph.constant(self.second[i][j])),
-            sizes: self.sizes,
-        }
-    }
-
-    fn sized(mut self, others: [f64; 2]) -> Self {
-        let largest = |entries: &[f64]| entries.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        let own = [largest(&self.first), largest(self.second.as_flattened())];
-        self.sizes = [0, 1].map(|i| own[i].max(others[i]));
-        self
-    }
-
-    /// See [`Body::moved`].
-    fn moved(&self, d: [f64; 3]) -> Self {
-        let first = [0, 1, 2].map(|i| self.first[i] + self.mass * d[i]);
-        let (h, k) = (self.first, first);
-        let second = symmetric(|i, j| {
-            let moved = match i == j && self.mass == 0.0 {
-                true => (2.0 * d[i]) * h[i],
-                false => h[i] * d[j] + d[i] * k[j],
-            };
-            self.second[i][j] + moved
-        });
-        Numbers {
-            first,
-            second,
-            ..*self
-        }
-        .sized(self.sizes)
-    }
-
-    /// See [`Body::in_axes`].
-    fn in_axes(&self, axes: &Matrix) -> Self {
-        let weighted = |w: [f64; 3], v: [f64; 3]| w[0] * v[0] + w[1] * v[1] + w[2] * v[2];
-        let half = axes.map(|row| self.second.map(|entries| weighted(row, entries)));
-        Numbers {
-            first: axes.map(|row| weighted(row, self.first)),
-            second: symmetric(|i, j| weighted(axes[i], half[j])),
-            ..*self
-        }
-    }
-
-    fn combined(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
-        Numbers {
-            mass: of(self.mass, other.mass),
-            first: [0, 1, 2].map(|i| of(self.first[i], other.first[i])),
-            second: symmetric(|i, j| of(self.second[i][j], other.second[i][j])),
-            sizes: self.sizes,
-        }
-        .sized([0, 1].map(|i| self.sizes[i].max(other.sizes[i])))
-    }
-
-    fn plus(&self, other: &Self) -> Self {
-        self.combined(other, |a, b| a + b)
-    }
-
-    fn minus(&self, other: &Self) -> Self {
-        self.combined(other, |a, b| a - b)
-    }
-
-    /// The part of a body that a hinge about z does not feel.
-    fn unfelt_about_z(&self) -> Self {
-        let mut unfelt = Self::point(self.mass);
-        unfelt.first[2] = self.first[2];
-        unfelt.second[2][2] = self.second[2][2];
-        unfelt
-    }
-
-    /// See [`Body::felt`], for a hinge about z.
-    fn felt_about_z(mut self) -> Self {
-        self.first[2] = 0.0;
-        self.second[2][2] = 0.0;
-        let without = |value: f64, scale: f64| match value.abs() <= ROUNDING * scale {
-            true => 0.0,
-            false => value,
-        };
-        let [first, second] = self.sizes;
-        self.first = self.first.map(|h| without(h, first));
-        self.second = self.second.map(|row| row.map(|a| without(a, second)));
-        self
-    }
-}
-
-/// The symmetric matrix with these entries, of which those with i ≤ j are asked for as in [`Sym3::from_fn`].
-fn symmetric(of: impl Fn(usize, usize) -> f64) -> Matrix {
-    std::array::from_fn(|i| std::array::from_fn(|j| of(i.min(j), i.max(j))))
 }

@@ -274,6 +274,15 @@ impl<'g> Tree<'g> {
         Some(tree)
     }
 
+    /// Whether anything is in absolute axes: a force on a link, or a ball other than that of a free first link.
+    pub fn needs_axes(&self) -> bool {
+        self.links.iter().enumerate().any(|(k, link)| {
+            let of = |v: &Vec3<'g>| v.0.iter().any(|e| !e.is_zero());
+            let is_first = k == 0 && self.free;
+            of(&link.load.force) || of(&link.load.moment) || link.joint.is_ball() != is_first
+        })
+    }
+
     /// The generalised forces of laws on coordinates, by row.
     pub fn on_coordinates(&self) -> Vec<(usize, Expr<'g>)> {
         let of = |link: &Link<'g>| match link.joint {

@@ -56,7 +56,14 @@ pub(super) struct Copier<'a> {
 
 impl<'a> Copier<'a> {
     pub fn new(old: &'a Graph) -> Self {
-        Self::onto(Graph::new(), old)
+        let sections = old.sections().len();
+        Copier {
+            sections: (0..sections as u32).collect(),
+            map: vec![None; old.len()],
+            section: sections - 1,
+            old,
+            new: Graph::with_sections_of(old),
+        }
     }
 
     /// A copy into a graph that may already have nodes and sections.

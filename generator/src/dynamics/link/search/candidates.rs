@@ -15,7 +15,7 @@ impl Search<'_, '_> {
             unit: 1.0,
             ..self.best.clone()
         };
-        let framed = Framed::of(&tree, &self.natural, &plain);
+        let framed = Framed::in_trial(&tree, &self.natural, &plain);
         let components = framed.links.iter().flat_map(|link| link.place.0);
         let mut lengths: Vec<f64> = components
             .filter_map(|e| e.as_constant())
@@ -73,8 +73,8 @@ impl Search<'_, '_> {
         let constant = |e: Expr<'_>| e.as_constant().unwrap_or(0.0);
         let mut places = vec![0.0];
         {
-            let graph = Graph::new();
-            let part = self.around(&graph, k, &choice);
+            self.graph.clear();
+            let part = self.around(&self.graph, k, &choice);
             let (framed, at, children) = part.framed(k);
             let link = &framed.links[at];
             // the joint's position along the axis, seen from the link
@@ -102,8 +102,8 @@ impl Search<'_, '_> {
             }
             known.push(place);
             choice.links[k].place = place;
-            let graph = Graph::new();
-            let part = self.around(&graph, k, &choice);
+            self.graph.clear();
+            let part = self.around(&self.graph, k, &choice);
             let (framed, at, children) = part.framed(k);
             let link = &framed.links[at];
             let mut turns = vec![0.0];

@@ -6,6 +6,7 @@
 
 mod candidates;
 mod part;
+mod shape;
 
 use super::elimination;
 use super::frames::{Choice, Framed, LinkChoice, Matrix, ReferenceTurn, can_align, natural_axes};
@@ -16,7 +17,8 @@ use crate::expression::{Expr, Graph, Node, NodeId, Symbol};
 use candidates::reach;
 use part::{Part, matrices};
 use rustc_hash::FxHashMap;
-use std::cell::RefCell;
+use shape::shape;
+use std::cell::{Cell, RefCell};
 use std::sync::Mutex;
 
 /// Number of sweeps over all links.
@@ -68,14 +70,12 @@ pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
     search.best
 }
 
-/// The number of links whose equations a search derives, trial by trial.
+/// The number of links that a search brings into frames, and of those whose equations it derives, trial by trial.
 #[cfg(test)]
-pub fn derived(tree: &Tree<'_>, aim: Aim) -> usize {
+pub fn work(tree: &Tree<'_>, aim: Aim) -> [usize; 2] {
     let mut search = Search::new(tree, aim);
     search.sweep();
-    let counted = search.counted.borrow();
-    // four words for each link, after five of the whole
-    counted.keys().map(|key| (key.len() - 5) / 4).sum()
+    search.work.get()
 }
 
 /// Frames of links drawn at random from those that a search tries. `draw` returns a number below its argument.
@@ -96,8 +96,10 @@ pub fn drawn(tree: &Tree<'_>, aim: Aim, draw: &mut dyn FnMut(usize) -> usize) ->
 struct Search<'t, 'g> {
     tree: &'t Tree<'g>,
     aim: Aim,
-    /// For each node of the tree's graph: whether it changes with the state, and its number as a symbol.
-    inputs: FxHashMap<NodeId, (bool, u32)>,
+    /// For each node of the tree's graph that the tree has: whether it changes with the state, and its number as a symbol.
+    inputs: Vec<Option<(bool, u32)>>,
+    /// The number of these nodes.
+    symbols: u32,
     natural: Vec<(Matrix, f64)>,
     /// The largest distance of the origin of a link from its joint \[m\].
     reach: f64,
@@ -106,8 +108,12 @@ struct Search<'t, 'g> {
     children: Vec<Vec<usize>>,
     /// For each link, the number of its velocities and of those of all links that it carries.
     columns: Vec<usize>,
-    /// The operations of all parts that were derived, by what they depend on.
+    /// The operations of all parts that were tried, by their choice.
     counted: RefCell<FxHashMap<Vec<u64>, usize>>,
+    /// The operations of all parts that were derived, by their shape.
+    shapes: RefCell<FxHashMap<u128, usize>>,
+    /// The number of links that were brought into frames, and of those whose equations were derived.
+    work: Cell<[usize; 2]>,
     /// The graph of the trials, one after the other.
     graph: Graph,
 }
@@ -122,11 +128,14 @@ impl<'t, 'g> Search<'t, 'g> {
             zero
         });
         let live = Live::new(tree.graph, &nodes);
-        let mut inputs = FxHashMap::default();
+        let (mut inputs, mut symbols) = (vec![None; tree.graph.len()], 0);
         for id in nodes {
-            let number = inputs.len() as u32;
-            let varies = !live.dependence(id).within(Dependence::PARAMETERS);
-            inputs.entry(id).or_insert((varies, number));
+            let input = &mut inputs[id.0 as usize];
+            if input.is_none() {
+                let varies = !live.dependence(id).within(Dependence::PARAMETERS);
+                *input = Some((varies, symbols));
+                symbols += 1;
+            }
         }
         let links = &tree.links;
         let mut children = vec![Vec::new(); links.len()];
@@ -144,12 +153,15 @@ impl<'t, 'g> Search<'t, 'g> {
             tree,
             aim,
             inputs,
+            symbols,
             natural: natural_axes(tree),
             reach: reach(tree),
             best: Choice::plain(links.len()),
             children,
             columns,
             counted: RefCell::default(),
+            shapes: RefCell::default(),
+            work: Cell::default(),
             graph: Graph::new(),
         }
     }
@@ -195,7 +207,8 @@ impl<'t, 'g> Search<'t, 'g> {
                 Some(constant) => signature.extend([0, constant.to_bits()]),
                 None => {
                     let (negative, id) = unsigned(e);
-                    let (varies, number) = self.inputs[&id];
+                    let (varies, number) =
+                        self.inputs[id.0 as usize].expect("the tree has this node");
                     let flags = 1 + 2 * u64::from(negative) + 4 * u64::from(varies);
                     signature.extend([flags, u64::from(number)]);
                 }
@@ -245,7 +258,15 @@ impl<'t, 'g> Search<'t, 'g> {
                 of: (0..self.tree.links.len()).map(Some).collect(),
             },
         };
-        let framed = Framed::of(&part.tree, &part.natural, &part.choice);
+        let framed = Framed::in_trial(&part.tree, &part.natural, &part.choice);
+        let links = part.tree.links.len();
+        let [in_frames, derived] = self.work.get();
+        self.work.set([in_frames + links, derived]);
+        let shape = shape(graph, &part, &framed, part.tree.needs_axes());
+        if let Some(count) = self.shapes.borrow().get(&shape) {
+            return *count;
+        }
+        self.work.set([in_frames + links, derived + links]);
         let roots = match self.aim {
             Aim::Elimination => {
                 let name = |_: &Link<'_>| String::new();
@@ -257,7 +278,9 @@ impl<'t, 'g> Search<'t, 'g> {
             Aim::Matrices => matrices(&part, &framed, Reference::Rest),
             Aim::Factorization => matrices(&part, &framed, Reference::ChosenOfAxes),
         };
-        operations(graph, &roots)
+        let count = operations(graph, &roots);
+        self.shapes.borrow_mut().insert(shape, count);
+        count
     }
 
     /// Tries choices and keeps the one with the fewest operations around a link, or of all.
@@ -275,15 +298,21 @@ impl<'t, 'g> Search<'t, 'g> {
         }
     }
 
-    /// Tries changes of the choice of one link.
+    /// Tries changes of the choice of one link, and keeps the one with the fewest operations around it.
     fn vary(&mut self, k: usize, changes: Vec<LinkChoice>) {
-        let of = |link| {
-            let mut choice = self.best.clone();
-            choice.links[k] = link;
-            choice
-        };
-        let changes = changes.into_iter().map(of).collect();
-        self.attempt(Some(k), changes);
+        let mut least = None;
+        for link in changes {
+            if link == self.best.links[k] {
+                continue;
+            }
+            let now = least.unwrap_or_else(|| self.count(&self.best, Some(k)));
+            let before = std::mem::replace(&mut self.best.links[k], link);
+            let count = self.count(&self.best, Some(k));
+            if count >= now {
+                self.best.links[k] = before;
+            }
+            least = Some(count.min(now));
+        }
     }
 
     /// Tries the choices for one link.

@@ -26,7 +26,7 @@ impl<'h> Part<'h> {
     /// The part in its frames, the index of link k of the whole tree in the part, and the indices of its children
     /// there.
     pub fn framed(&self, k: usize) -> (Framed<'h>, usize, Vec<usize>) {
-        let framed = Framed::of(&self.tree, &self.natural, &self.choice);
+        let framed = Framed::in_trial(&self.tree, &self.natural, &self.choice);
         let at = self.of.iter().position(|of| *of == Some(k)).unwrap_or(0);
         let links = self.tree.links.iter().enumerate();
         let children = links.filter(|(_, link)| link.parent == Some(at));
@@ -46,9 +46,10 @@ impl<'g> Search<'_, 'g> {
             return graph.constant(constant);
         }
         let (negative, id) = unsigned(e);
-        let symbol = match self.inputs[&id] {
-            (true, number) => Symbol::Coordinate(number),
-            (false, number) => Symbol::Parameter(number),
+        let (varies, number) = self.inputs[id.0 as usize].expect("the tree has this node");
+        let symbol = match varies {
+            true => Symbol::Coordinate(number),
+            false => Symbol::Parameter(number),
         };
         match negative {
             true => -graph.symbol(symbol),
@@ -85,7 +86,7 @@ impl<'g> Search<'_, 'g> {
         let links = &self.tree.links;
         let (chosen, top) = self.near(k, choice);
         // indices above those of all inputs
-        let mut unknowns = self.inputs.len() as u32;
+        let mut unknowns = self.symbols;
         let mut unknown = || {
             unknowns += 1;
             graph.symbol(Symbol::Coordinate(unknowns))
@@ -103,7 +104,8 @@ impl<'g> Search<'_, 'g> {
             natural: Vec::new(),
             choice: Choice {
                 links: Vec::new(),
-                ..choice.clone()
+                base: choice.base,
+                unit: choice.unit,
             },
             of: Vec::new(),
         };
