@@ -7,6 +7,7 @@ mod corner;
 mod fixed_steps;
 mod joint_laws;
 mod joints;
+mod memory_slopes;
 mod mirror;
 mod onset;
 mod outputs;
