@@ -22,12 +22,8 @@ fn add(hash: u64, number: f64) -> u64 {
 fn main() -> Result<(), Box<dyn Error>> {
     for path in std::env::args().skip(1) {
         let text = std::fs::read_to_string(&path)?;
-        let folder = Path::new(&path)
-            .parent()
-            .unwrap_or(Path::new(""))
-            .to_owned();
-        let beside = |file: &Path| std::fs::read_to_string(folder.join(file));
-        let (model, _) = model::read_str(&path, &text, &beside)?;
+        let included = |file: &Path| std::fs::read_to_string(file);
+        let (model, _) = model::read_str(&path, &text, &included)?;
         let engine = Engine::new(Config::new().lists(&model))?;
         let machine = engine.over::<f64>();
         let mut start = vec![0.0; machine.info().state_length()];
