@@ -72,6 +72,7 @@ files! {
     "integrate/tableau/mod.rs",
     "integrate/tableau/tsitouras.rs",
     "integrate/workspace.rs",
+    "leap.rs",
     "lib.rs",
     "model.rs",
     "patience.rs",

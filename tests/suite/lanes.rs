@@ -359,7 +359,7 @@ fn fixed_steps_end_on_events_as_those_of_a_single_run() {
 
 #[test]
 fn fixed_steps_change_charts_as_those_of_a_single_run() {
-    fixed_steps_are_those_of_a_single_run::<Poles>(0.5, 1.7e-3);
+    fixed_steps_are_those_of_a_single_run(POLES, 0.5, 1.7e-3);
 }
 
 #[test]

@@ -62,6 +62,7 @@ macro_rules! scalar {
             fn min(self, other: Self) -> Self {
                 $real::min(self, other)
             }
+            #[allow(clippy::disallowed_methods, reason = "rounded once is meant")]
             fn mul_add(self, a: Self, b: Self) -> Self {
                 $real::mul_add(self, a, b)
             }

@@ -29,8 +29,11 @@ pub fn placed(
         }
         if freedom.kind.turns() {
             let across = cross(axis);
-            let twice = times(&product(&across, &across), 1.0 - position.cos());
-            let turn = plus(&plus(&IDENTITY, &times(&across, position.sin())), &twice);
+            let twice = times(&product(&across, &across), 1.0 - libm::cos(position));
+            let turn = plus(
+                &plus(&IDENTITY, &times(&across, libm::sin(position))),
+                &twice,
+            );
             turned = product(&turned, &turn);
         }
     }

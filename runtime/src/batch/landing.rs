@@ -307,22 +307,25 @@ impl<T: Several> Run<'_, T> {
 const TRIFLE: f64 = 1e-6;
 const NOTHING: f64 = 1e-12;
 
+/// No number of a model is as large, but for the infinite time of a switch that has not fired.
+const MOST: f64 = 1e30;
+
 /// The lanes in which any number jumps between both sides of an event, `beside` others.
 #[inline(always)]
 fn jump<T: Several>(ahead: &[T], behind: &[T], beside: &[T]) -> T::Mask {
-    let [trifle, nothing] = [TRIFLE, NOTHING].map(T::Part::from_f64);
+    let [trifle, nothing, most] = [TRIFLE, NOTHING, MOST].map(T::Part::from_f64);
     let mut largest = T::Part::from_f64(0.0);
     let beside = match beside.is_empty() {
         true => behind,
         false => beside,
     };
     for number in beside {
-        largest = largest.max(number.part(0).abs());
+        largest = largest.max(number.part(0).abs()).min(most);
     }
     let mut jumps = T::Mask::of_lanes(0);
     for (ahead, behind) in ahead.iter().zip(behind) {
         let [ahead, behind] = [ahead.part(0), behind.part(0)];
-        let size = ahead.abs().max(behind.abs());
+        let size = ahead.abs().max(behind.abs()).min(most);
         let apart = (behind - ahead).abs();
         let more = (trifle * size).lt(apart);
         jumps = jumps.or(more.and((nothing * largest).lt(apart)));

@@ -435,8 +435,11 @@ fn targets() -> Found {
                         _ => continue,
                     };
                     let exists = |(path, text): &&&(PathBuf, String)| {
+                        let folder = path.join(folder);
+                        let main = folder.join(pair[1]).join("main.rs");
                         named(text, pair[1])
-                            || path.join(folder).join(format!("{}.rs", pair[1])).exists()
+                            || folder.join(format!("{}.rs", pair[1])).exists()
+                            || main.exists()
                     };
                     if here.iter().find(exists).is_none() {
                         found.push(format!("{place}: there is no {} {}", pair[0], pair[1]));

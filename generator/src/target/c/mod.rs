@@ -134,7 +134,7 @@ pub fn function(list: &List, curves: &[Curve], name: &str) -> Result<String, NoC
     let curve = |index: u32| format!("{name}_curve_{index}");
     let statements = body::body(list, &curve, &mut support).text;
     let mut text = format!(
-        "#include <math.h>\n#include <stddef.h>\n\n{}",
+        "#include <math.h>\n#include <stddef.h>\n#include <string.h>\n\n{}",
         support.text()
     );
     if support.has("curve") {
