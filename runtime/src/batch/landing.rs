@@ -98,6 +98,9 @@ impl<T: Several> Run<'_, T> {
         self.deliver(accepted, whole, reached);
         let at_odds = at_odds.and(broken);
         let moves = moving(shift).or(at_odds).and(broken.or(arrived));
+        if at_odds.any() {
+            self.remember_ahead([ahead, behind]);
+        }
         let jumps = self.notes_jumps && broken.or(arrived).any();
         if jumps || moves.any() {
             if broken.any() {
@@ -113,9 +116,6 @@ impl<T: Several> Run<'_, T> {
         if leads {
             let model = &self.models.all;
             model.derivative(short.min(self.step.latest), &self.state, &mut self.ahead);
-        }
-        if at_odds.any() {
-            self.remember_ahead(short);
         }
         if jumps {
             if leads {
@@ -243,9 +243,13 @@ impl<T: Several> Run<'_, T> {
         replace(same.and(lanes), &mut self.step.y, &self.renewed);
     }
 
-    /// What memory would become just ahead of an event, at a time \[s\] and the state in `state`. What is evaluated with it is evaluated again where steps end.
+    /// What memory would become ahead of an event, between these parts of the step, as far ahead as they are apart: where a function is 0, its event may have
+    /// happened. What is evaluated with it is evaluated again where steps end.
     #[inline(always)]
-    fn remember_ahead(&mut self, t: T) {
+    fn remember_ahead(&mut self, [ahead, behind]: [T; 2]) {
+        let part = (ahead + (ahead - behind)).max(T::from_f64(0.0));
+        self.step.inside(&*self.models.all, part, &mut self.state);
+        let t = part * self.step.h + self.step.t;
         let mut arrival = Arrival {
             event_functions: &mut self.event_functions_ahead,
             onsets: &mut self.onsets.values[END],
