@@ -86,9 +86,9 @@ impl Index {
         }
     }
 
-    /// Forgets all nodes. The table keeps the length that as many nodes need again, so that it is not cleared in vain.
+    /// Forgets all nodes. The table keeps the length that twice as many nodes need, so that it is not cleared in vain.
     fn clear(&mut self) {
-        let needed = (4 * self.used).next_power_of_two().max(Self::SMALLEST);
+        let needed = (8 * self.used).next_power_of_two().max(Self::SMALLEST);
         self.slots.truncate(needed);
         self.slots.fill(0);
         self.used = 0;
@@ -266,12 +266,20 @@ impl Graph {
         self.inner.borrow().nodes[id.0 as usize]
     }
 
+    /// The nodes of the operands of an operation.
+    #[inline]
+    fn operands(&self, a: Expr<'_>, b: Expr<'_>) -> (Node, Node) {
+        let inner = self.inner.borrow();
+        (inner.nodes[a.id.0 as usize], inner.nodes[b.id.0 as usize])
+    }
+
     /// All nodes, operands before their users.
     pub fn nodes(&self) -> Ref<'_, [Node]> {
         Ref::map(self.inner.borrow(), |i| i.nodes.as_slice())
     }
 
     /// The value of a node as an expression.
+    #[inline]
     pub fn expr(&self, id: NodeId) -> Expr<'_> {
         Expr { graph: self, id }
     }
@@ -438,15 +446,16 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// Splits `c · x` with a number c into (c, x).
+    /// Splits `c · x` with a number c into (c, x); `node` is that of this expression.
     #[inline]
-    fn scaled(self) -> (f64, Expr<'g>) {
-        if let Node::Mul(a, b) = self.node() {
+    fn scaled(self, node: Node) -> (f64, Expr<'g>) {
+        if let Node::Mul(a, b) = node {
+            let (a, b) = (self.graph.expr(a), self.graph.expr(b));
             // The constant may be either operand, because operands are ordered by age.
-            for (a, b) in [(a, b), (b, a)] {
-                if let Some(c) = self.graph.expr(a).as_constant() {
-                    return (c, self.graph.expr(b));
-                }
+            match self.graph.operands(a, b) {
+                (Node::Constant(c), _) => return (f64::from_bits(c), b),
+                (_, Node::Constant(c)) => return (f64::from_bits(c), a),
+                _ => {}
             }
         }
         (1.0, self)
@@ -527,61 +536,61 @@ impl<'g> Neg for Expr<'g> {
     }
 }
 
+/// The bits of the numbers 0 and 1; −0 is in no graph.
+const ZERO: u64 = 0;
+const ONE: u64 = 1.0_f64.to_bits();
+
 impl<'g> Add for Expr<'g> {
     type Output = Expr<'g>;
     fn add(self, other: Expr<'g>) -> Expr<'g> {
-        if self.is_zero() {
-            return other;
+        let graph = self.graph;
+        let (first, second) = graph.operands(self, other);
+        match (first, second) {
+            (Node::Constant(ZERO), _) => return other,
+            (_, Node::Constant(ZERO)) => return self,
+            (Node::Constant(a), Node::Constant(b)) => {
+                return graph.constant(f64::from_bits(a) + f64::from_bits(b));
+            }
+            (Node::Neg(a), Node::Neg(b)) => return -(graph.expr(a) + graph.expr(b)),
+            (Node::Neg(a), _) => return other - graph.expr(a),
+            (_, Node::Neg(b)) => return self - graph.expr(b),
+            _ => {}
         }
-        if other.is_zero() {
-            return self;
-        }
-        if let (Some(a), Some(b)) = (self.as_constant(), other.as_constant()) {
-            return self.graph.constant(a + b);
-        }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => return -(a + b),
-            (Some(a), None) => return other - a,
-            (None, Some(b)) => return self - b,
-            (None, None) => {}
-        }
-        let ((c, x), (d, y)) = (self.scaled(), other.scaled());
+        let ((c, x), (d, y)) = (self.scaled(first), other.scaled(second));
         if x.id == y.id {
-            return self.graph.constant(c + d) * x;
+            return graph.constant(c + d) * x;
         }
-        self.graph.binary(Node::Add, self, other)
+        graph.binary(Node::Add, self, other)
     }
 }
 
 impl<'g> Sub for Expr<'g> {
     type Output = Expr<'g>;
     fn sub(self, other: Expr<'g>) -> Expr<'g> {
+        let graph = self.graph;
         if self.id == other.id {
-            return self.graph.constant(0.0);
+            return graph.constant(0.0);
         }
-        if other.is_zero() {
-            return self;
+        let (first, second) = graph.operands(self, other);
+        match (first, second) {
+            (_, Node::Constant(ZERO)) => return self,
+            (Node::Constant(ZERO), _) => return -other,
+            (Node::Constant(a), Node::Constant(b)) => {
+                return graph.constant(f64::from_bits(a) - f64::from_bits(b));
+            }
+            (Node::Neg(a), Node::Neg(b)) => return graph.expr(b) - graph.expr(a),
+            (Node::Neg(a), _) => return -(graph.expr(a) + other),
+            (_, Node::Neg(b)) => return self + graph.expr(b),
+            _ => {}
         }
-        if self.is_zero() {
-            return -other;
-        }
-        if let (Some(a), Some(b)) = (self.as_constant(), other.as_constant()) {
-            return self.graph.constant(a - b);
-        }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => return b - a,
-            (Some(a), None) => return -(a + other),
-            (None, Some(b)) => return self + b,
-            (None, None) => {}
-        }
-        let ((c, x), (d, y)) = (self.scaled(), other.scaled());
+        let ((c, x), (d, y)) = (self.scaled(first), other.scaled(second));
         if x.id == y.id {
-            return self.graph.constant(c - d) * x;
+            return graph.constant(c - d) * x;
         }
         if self.id < other.id {
-            self.graph.intern(Node::Sub(self.id, other.id))
+            graph.intern(Node::Sub(self.id, other.id))
         } else {
-            -self.graph.intern(Node::Sub(other.id, self.id))
+            -graph.intern(Node::Sub(other.id, self.id))
         }
     }
 }
@@ -589,60 +598,60 @@ impl<'g> Sub for Expr<'g> {
 impl<'g> Mul for Expr<'g> {
     type Output = Expr<'g>;
     fn mul(self, other: Expr<'g>) -> Expr<'g> {
-        if self.is_zero() || other.is_one() {
-            return self;
-        }
-        if other.is_zero() || self.is_one() {
-            return other;
-        }
-        match (self.as_constant(), other.as_constant()) {
-            (Some(a), Some(b)) => return self.graph.constant(a * b),
-            (None, Some(_)) => return other * self,
-            (Some(c), None) => {
-                if c < 0.0 {
-                    return -(self.graph.constant(-c) * other);
-                }
-                let (d, x) = other.scaled();
-                if d != 1.0 {
-                    return self.graph.constant(c * d) * x;
-                }
+        let graph = self.graph;
+        let (first, second) = graph.operands(self, other);
+        match (first, second) {
+            (Node::Constant(ZERO), _) | (_, Node::Constant(ONE)) => self,
+            (_, Node::Constant(ZERO)) | (Node::Constant(ONE), _) => other,
+            (Node::Constant(a), Node::Constant(b)) => {
+                graph.constant(f64::from_bits(a) * f64::from_bits(b))
             }
-            (None, None) => {}
+            (Node::Constant(c), _) => other.times_number(second, f64::from_bits(c), self),
+            (_, Node::Constant(c)) => self.times_number(first, f64::from_bits(c), other),
+            (Node::Neg(a), Node::Neg(b)) => graph.expr(a) * graph.expr(b),
+            (Node::Neg(a), _) => -(graph.expr(a) * other),
+            (_, Node::Neg(b)) => -(self * graph.expr(b)),
+            _ => graph.binary(Node::Mul, self, other),
         }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => return a * b,
-            (Some(a), None) => return -(a * other),
-            (None, Some(b)) => return -(self * b),
-            (None, None) => {}
+    }
+}
+
+impl<'g> Expr<'g> {
+    /// The product with a number other than 0 and 1; `node` is that of this expression, which is no number, and `number` is the node of c.
+    fn times_number(self, node: Node, c: f64, number: Expr<'g>) -> Expr<'g> {
+        let graph = self.graph;
+        if c < 0.0 {
+            return -(graph.constant(-c) * self);
         }
-        self.graph.binary(Node::Mul, self, other)
+        let (d, x) = self.scaled(node);
+        if d != 1.0 {
+            return graph.constant(c * d) * x;
+        }
+        match node {
+            Node::Neg(a) => -(number * graph.expr(a)),
+            _ => graph.binary(Node::Mul, number, self),
+        }
     }
 }
 
 impl<'g> Div for Expr<'g> {
     type Output = Expr<'g>;
     fn div(self, other: Expr<'g>) -> Expr<'g> {
-        if self.is_zero() || other.is_one() {
-            return self;
+        let graph = self.graph;
+        match graph.operands(self, other) {
+            (Node::Constant(ZERO), _) | (_, Node::Constant(ONE)) => self,
+            (Node::Constant(a), Node::Constant(c)) => {
+                graph.constant(f64::from_bits(a) / f64::from_bits(c))
+            }
+            (_, Node::Constant(c)) => self * graph.constant(1.0 / f64::from_bits(c)),
+            (Node::Neg(a), Node::Neg(b)) => graph.expr(a) / graph.expr(b),
+            (Node::Neg(a), _) => -(graph.expr(a) / other),
+            (_, Node::Neg(b)) => -(self / graph.expr(b)),
+            (Node::Constant(c), _) if f64::from_bits(c) < 0.0 => {
+                -(graph.constant(-f64::from_bits(c)) / other)
+            }
+            _ => graph.intern(Node::Div(self.id, other.id)),
         }
-        if let Some(c) = other.as_constant() {
-            return match self.as_constant() {
-                Some(a) => self.graph.constant(a / c),
-                None => self * self.graph.constant(1.0 / c),
-            };
-        }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => return a / b,
-            (Some(a), None) => return -(a / other),
-            (None, Some(b)) => return -(self / b),
-            (None, None) => {}
-        }
-        if let Some(c) = self.as_constant()
-            && c < 0.0
-        {
-            return -(self.graph.constant(-c) / other);
-        }
-        self.graph.intern(Node::Div(self.id, other.id))
     }
 }
 

@@ -117,6 +117,18 @@ impl Choice {
 pub struct Framed<'g> {
     /// Each link in its frame.
     pub links: Vec<FramedLink<'g>>,
+    /// What each link was made of.
+    pub made_of: Vec<MadeOf<'g>>,
+}
+
+/// All numbers of a link in its frame, before the rotations of links that keep the axes of the inboard side.
+pub struct MadeOf<'g> {
+    /// The constant properties.
+    pub constant: Constant<'g>,
+    /// The body for the reference motion.
+    pub in_reference: Body<'g>,
+    /// The constant part of its angle \[rad\], that of aligned parents included: a number of right angles, and the rest.
+    pub offset: (u8, f64),
 }
 
 /// Whether a link can keep the axes of the inboard side of its joint: it is a hinge whose children all turn about its axis, or a ball whose children
@@ -243,13 +255,26 @@ impl<'g> Framed<'g> {
             framing.add(k);
         }
         let mut links = framing.links;
+        let mut in_reference: Vec<Body<'g>> = framing.constants.iter().map(|c| c.body).collect();
         if choice.links.iter().any(|link| link.keep.is_some()) {
-            let bodies = kept(tree, choice, &framing.constants);
-            for ((link, body), turns) in links.iter_mut().zip(bodies).zip(&framing.aligning) {
+            in_reference = kept(tree, choice, &framing.constants);
+            for ((link, body), turns) in links.iter_mut().zip(&in_reference).zip(&framing.aligning)
+            {
                 link.in_reference = body.turned(turns);
             }
         }
-        Framed { links }
+        let offsets = framing
+            .angles
+            .iter()
+            .map(|(_, offset)| right_angles(*offset));
+        let made_of = (framing.constants.into_iter().zip(in_reference).zip(offsets))
+            .map(|((constant, in_reference), offset)| MadeOf {
+                constant,
+                in_reference,
+                offset,
+            })
+            .collect();
+        Framed { links, made_of }
     }
 }
 

@@ -2,15 +2,14 @@
 
 use super::rebuild::construct;
 use crate::expression::graph::Expr;
-use crate::expression::live::Live;
 use crate::expression::node::{Function, Node, NodeId};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The expression with each called function replaced by `of` of it. Nodes that call no replaced function stay as they are.
 pub fn recall<'g>(expression: Expr<'g>, of: impl Fn(Function) -> Function) -> Expr<'g> {
     let (graph, root) = (expression.graph(), expression.id());
     let mut moved: FxHashMap<NodeId, NodeId> = FxHashMap::default();
-    for &id in Live::new(graph, &[root]).nodes() {
+    for id in below(expression) {
         let node = graph.node(id);
         let other = match node {
             Node::Call(function, operands) => Node::Call(of(function), operands),
@@ -23,6 +22,23 @@ pub fn recall<'g>(expression: Expr<'g>, of: impl Fn(Function) -> Function) -> Ex
         moved.insert(id, construct(graph, other, operand).id());
     }
     graph.expr(moved.get(&root).copied().unwrap_or(root))
+}
+
+/// The nodes that an expression needs, in order of creation. The time grows with their number, not with that of the graph.
+fn below(expression: Expr<'_>) -> Vec<NodeId> {
+    let nodes = expression.graph().nodes();
+    let mut found = FxHashSet::from_iter([expression.id()]);
+    let mut open = vec![expression.id()];
+    while let Some(id) = open.pop() {
+        open.extend(
+            nodes[id.0 as usize]
+                .operands()
+                .filter(|operand| found.insert(*operand)),
+        );
+    }
+    let mut found: Vec<NodeId> = found.into_iter().collect();
+    found.sort_unstable();
+    found
 }
 
 #[cfg(test)]

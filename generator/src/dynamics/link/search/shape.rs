@@ -7,7 +7,7 @@
 
 use super::part::Part;
 use crate::dynamics::link::body::Body;
-use crate::dynamics::link::frames::{Framed, FramedLink};
+use crate::dynamics::link::frames::{Framed, FramedLink, MadeOf};
 use crate::dynamics::link::tree::{Carried, Link, LinkJoint};
 use crate::dynamics::link::turn::Turn;
 use crate::dynamics::spatial::Wrench;
@@ -42,7 +42,8 @@ pub fn shape(graph: &Graph, part: &Part<'_>, framed: &Framed<'_>, needs_axes: bo
     for v in tree.carrier.iter().flatten() {
         shape.values(&v.0);
     }
-    for (k, (link, frame)) in tree.links.iter().zip(&framed.links).enumerate() {
+    let frames = framed.links.iter().zip(&framed.made_of);
+    for (k, (link, (frame, made_of))) in tree.links.iter().zip(frames).enumerate() {
         shape.word(choice.links[k].flags());
         shape.word(link.parent.map_or(0, |p| 1 + p as u64));
         if link.joint.is_coupled() {
@@ -50,7 +51,7 @@ pub fn shape(graph: &Graph, part: &Part<'_>, framed: &Framed<'_>, needs_axes: bo
             shape.word(first.unwrap_or(k) as u64);
         }
         shape.link(link);
-        shape.frame(frame);
+        shape.frame(frame, made_of);
         if needs_axes {
             shape.values(frame.axes.0.as_flattened());
             shape.values(&frame.origin.0);
@@ -214,26 +215,34 @@ impl Shape<'_> {
         }
     }
 
-    fn frame(&mut self, frame: &FramedLink<'_>) {
+    /// A link in its frame: the numbers that it is made of, and where they go. What the angles of aligned links make of these numbers is the same
+    /// for all, but for signs.
+    fn frame(&mut self, frame: &FramedLink<'_>, made_of: &MadeOf<'_>) {
         self.word(frame.turns.len() as u64);
         for turn in &frame.turns {
             match turn {
                 Turn::Quarters(axis, quarters) => {
                     self.word(3 * u64::from(*quarters) + *axis as u64);
                 }
-                Turn::About { axis, sine, cosine } => {
-                    self.word(16 + *axis as u64);
-                    self.values(&[*sine, *cosine]);
-                }
+                Turn::About { axis, sine, cosine } => match sine.as_constant() {
+                    Some(_) => {
+                        self.word(16 + *axis as u64);
+                        self.values(&[*sine, *cosine]);
+                    }
+                    None => self.word(20 + *axis as u64),
+                },
                 Turn::Matrix(matrix) => {
                     self.word(32);
                     self.values(matrix.0.as_flattened());
                 }
             }
         }
-        self.values(&frame.place.0);
-        self.body(&frame.body);
-        self.body(&frame.in_reference);
+        let (quarters, rest) = made_of.offset;
+        self.word(u64::from(quarters));
+        self.number(rest);
+        self.values(&made_of.constant.place.0);
+        self.body(&made_of.constant.body);
+        self.body(&made_of.in_reference);
         self.word(u64::from(frame.aligned));
         self.number(frame.sign);
         for entry in frame.against.as_flattened() {
