@@ -3,35 +3,61 @@
 use bryant_runtime::program::{Energy, Header};
 use serde_json::{Value, json};
 
-/// Works below this share of the largest are summed up in one line, unless all are requested.
-const SMALL: f64 = 2e-3;
-
-/// The balance as a table: a line for each effect that matters, or for each effect; the last line has no line end.
-pub fn text(header: &Header, energy: &Energy, all: bool) -> String {
-    let largest = energy.works.iter().fold(0.0f64, |m, w| m.max(w.abs()));
-    let matters = |work: f64| all || work.abs() >= SMALL * largest;
-    let named = || header.powers.iter().zip(energy.works.iter().copied());
-    let mut rows = vec![("kinetic energy at the start".to_owned(), energy.start)];
-    rows.extend(
-        named()
-            .filter(|(_, work)| matters(*work))
-            .map(|(name, work)| (name.clone(), work)),
-    );
-    let rest: Vec<f64> = named()
-        .map(|(_, work)| work)
-        .filter(|w| !matters(*w))
-        .collect();
-    if !rest.is_empty() {
-        let plural = if rest.len() == 1 { "" } else { "s" };
-        let name = format!("{} smaller effect{plural} (--energy lists all)", rest.len());
-        rows.push((name, rest.iter().sum()));
+/// Whether the balance closes, in a line: the energy that is not accounted for, and the largest in it.
+pub fn closes(energy: &Energy) -> String {
+    let largest = largest(energy);
+    if largest == 0.0 {
+        return "there is none: nothing moves, and nothing works".to_owned();
     }
+    let [gap, largest] = [energy.gap().abs(), largest].map(joules);
+    format!("closes to {gap} of {largest} (--energy lists the works)")
+}
+
+/// The largest energy in a balance \[J\].
+fn largest(energy: &Energy) -> f64 {
+    let works = energy.works.iter().fold(0.0f64, |m, w| m.max(w.abs()));
+    works.max(energy.start).max(energy.end)
+}
+
+/// An energy with two or three digits, in the multiple of a joule that is easiest to read.
+fn joules(energy: f64) -> String {
+    let multiples = [
+        (1e6, "MJ"),
+        (1e3, "kJ"),
+        (1.0, "J"),
+        (1e-3, "mJ"),
+        (1e-6, "µJ"),
+    ];
+    // what three digits round up to belongs to the next multiple
+    match multiples
+        .into_iter()
+        .find(|(size, _)| energy >= 0.9995 * size)
+    {
+        Some((size, unit)) => {
+            let value = energy / size;
+            let decimals = usize::from(value < 9.95);
+            format!("{value:.decimals$} {unit}")
+        }
+        None if energy == 0.0 => "0 J".to_owned(),
+        None => format!("{energy:.0e} J"),
+    }
+}
+
+/// The balance as a table: a line for each effect; the last line has no line end.
+pub fn text(header: &Header, energy: &Energy) -> String {
+    let named = header
+        .powers
+        .iter()
+        .cloned()
+        .zip(energy.works.iter().copied());
+    let mut rows = vec![("kinetic energy at the start".to_owned(), energy.start)];
+    rows.extend(named);
     rows.push(("not accounted for".to_owned(), energy.gap()));
     rows.push(("kinetic energy at the end".to_owned(), energy.end));
 
     let width = rows.iter().map(|(name, _)| name.chars().count()).max();
     let width = width.unwrap_or(0);
-    let largest = largest.max(energy.start).max(energy.end);
+    let largest = largest(energy);
     let mut text = "energy [J]".to_owned();
     for (name, value) in &rows {
         let number = if name == "not accounted for" {
@@ -115,25 +141,56 @@ mod tests {
     }
 
     #[test]
-    fn what_is_small_is_summed_up_unless_asked_for() {
-        let text = super::text(&header(), &energy(99.0), false);
+    fn the_work_of_each_effect_is_listed() {
+        let text = super::text(&header(), &energy(99.0));
         assert_eq!(
             text,
             "energy [J]\n  \
-               kinetic energy at the start                      0\n  \
-               field sled                                    1000\n  \
-               belt chest                                    -900\n  \
-               1 smaller effect (--energy lists all)           -1\n  \
-               not accounted for                            0.0e0\n  \
-               kinetic energy at the end                       99"
+               kinetic energy at the start             0\n  \
+               field sled                           1000\n  \
+               belt chest                           -900\n  \
+               joint man/head: damping                -1\n  \
+               not accounted for                   0.0e0\n  \
+               kinetic energy at the end              99"
         );
-        let all = super::text(&header(), &energy(99.0), true);
-        assert!(all.contains("joint man/head: damping") && !all.contains("smaller"));
+    }
+
+    #[test]
+    fn one_line_says_whether_the_balance_closes() {
+        let text = |gap: f64| closes(&energy(99.0 + gap));
+        assert!(
+            text(0.002).starts_with("closes to 2.0 mJ of 1.0 kJ"),
+            "{}",
+            text(0.002)
+        );
+        assert!(
+            text(-25.0).starts_with("closes to 25 J of 1.0 kJ"),
+            "{}",
+            text(-25.0)
+        );
+        assert!(text(0.0).starts_with("closes to 0 J of"), "{}", text(0.0));
+        let nothing = Energy::default();
+        assert!(closes(&nothing).starts_with("there is none"));
+    }
+
+    #[test]
+    fn energies_have_the_multiple_of_a_joule_that_is_easiest_to_read() {
+        for (energy, text) in [
+            (412.1, "412 J"),
+            (0.9996, "1.0 J"),
+            (2.04e-3, "2.0 mJ"),
+            (5.7e-5, "57 µJ"),
+            (3.2e-11, "3e-11 J"),
+            (9.96, "10 J"),
+            (5.377e3, "5.4 kJ"),
+        ] {
+            assert_eq!(joules(energy), text);
+        }
     }
 
     #[test]
     fn a_gap_is_shown() {
-        let text = super::text(&header(), &energy(109.0), true);
+        let text = super::text(&header(), &energy(109.0));
         let gap = text.lines().find(|line| line.contains("not accounted for"));
         assert!(gap.is_some_and(|line| line.ends_with(" 1.0e1")), "{text}");
         let value = json(&header(), &energy(109.0));

@@ -62,6 +62,16 @@ impl Table {
         text
     }
 
+    /// A number of this unit as it stands in a table for people.
+    pub fn number(value: f64, unit: &str) -> String {
+        let alone = Column {
+            name: String::new(),
+            unit: unit.to_owned(),
+            values: vec![value],
+        };
+        Format::of(&alone, None).print(value)
+    }
+
     /// Comma-separated values, every digit, units in the headings: `chest belt force [N]`. The first heading is in quotation marks, which
     /// readers of CSV do not show: by it the program knows its own tables (`own`).
     pub fn write_csv(&self, mut out: impl io::Write) -> io::Result<()> {

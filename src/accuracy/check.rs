@@ -166,12 +166,14 @@ pub fn second(
     patience: f64,
     progress: &mut dyn FnMut(f64),
 ) -> Recording {
-    let job = Job {
+    let mut job = Job {
         time_limit: run::limit(patience),
         // the limit on the steps of the run does not apply to its check
         max_steps: None,
         ..opinion.job(job)
     };
+    // signals that are looked at in the run alone
+    job.reading.kept.retain(|kept| kept.in_place_of.is_some());
     simulation::run(model, &job, progress)
 }
 

@@ -103,6 +103,31 @@ impl ErrorReport {
         (!difference.responses.is_empty()).then_some(&difference.responses[..])
     }
 
+    /// How far the outputs can be trusted, in one line; more is in [`lines`](Self::lines).
+    pub fn summary(&self) -> String {
+        let within = |difference: &Difference, who: String| {
+            format!(
+                "every output within {}, as {who}",
+                at_most(difference.worst)
+            )
+        };
+        match (&self.check, &self.estimate) {
+            (Some((opinion, Verdict::Apart(difference))), _) => {
+                let who = format!("a second run by {} shows", opinion.scheme().name());
+                within(difference, who)
+            }
+            (Some((opinion, Verdict::Failed(_))), _) => {
+                format!("not checked: {} failed", opinion.name())
+            }
+            (Some((_, Verdict::TooLong(limit))), _) => format!(
+                "not checked: a second run takes longer than {} (--verify waits for it)",
+                time(*limit)
+            ),
+            (None, Some(estimate)) => within(estimate, format!("{} runs show", self.runs)),
+            (None, None) => "not checked".to_owned(),
+        }
+    }
+
     /// For people, a line each.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
@@ -336,6 +361,26 @@ fn vanishing(difference: &Difference) -> Vec<String> {
     lines.collect()
 }
 
+/// A share of the largest value of an output, rounded up, in per cent.
+fn at_most(share: f64) -> String {
+    if share < ROUNDING {
+        return "rounding".to_owned();
+    }
+    // one digit
+    let power = bryant_picture::chart::power_of_ten(libm::log10(share).floor() as i32);
+    let rounded = (share / power * (1.0 - 1e-12)).ceil() * power;
+    let percent = 100.0 * rounded;
+    match percent < 1e-4 {
+        true => format!("{percent:.0e} %"),
+        false => format!(
+            "{} %",
+            format!("{percent:.4}")
+                .trim_end_matches('0')
+                .trim_end_matches('.')
+        ),
+    }
+}
+
 /// A share; one that is below the precision of runs of doubles is printed as a bound.
 fn share(error: f64) -> String {
     match error < ROUNDING {
@@ -355,6 +400,20 @@ mod tests {
     use bryant_runtime::program::{Job, Observer, Outcome, SampleWriter};
     use std::cell::Cell;
     use std::time::Duration;
+
+    #[test]
+    fn what_is_told_of_an_error_is_no_less_than_it() {
+        for (share, text) in [
+            (8.8e-6, "0.0009 %"),
+            (1.2e-4, "0.02 %"),
+            (1e-3, "0.1 %"),
+            (0.0151, "2 %"),
+            (3.3e-9, "4e-7 %"),
+            (1e-15, "rounding"),
+        ] {
+            assert_eq!(at_most(share), text);
+        }
+    }
 
     /// A model that runs the first job as requested, and every later job as `then` changes it.
     struct Once {

@@ -9,6 +9,7 @@ mod effects;
 mod equations;
 mod error_report;
 mod gradient;
+mod help;
 mod human;
 mod import;
 mod merge;
@@ -28,12 +29,12 @@ mod terminal;
 use crate::{interrupt, process};
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_runtime::program::{ErrorKind, RunError};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::io::Write;
 use std::process::ExitCode;
 use terminal::Terminal;
 
-/// Equations of motion of one particular tree of rigid elements, written out as Rust, and their motion.
+/// Simulate how mechanisms move: crash-test dummies in belts and seats, robots, any tree of rigid bodies.
 #[derive(Debug, Parser)]
 #[command(
     name = "bryant",
@@ -45,21 +46,21 @@ use terminal::Terminal;
     after_help = "Try: bryant run child-seat",
     after_long_help = "\
 Examples:
-  bryant run child-seat                              table, child-seat.csv and child-seat.svg
-  bryant run my.yaml --set belt_stiffness='40 kN'    another value for a parameter
-  bryant accuracy my.yaml                            what each further digit costs in time
-  bryant check my.yaml                               what was understood, or everything that is wrong
-  bryant effects my.yaml                             what is in, what is out, and what each effect costs
-  bryant equations sled-pendulum --latex             S and r_s to read
   bryant models                                      what is bundled
-  bryant sweep study.yaml                            many runs with other parameters, in lanes and on all processors
-  bryant gradient child-seat --of peak_lap_force     what a response changes by when parameters do
-  bryant compare run.csv TEST.mme                    how well a run agrees with a measurement
-  bryant criteria TEST.mme --standard 'UN R94' --dummy 'Hybrid III 50M'
-                                                     injury criteria beside the limits of a regulation
+  bryant run child-seat                              table, peaks, child-seat.csv and child-seat.svg
+  bryant run my.yaml --set belt_stiffness='40 kN'    another value for a parameter
+  bryant check my.yaml                               what was understood, or everything that is wrong
   bryant human --like male-50 -o man.yaml            an adult as a system for models
   bryant import robot.urdf -o robot.yaml             a robot's description of ROS as a model
   bryant settle my.yaml -o rest.json                 a state of rest, to start runs from
+  bryant criteria TEST.mme --standard 'UN R94' --dummy 'Hybrid III 50M'
+                                                     injury criteria beside the limits of a regulation
+  bryant compare run.csv TEST.mme                    how well a run agrees with a measurement
+  bryant sweep study.yaml                            many runs with other parameters, in lanes and on all processors
+  bryant gradient child-seat --of peak_lap_force     what a response changes by when parameters do
+  bryant effects my.yaml                             what is in, what is out, and what each effect costs
+  bryant accuracy my.yaml                            what each further digit costs in time
+  bryant equations sled-pendulum --latex             S and r_s to read
   bryant stability                                   hard cases, and how far from their bounds they stay
 
 Exit codes:
@@ -82,21 +83,22 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Run(Box<run::Arguments>),
-    Accuracy(accuracy::Arguments),
-    Check(check::Arguments),
-    Compare(compare::Arguments),
-    Criteria(criteria::Arguments),
-    Effects(effects::Arguments),
-    Equations(equations::Arguments),
+    // in the order of a first day: what is there, what it does, models of one's own, studies, what is behind it
     Models(models::Arguments),
+    Run(Box<run::Arguments>),
+    Check(check::Arguments),
+    Human(human::Arguments),
+    Import(import::Arguments),
     Settle(settle::Arguments),
-    Stability(stability::Arguments),
+    Criteria(criteria::Arguments),
+    Compare(compare::Arguments),
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
     Gradient(gradient::Arguments),
-    Human(human::Arguments),
-    Import(import::Arguments),
+    Effects(effects::Arguments),
+    Accuracy(accuracy::Arguments),
+    Equations(equations::Arguments),
+    Stability(stability::Arguments),
 }
 
 /// The reasons why a command failed.
@@ -167,9 +169,10 @@ impl Error {
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
     process::outlive_limits_of_files();
-    let cli = match Cli::try_parse() {
+    let matches = help::fitted(Cli::command()).try_get_matches();
+    let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
-        Err(error) => return help(&error),
+        Err(error) => return print_help(&error),
     };
     let mut terminal = Terminal::new();
     let result = match cli.command {
@@ -201,7 +204,7 @@ pub fn main() -> ExitCode {
 }
 
 /// Prints help, the version, or what is wrong with the command line.
-fn help(text: &clap::Error) -> ExitCode {
+fn print_help(text: &clap::Error) -> ExitCode {
     let printed = text.print().and_then(|()| std::io::stdout().flush());
     let mut terminal = Terminal::new();
     let result = match printed {
@@ -223,7 +226,6 @@ fn help(text: &clap::Error) -> ExitCode {
 mod tests {
     use super::*;
     use crate::bundled;
-    use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_consistent() {

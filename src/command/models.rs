@@ -6,6 +6,7 @@ use super::terminal::Terminal;
 use crate::bundled::{self, Bundled};
 use crate::files;
 use bryant_generator::model::{Dimension, Model};
+use bryant_picture::text::wrap;
 use clap::Args;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -55,7 +56,7 @@ impl Arguments {
             let rows: Vec<_> = rows.iter().map(Row::json).collect();
             return terminal.print_json(&rows);
         }
-        terminal.print(&table(&rows))
+        terminal.print(&table(&rows, terminal.width()))
     }
 }
 
@@ -117,27 +118,31 @@ impl<'a> Row<'a> {
     }
 }
 
-fn table(rows: &[Row<'_>]) -> String {
+/// A line for each model; titles are broken to fit into `width`, if it is given, and hang in their column.
+fn table(rows: &[Row<'_>], width: Option<usize>) -> String {
     let heading = "model";
-    let width = rows
-        .iter()
-        .map(|r| r.name.chars().count())
-        .fold(heading.len(), usize::max);
-    let mut text = format!("{heading:width$}  dimension  systems  elements  freedoms  title\n");
-    for Row {
-        name,
-        dimension,
-        systems,
-        elements,
-        degrees_of_freedom,
-        title,
-    } in rows
-    {
+    let names = rows.iter().map(|row| row.name.chars().count());
+    let names = names.fold(heading.len(), usize::max);
+    let mut text = format!("{heading:names$}  in     freedoms  title\n");
+    let before = names + "  plane  freedoms  ".len();
+    let room = width.map_or(usize::MAX, |width| width.saturating_sub(before).max(20));
+    for row in rows {
+        let space = match row.dimension {
+            2 => "plane",
+            _ => "space",
+        };
+        let mut title = wrap(row.title, room).into_iter();
         let line = format!(
-            "{name:width$}  {dimension:>9}  {systems:>7}  {elements:>8}  {degrees_of_freedom:>8}  {title}"
+            "{:names$}  {space}  {:>8}  {}",
+            row.name,
+            row.degrees_of_freedom,
+            title.next().unwrap_or_default()
         );
         text.push_str(line.trim_end());
         text.push('\n');
+        for line in title {
+            text.push_str(&format!("{:before$}{line}\n", ""));
+        }
     }
     text
 }

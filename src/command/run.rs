@@ -8,6 +8,7 @@ mod outcome;
 mod remarks;
 mod report;
 mod responses;
+mod result;
 mod rings;
 
 use super::Error;
@@ -255,9 +256,13 @@ pub struct Arguments {
     #[arg(long)]
     overlay: bool,
 
-    /// List the work of every effect in the balance of energy, also of small ones
+    /// List the work of each effect in the balance of energy
     #[arg(long)]
     energy: bool,
+
+    /// Print the result alone: neither the table nor what the run took
+    #[arg(long, short, conflicts_with = "json")]
+    quiet: bool,
 
     /// Print the table and the report as JSON
     #[arg(long)]
@@ -353,11 +358,21 @@ impl Arguments {
         let written = done.write(&files, terminal)?;
         let printed = done.print(&files, &written, terminal);
         let printed = printed.and_then(|()| terminal.flush());
-        for file in &written {
-            terminal.note(&format!("wrote {}", file.display()));
+        self.tell_cost(&recording, &errors, terminal);
+        let printed = printed.and_then(|()| done.print_result(&files, terminal));
+        for line in &recording.notes {
+            terminal.note(line);
+        }
+        if let [first, others @ ..] = &written[..] {
+            let others = others.iter().map(|file| format!(", {}", file.display()));
+            terminal.note(&format!(
+                "wrote {}{}",
+                first.display(),
+                others.collect::<String>()
+            ));
         }
         let duration = job.duration.unwrap_or(found.model.run.duration);
-        let outcome = self.conclude(&recording, &errors, duration, terminal);
+        let outcome = self.conclude(&recording, &errors, duration);
         terminal.end(printed, outcome)
     }
 
@@ -401,23 +416,29 @@ impl Arguments {
         }
     }
 
-    /// Prints the cost of the run and how far it can be trusted; an error if it cannot be trusted or did not reach its end.
+    /// Prints what the run took, how its error was found, and its balance of energy if that is asked for.
+    fn tell_cost(&self, recording: &Recording, errors: &ErrorReport, terminal: &mut Terminal) {
+        if recording.result.is_err() || self.quiet {
+            return;
+        }
+        if let Some(energy) = recording.energy.as_ref().filter(|_| self.energy) {
+            terminal.note(&balance::text(&recording.header, energy));
+        }
+        terminal.note(&outcome::report(recording));
+        for line in errors.lines() {
+            terminal.note(&line);
+        }
+    }
+
+    /// An error if the run cannot be trusted or did not reach its end.
     fn conclude(
         &self,
         recording: &Recording,
         errors: &ErrorReport,
         duration: f64,
-        terminal: &mut Terminal,
     ) -> Result<(), Error> {
         match &recording.result {
             Ok(_) => {
-                if let Some(energy) = &recording.energy {
-                    terminal.note(&balance::text(&recording.header, energy, self.energy));
-                }
-                terminal.note(&outcome::report(recording));
-                for line in errors.lines().iter().chain(&recording.notes) {
-                    terminal.note(line);
-                }
                 outcome::doubtful(recording)?;
                 if interrupt::asked() && (self.accuracy.is_some() || !self.no_verify) {
                     return Err(Error::Interrupted(
@@ -617,7 +638,7 @@ impl Done<'_> {
         Ok(written)
     }
 
-    /// Prints the table, the responses and the verdict, or all of it as JSON.
+    /// Prints the table, and what is to be known of the criteria besides; or all results as JSON.
     fn print(
         &self,
         files: &Files,
@@ -635,29 +656,33 @@ impl Done<'_> {
         if arguments.json {
             let mut value = outcome::json(&arguments.engine, job, recording, errors, written);
             value["responses"] = responses.json(recording, errors);
+            value["peaks"] = result::json_of_peaks(&responses.peaks(recording));
             if let Some(verdict) = &self.verdict {
                 value["criteria"] = judged_json(verdict);
             }
             return terminal.print_json(&value);
         }
-        let mut text = responses.text(recording, errors);
-        if let Some(verdict) = &self.verdict {
-            text.push('\n');
-            match verdict {
-                Some(verdict) => text.push_str(&verdict.text()),
-                None => text.push_str(
-                    "The criteria are not judged: the run did not come to its end, or cannot be trusted.\n",
-                ),
+        files.print(arguments, &self.found.model, job, recording, terminal)?;
+        match &self.verdict {
+            Some(Some(verdict)) if !arguments.quiet && !files.prints_a_file() => {
+                terminal.print(&format!("\n{}", verdict.remarks()))
             }
+            _ => Ok(()),
         }
-        files.print(
-            arguments,
-            &self.found.model,
-            job,
-            recording,
-            &text,
-            terminal,
-        )
+    }
+
+    /// Prints the result on one screen: beside the results where a file is printed, and not with JSON, which has it.
+    fn print_result(&self, files: &Files, terminal: &mut Terminal) -> Result<(), Error> {
+        if self.arguments.json {
+            return Ok(());
+        }
+        let text = result::text(self, terminal.width());
+        if files.prints_a_file() {
+            terminal.note(text.trim_matches('\n'));
+            return Ok(());
+        }
+        terminal.print(&text)?;
+        terminal.flush()
     }
 }
 

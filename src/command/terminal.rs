@@ -3,8 +3,14 @@
 use super::Error;
 use crate::build_on_demand::guard::{self, Output};
 use crate::process;
+use bryant_picture::text::wrap;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::time::Instant;
+
+/// Characters that a line has at least: narrower terminals break it themselves.
+const NARROWEST: usize = 40;
+/// Characters by which the rest of a broken line is further in.
+const HANGING: usize = 2;
 
 /// Where results and messages go.
 pub struct Terminal {
@@ -81,6 +87,10 @@ impl Terminal {
     pub fn note(&mut self, text: &str) {
         // if both go to one terminal, the text appears in the order of the calls
         let _ = self.output.flush();
+        let text = match message_width() {
+            Some(width) => fitted(text, width),
+            None => text.to_owned(),
+        };
         let _ = writeln!(io::stderr(), "{text}");
     }
 
@@ -113,13 +123,43 @@ impl Terminal {
         if !output.is_terminal() {
             return None;
         }
-        output.width().map(|width| width.max(40))
+        output.width().map(|width| width.max(NARROWEST))
     }
 
     /// The time when the command began.
     pub fn begin(&self) -> Instant {
         self.begin
     }
+}
+
+/// Characters per line of standard error; `None` where it is no terminal.
+fn message_width() -> Option<usize> {
+    if !io::stderr().is_terminal() {
+        return None;
+    }
+    let (width, _) = terminal_size::terminal_size_of(io::stderr())?;
+    Some(usize::from(width.0).max(NARROWEST))
+}
+
+/// The text with lines of at most `width` characters. A line that is too long is broken between words; what follows hangs below its beginning, two
+/// characters further in. Lines that fit stay as they are.
+fn fitted(text: &str, width: usize) -> String {
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        if line.chars().count() <= width {
+            lines.push(line.to_owned());
+            continue;
+        }
+        let own = line.len() - line.trim_start().len();
+        for (index, part) in wrap(line, width - (own + HANGING).min(width / 2))
+            .iter()
+            .enumerate()
+        {
+            let indent = if index == 0 { own } else { own + HANGING };
+            lines.push(format!("{:indent$}{part}", ""));
+        }
+    }
+    lines.join("\n")
 }
 
 /// The error of output that could not be printed; no error if nobody reads any more.
@@ -132,4 +172,24 @@ pub fn unwritten(error: io::Error) -> Error {
 
 fn not_written(reason: impl std::fmt::Display) -> Error {
     Error::System(format!("cannot write to standard output: {reason}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fitted;
+
+    #[test]
+    fn a_long_line_is_broken_between_words_and_hangs() {
+        let text = "short  line\n  4050 evaluations; 160 ms simulated in 19 ms";
+        assert_eq!(
+            fitted(text, 24),
+            "short  line\n  4050 evaluations;\n    160 ms simulated in\n    19 ms"
+        );
+        assert!(
+            fitted(text, 24)
+                .lines()
+                .all(|line| line.chars().count() <= 24)
+        );
+        assert_eq!(fitted(text, 80), text);
+    }
 }

@@ -43,10 +43,45 @@ pub struct Row {
 }
 
 impl Verdict {
-    /// As a table for people.
+    /// All of it for people: each criterion with its value, its limit, whether it is met, its filter and remarks; then the channels that were used.
     pub fn text(&self) -> String {
+        let mut text = format!("{} ({})", self.heading(), self.limits.source);
+        text.push_str("\n\ncriterion              value     limit  unit  verdict         filter\n");
+        for (row, value) in self.judged() {
+            let filter = filter(row.criterion, &self.limits);
+            let line = format!("{:53} {filter:7}  {}", of_row(row, value), row.detail);
+            let _ = writeln!(text, "{}", line.trim_end());
+        }
+        self.name_channels(&mut text);
+        text
+    }
+
+    /// In short: each criterion with its value, its limit and whether it is met.
+    pub fn summary(&self) -> String {
+        let mut text = self.heading();
+        text.push('\n');
+        for (row, value) in self.judged() {
+            let _ = writeln!(text, "{}", of_row(row, value));
+        }
+        text
+    }
+
+    /// What is to be known besides: filters, remarks, the channels that were used, what was not judged.
+    pub fn remarks(&self) -> String {
+        let mut text = format!("criteria: {}\n", self.limits.source);
+        for (row, _) in self.judged() {
+            let filter = filter(row.criterion, &self.limits);
+            let line = format!("{:18} {filter:7}  {}", row.criterion.name, row.detail);
+            let _ = writeln!(text, "{}", line.trim_end());
+        }
+        self.name_channels(&mut text);
+        text
+    }
+
+    /// Regulation and dummy, and the occupant if it was chosen.
+    fn heading(&self) -> String {
         let limits = &self.limits;
-        let mut text = format!("{}, {} ({})", limits.standard, limits.dummy, limits.source);
+        let mut text = format!("{}, {}", limits.standard, limits.dummy);
         if let Some(occupant) = &self.occupant {
             let seat = match choice::seat(occupant) {
                 "" => String::new(),
@@ -54,49 +89,20 @@ impl Verdict {
             };
             let _ = write!(text, ", occupant {occupant}{seat}");
         }
-        text.push_str("\n\ncriterion              value     limit  unit  verdict         filter\n");
-        let mut missing = Vec::new();
-        for row in &self.rows {
-            let criterion = row.criterion;
-            let value = match &row.value {
-                Ok(value) => *value,
-                Err(Missing::Place(place)) => {
-                    missing.push(format!("{} ({place})", criterion.name));
-                    continue;
-                }
-                Err(Missing::Unusable(why)) => {
-                    missing.push(format!("{} ({why})", criterion.name));
-                    continue;
-                }
-            };
-            let line = format!(
-                "{:18} {:>9} {:>9}  {:4}  {:14}  {:7}  {}",
-                criterion.name,
-                number(value),
-                row.limit.map_or("none".to_owned(), number),
-                criterion.unit,
-                row.limit
-                    .map_or(String::new(), |limit| verdict_of(value, limit)),
-                filter(criterion, limits),
-                row.detail
-            );
-            let _ = writeln!(text, "{}", line.trim_end());
-        }
-        self.name_channels(&mut text);
-        if !missing.is_empty() {
-            let _ = write!(
-                text,
-                "\nnot judged, because there is no channel of: {}\n",
-                missing.join(", ")
-            );
-        }
         text
+    }
+
+    /// The criteria that have a value.
+    fn judged(&self) -> impl Iterator<Item = (&Row, f64)> {
+        let value = |row: &'_ Row| row.value.as_ref().ok().copied();
+        self.rows
+            .iter()
+            .filter_map(move |row| Some((row, value(row)?)))
     }
 
     /// Writes which channels were used, and which were not.
     fn name_channels(&self, text: &mut String) {
-        let judged = self.rows.iter().filter(|row| row.value.is_ok());
-        for (index, row) in judged.enumerate() {
+        for (index, (row, _)) in self.judged().enumerate() {
             let names: Vec<&str> = row.channels.iter().map(|(_, name)| name.as_str()).collect();
             let begin = if index == 0 { "\nread from\n" } else { "" };
             let _ = writeln!(
@@ -115,6 +121,20 @@ impl Verdict {
                 text,
                 "\nthe code {name} is of another dummy, {code}: the limits are those of {}\n",
                 self.limits.dummy
+            );
+        }
+        let missing = self.rows.iter().filter_map(|row| match &row.value {
+            Ok(_) => None,
+            Err(Missing::Place(why) | Missing::Unusable(why)) => {
+                Some(format!("{} ({why})", row.criterion.name))
+            }
+        });
+        let missing: Vec<String> = missing.collect();
+        if !missing.is_empty() {
+            let _ = write!(
+                text,
+                "\nnot judged, because there is no channel of: {}\n",
+                missing.join(", ")
             );
         }
     }
@@ -158,6 +178,21 @@ impl Verdict {
             "criteria": criteria.collect::<Vec<_>>(),
         })
     }
+}
+
+/// A criterion with its value, its limit and whether it is met.
+fn of_row(row: &Row, value: f64) -> String {
+    let criterion = row.criterion;
+    let verdict = row.limit.map(|limit| verdict_of(value, limit));
+    let line = format!(
+        "{:18} {:>9} {:>9}  {:4}  {}",
+        criterion.name,
+        number(value),
+        row.limit.map_or("none".to_owned(), number),
+        criterion.unit,
+        verdict.unwrap_or_default()
+    );
+    line.trim_end().to_owned()
 }
 
 /// The filter of a criterion in a table.

@@ -16,13 +16,46 @@ function peaks() {
 function criteria() {
   const { criteria: all, source } = data.criteria;
   const judged = all.filter((one) => one.value !== null), missing = all.filter((one) => one.missing);
-  const share = (one) => 100 * (one.value / one.limit - 1);
-  const verdict = (one) => one.limit === null ? "no limit" : element("span", one.met ? `met by ${Math.round(-share(one))} %` : `missed by ${Math.round(share(one))} %`, { class: one.met ? "met" : "missed" });
-  const rows = judged.map((one) => [one.criterion, readable(one.value), one.limit === null ? "–" : readable(one.limit), one.unit, verdict(one), one.filter || "none", Object.values(one.channels).join(", "), one.detail]);
+  const rows = judged.map((one) => [one.criterion, readable(one.value), limit(one), one.unit, met(one), one.filter || "none", Object.values(one.channels).join(", "), one.detail]);
   const made = [table([["criterion", false], ["value", true], ["limit", true], ["unit", false], ["verdict", false], ["filter", false], ["read from", false], ["", false]], rows)];
   if (missing.length) made.push(element("p", `Not judged, because there is no channel of: ${missing.map((one) => `${one.criterion} (${one.missing})`).join(", ")}.`));
   made.push(element("p", `Limits: ${source}.`));
   return made;
+}
+
+// A limit as the regulation prints it.
+function limit(one) {
+  return one.limit === null ? "–" : String(one.limit);
+}
+
+function met(one) {
+  const share = 100 * (one.value / one.limit - 1);
+  return one.limit === null ? "no limit" : element("span", one.met ? `met by ${Math.round(-share)} %` : `missed by ${Math.round(share)} %`, { class: one.met ? "met" : "missed" });
+}
+
+// The result in short: what the last screen of the command says.
+function result(parent) {
+  const { peaks, more, energy, trust } = data.result;
+  const left = element("div"), right = element("div");
+  if (peaks.length) {
+    left.append(table([["peak of", false], ["value", true], ["unit", false], ["at [ms]", true]], peaks.map((p) => [p.output, readable(p.value), p.unit, (1000 * p.time_s).toFixed(1)])));
+    if (more) left.append(element("p", `${more} more below.`, { class: "hint" }));
+  }
+  if (data.criteria) {
+    const judged = data.criteria.criteria.filter((one) => one.value !== null);
+    right.append(element("p", `${data.criteria.standard}, ${data.criteria.dummy}`));
+    right.append(table([["criterion", false], ["value", true], ["limit", true], ["unit", false], ["verdict", false]], judged.map((one) => [one.criterion, readable(one.value), limit(one), one.unit, met(one)])));
+  }
+  if (data.responses && data.responses.length) {
+    right.append(table([["response", false], ["value", true], ["unit", false]], data.responses.map((r) => [r.name, readable(r.value), r.unit || ""])));
+  }
+  for (const [what, line] of [["Energy", energy], ["Trust", trust]]) {
+    if (!line) continue;
+    const said = element("p");
+    said.append(element("b", `${what}: `), line);
+    left.append(said);
+  }
+  parent.append(left, right);
 }
 
 function energy() {
@@ -109,8 +142,9 @@ function startTables() {
   byId("title").textContent = data.title || data.model;
   byId("subtitle").textContent = `model ${data.model}, bryant ${data.version}`;
   const state = byId("state"), bad = data.failure || (data.doubts || []).length > 0 || data.beyond;
-  state.textContent = data.failure ? `The run failed: ${data.failure}` : bad ? "This run is not to be trusted; see Results." : "";
+  state.textContent = data.failure ? `The run failed: ${data.failure}` : bad ? "This run is not to be trusted; see below." : "";
   state.classList.add(bad ? "bad" : "good");
+  result(byId("result"));
   const verdict = byId("verdict"), two = element("div", null, { class: "columns" });
   if (data.criteria) block(verdict, `Injury criteria: ${data.criteria.standard}, ${data.criteria.dummy}`, ...criteria());
   if (data.responses && data.responses.length) {

@@ -11,6 +11,7 @@ mod degenerate;
 mod formulas;
 mod grazing;
 mod judged;
+mod last_screen;
 #[cfg(unix)]
 mod long;
 mod people;
@@ -107,7 +108,11 @@ fn a_run_prints_a_table_and_writes_files() {
         lines[1].trim_start().starts_with("[s]") && lines[1].contains("[rad]"),
         "{stdout}"
     );
-    assert_eq!(lines.len(), 2 + 11, "{stdout}");
+    assert_eq!(
+        lines.iter().position(|line| line.is_empty()),
+        Some(2 + 11),
+        "{stdout}"
+    );
     assert!(
         lines[2].contains("0.0  ") && lines[2].contains("0.524"),
         "{stdout}"

@@ -153,7 +153,7 @@ impl Files {
         Ok(written)
     }
 
-    /// Prints the table and the text of the responses, or the result that goes to standard output in their place.
+    /// Prints the table, or the file that goes to standard output in its place.
     ///
     /// # Errors
     /// The result cannot be written or drawn.
@@ -163,32 +163,34 @@ impl Files {
         model: &Model,
         job: &Job,
         recording: &Recording,
-        responses: &str,
         terminal: &mut Terminal,
     ) -> Result<(), Error> {
         let standard = |path: &Option<PathBuf>| path.as_deref().is_some_and(is_standard);
         if standard(&self.csv) {
-            terminal.write(|out| recording.table.write_csv(out))?;
+            terminal.write(|out| recording.table.write_csv(out))
         } else if standard(&self.final_state) {
-            if !recording.last_state.is_empty() {
-                terminal.print(&state_file::text(recording))?;
+            match recording.last_state.is_empty() {
+                true => Ok(()),
+                false => terminal.print(&state_file::text(recording)),
             }
         } else if let Some(path) = self.picture.as_ref().filter(|path| is_standard(path)) {
             let bytes = drawn(arguments, model, job, recording, path)?;
-            terminal.write(|out| out.write_all(&bytes))?;
+            terminal.write(|out| out.write_all(&bytes))
+        } else if arguments.quiet {
+            Ok(())
         } else {
             let layout = Layout {
                 digits: arguments.precision.map(usize::from),
                 width: terminal.width(),
             };
-            terminal.print(&recording.table.text(layout))?;
-            return terminal.print(responses);
+            terminal.print(&recording.table.text(layout))
         }
-        // a result that the user asked for must not be lost with the table
-        for line in responses.lines().filter(|line| !line.is_empty()) {
-            terminal.note(line);
-        }
-        Ok(())
+    }
+
+    /// Whether a file goes to standard output.
+    pub fn prints_a_file(&self) -> bool {
+        let all = [&self.csv, &self.final_state, &self.picture];
+        all.into_iter().flatten().any(|path| is_standard(path))
     }
 }
 

@@ -70,6 +70,7 @@ pub fn html(
     let data = json!({
         "overlays": overlays,
         "beside": beside,
+        "result": super::result::json(responses, recording, errors),
         "works": recording.history.as_ref().map(|history| works(&recording.header, history)),
         "model": model.name,
         "title": title,

@@ -3,6 +3,7 @@
 //! They are read off samples of their own, so that they do not depend on the rows of the table.
 
 use super::criteria::Criteria;
+use super::result::Peak;
 use super::{Arguments, Error, ErrorReport};
 use crate::accuracy::conclusion::percent;
 use crate::command::model_argument::Found;
@@ -13,6 +14,7 @@ use crate::simulation::Recording;
 use crate::table::typeset;
 use bryant_generator::model::Model;
 use bryant_runtime::program::{Kept, Reading};
+use bryant_runtime::response::Channel;
 use bryant_runtime::response::filter::{Class, MEAN};
 use bryant_study::facts::ModelFacts;
 use bryant_study::response::channel_of;
@@ -28,6 +30,8 @@ pub struct Responses {
     criteria: Option<Criteria>,
     /// The index of the first signal that the criteria keep.
     kept: usize,
+    /// The outputs whose peaks are told, each with the index of its signal.
+    peaks: Vec<(usize, usize)>,
     /// Time between the samples \[s\].
     every: f64,
     /// The responses as a request to the runtime.
@@ -38,6 +42,10 @@ pub struct Responses {
 
 /// A report has the works of effects at no more than about this many times.
 const WORKS: f64 = 300.0;
+/// The peaks of at most so many outputs are told.
+const MOST_PEAKS: usize = 5;
+/// Samples for each row of the table that peaks are read off, if nothing else needs samples. Between them a peak is that of a parabola's.
+const BETWEEN_ROWS: f64 = 5.0;
 /// Differences below this share are rounding errors.
 const ROUNDING: f64 = 1e-12;
 /// Significant digits of a response, as in the summary of a study.
@@ -64,11 +72,16 @@ impl Responses {
         let mut kept = filtered(model);
         let columns = kept.len();
         kept.extend(criteria.iter().flat_map(Criteria::kept));
+        let peaks = told(model, &mut kept);
         let filters = kept.iter().filter_map(|kept| kept.channel.filter);
         let classes: Vec<Class> = filters.map(|filter| filter.class).collect();
         let sampling = sampling.unwrap_or_else(|| {
             let needed = classes.iter().copied().map(Class::longest_interval);
-            needed.fold(response::sampling(facts.run.sampling, &asked), f64::min)
+            let own = match asked.is_empty() {
+                true => arguments.every.unwrap_or(model.run.every) / BETWEEN_ROWS,
+                false => response::sampling(facts.run.sampling, &asked),
+            };
+            needed.fold(own, f64::min)
         });
         if let Some(class) = classes.iter().find(|class| !class.allows(sampling)) {
             return Err(response::too_coarse(*class, sampling));
@@ -92,6 +105,7 @@ impl Responses {
             own,
             criteria,
             kept: columns,
+            peaks,
             every: (end - start) / intervals as f64,
             otherwise,
         })
@@ -100,6 +114,17 @@ impl Responses {
     /// The warnings about the requested responses.
     pub fn cautions(&self) -> impl Iterator<Item = &str> {
         self.asked.iter().filter_map(|one| one.caution.as_deref())
+    }
+
+    /// The peaks of the first outputs; none if the run did not reach its end.
+    pub fn peaks(&self, recording: &Recording) -> Vec<Peak> {
+        let peak = |&(output, kept): &(usize, usize)| {
+            let output = recording.header.outputs.get(output)?;
+            let samples = recording.kept.get(kept)?;
+            let times = [recording.first_time(), self.every];
+            Peak::of((&output.name, &output.unit), samples, times)
+        };
+        self.peaks.iter().filter_map(peak).collect()
     }
 
     /// The verdict about the run. The outer value is `None` if no criteria are requested.
@@ -255,6 +280,23 @@ fn filtered(model: &Model) -> Vec<Kept> {
         in_place_of: Some(index),
     });
     kept.collect()
+}
+
+/// The outputs whose peaks are told, each with the index of its signal, which is kept for this if it is not yet.
+fn told(model: &Model, kept: &mut Vec<Kept>) -> Vec<(usize, usize)> {
+    let mut peaks = Vec::new();
+    for index in 0..model.outputs.len().min(MOST_PEAKS) {
+        let known = kept.iter().position(|one| one.in_place_of == Some(index));
+        let at = known.unwrap_or_else(|| {
+            kept.push(Kept {
+                channel: Channel::output(index),
+                in_place_of: None,
+            });
+            kept.len() - 1
+        });
+        peaks.push((index, at));
+    }
+    peaks
 }
 
 /// A number with four digits; a larger number is printed as an integer.

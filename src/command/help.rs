@@ -1,0 +1,163 @@
+//! Texts of help in lines that fit the terminal. In the source they are broken where lines of code are; here each paragraph and each entry of a list is
+//! put together again, and broken once.
+
+use bryant_picture::text::wrap;
+
+/// Lines of help are no longer than this, however wide the terminal is: as clap does with the rest.
+const WIDEST: usize = 100;
+/// Characters that a line of a list has at least.
+const NARROW: usize = 20;
+
+/// The command line with all texts below the options fitted to the terminal.
+pub fn fitted(command: clap::Command) -> clap::Command {
+    let width = terminal_size::terminal_size().map_or(WIDEST, |(width, _)| width.0.into());
+    of_width(command, width.min(WIDEST))
+}
+
+fn of_width(command: clap::Command, width: usize) -> clap::Command {
+    let text = command
+        .get_after_long_help()
+        .map(|text| fit(&text.to_string(), width));
+    let command = match text {
+        Some(text) => command.after_long_help(text),
+        None => command,
+    };
+    command.mut_subcommands(|subcommand| of_width(subcommand, width))
+}
+
+/// A piece of a text of help.
+enum Piece<'t> {
+    /// Words, from the margin on.
+    Paragraph(String),
+    /// What stands before the second column, and the words in it.
+    Entry(&'t str, String),
+    /// A line as it is: an example, or an empty line.
+    Line(&'t str),
+}
+
+/// A text in lines of at most `width` characters, but for lines of examples.
+fn fit(text: &str, width: usize) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for piece in pieces(text) {
+        match piece {
+            Piece::Paragraph(words) => lines.extend(wrap(&words, width)),
+            Piece::Entry(before, words) => {
+                let column = before.chars().count();
+                for (index, part) in wrap(&words, width.saturating_sub(column).max(NARROW))
+                    .iter()
+                    .enumerate()
+                {
+                    let before = if index == 0 { before } else { "" };
+                    lines.push(format!("{before:column$}{part}"));
+                }
+            }
+            Piece::Line(line) => lines.push(line.to_owned()),
+        }
+    }
+    lines.join("\n")
+}
+
+fn pieces(text: &str) -> Vec<Piece<'_>> {
+    let mut pieces = Vec::new();
+    for line in text.lines() {
+        let indent = line.len() - line.trim_start().len();
+        match (indent, pieces.last_mut()) {
+            (0, Some(Piece::Paragraph(words))) if !line.is_empty() => {
+                *words = format!("{words} {line}");
+                continue;
+            }
+            (1.., Some(Piece::Entry(before, words))) if indent == before.chars().count() => {
+                *words = format!("{words} {}", line.trim_start());
+                continue;
+            }
+            _ => {}
+        }
+        pieces.push(match (indent, second_column(line)) {
+            (0, _) if line.is_empty() => Piece::Line(line),
+            (0, _) => Piece::Paragraph(line.to_owned()),
+            // the remark beside an example is short, and does not go on
+            (_, Some(at)) => Piece::Entry(&line[..at], line[at..].to_owned()),
+            (_, None) => Piece::Line(line),
+        });
+    }
+    pieces
+}
+
+/// Where the second column of an indented line begins: behind the first run of spaces inside it.
+fn second_column(line: &str) -> Option<usize> {
+    let begin = line.len() - line.trim_start().len();
+    let gap = begin + line[begin..].find("  ")?;
+    Some(line.len() - line[gap..].trim_start().len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "\
+An effect is a term of the equations that may be in
+or out: a force and each of its terms.
+
+Columns:
+  operations  of one evaluation of the accelerations, all
+              less those without the effect
+  with        its time
+
+Examples:
+  bryant effects child-seat
+  bryant effects my.yaml --only belt --all --and-a-long-option     what it is";
+
+    #[test]
+    fn paragraphs_and_entries_are_broken_once() {
+        assert_eq!(
+            fit(TEXT, 40),
+            "\
+An effect is a term of the equations
+that may be in or out: a force and each
+of its terms.
+
+Columns:
+  operations  of one evaluation of the
+              accelerations, all less
+              those without the effect
+  with        its time
+
+Examples:
+  bryant effects child-seat
+  bryant effects my.yaml --only belt --all --and-a-long-option     what it is"
+        );
+        // lines that fit are put together, too
+        assert!(
+            fit(TEXT, 100)
+                .starts_with("An effect is a term of the equations that may be in or out: a force")
+        );
+    }
+
+    /// At each width, no line of any help ends early: the first word of the next line of a paragraph would not have fitted.
+    #[test]
+    fn no_line_of_help_is_broken_early() {
+        use clap::CommandFactory;
+        for width in [80, 100] {
+            let mut command = of_width(super::super::Cli::command(), width).term_width(width);
+            let commands = command.get_subcommands().cloned().collect::<Vec<_>>();
+            for help in commands.into_iter().chain([command.clone()]) {
+                let Some(text) = help.get_after_long_help() else {
+                    continue;
+                };
+                let text = text.to_string();
+                let lines: Vec<&str> = text.lines().collect();
+                for pair in lines.windows(2) {
+                    let [line, next] = [pair[0], pair[1]];
+                    let prose = |line: &str| !line.is_empty() && !line.starts_with(' ');
+                    if prose(line) && prose(next) {
+                        let word = next.split(' ').next().unwrap_or_default().chars().count();
+                        let length = line.chars().count();
+                        assert!(length <= width, "{line}");
+                        assert!(length + 1 + word > width, "{line}\n{next}");
+                    }
+                }
+            }
+            command.build();
+        }
+    }
+}

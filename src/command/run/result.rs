@@ -1,0 +1,165 @@
+//! The result of a run on one screen: the peaks of its first outputs, responses, criteria, and how far it can be trusted.
+
+use super::responses::Responses;
+use super::{Done, ErrorReport};
+use crate::balance;
+use crate::simulation::Recording;
+use crate::table::{Column, Table, typeset};
+use bryant_picture::text::wrap;
+use bryant_runtime::response::{Response, reduce};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+/// Characters of a line where the width of the terminal is not known.
+const WIDTH: usize = 80;
+/// From this length on, times are in seconds \[s\].
+const LONG: f64 = 10.0;
+
+/// The largest magnitude of an output, with its sign, and its time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Peak {
+    /// Name of the output.
+    pub name: String,
+    /// Unit of the output.
+    pub unit: String,
+    /// In that unit.
+    pub value: f64,
+    /// \[s\]
+    pub time: f64,
+}
+
+impl Peak {
+    /// The peak of a signal whose samples are `every` \[s\] apart, the first of them at `start` \[s\]. `None` if there is none, as of a signal without samples.
+    pub fn of(
+        (name, unit): (&str, &str),
+        samples: &[f64],
+        [start, every]: [f64; 2],
+    ) -> Option<Self> {
+        let read = |response| reduce(response, samples, every, &mut []);
+        let [above, below] = [Response::Peak, Response::Minimum].map(read);
+        let (value, when) = match above.abs() >= below.abs() {
+            true => (above, Response::TimeOfPeak),
+            false => (below, Response::TimeOfMinimum),
+        };
+        let peak = Peak {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            value,
+            time: start + read(when),
+        };
+        (peak.value.is_finite() && peak.time.is_finite()).then_some(peak)
+    }
+}
+
+/// The result as text, with an empty line before it. Lines are at most `width` characters long, where names allow it.
+pub fn text(done: &Done<'_>, width: Option<usize>) -> String {
+    let Done {
+        found,
+        recording,
+        errors,
+        responses,
+        ..
+    } = *done;
+    let mut text = String::new();
+    // a run that broke off has a message instead
+    if recording.result.is_ok() {
+        let model = &found.model;
+        let title = match model.title.as_str() {
+            "" => model.name.clone(),
+            title => format!("{}: {title}", model.name),
+        };
+        for line in wrap(&title, width.unwrap_or(WIDTH)) {
+            let _ = write!(text, "\n{line}");
+        }
+        text.push('\n');
+        let peaks = responses.peaks(recording);
+        if !peaks.is_empty() {
+            let more = recording.header.outputs.len().saturating_sub(peaks.len());
+            let _ = write!(text, "\n{}", of_peaks(&peaks, more, recording.last_time()));
+        }
+    }
+    text += &responses.text(recording, errors);
+    match &done.verdict {
+        Some(Some(verdict)) => {
+            let _ = write!(text, "\n{}", verdict.summary());
+        }
+        Some(None) => {
+            text += "\nThe criteria are not judged: the run did not come to its end, or cannot be trusted.\n";
+        }
+        None => {}
+    }
+    let lines = ["energy", "trust"]
+        .into_iter()
+        .zip(trust(recording, errors));
+    for (index, (what, line)) in lines
+        .filter_map(|(what, line)| Some((what, line?)))
+        .enumerate()
+    {
+        let begin = if index == 0 { "\n" } else { "" };
+        let _ = writeln!(text, "{begin}{what:7} {line}");
+    }
+    text
+}
+
+/// The same for a report: peaks, the number of outputs without one, how far energy is conserved and outputs are known.
+pub fn json(responses: &Responses, recording: &Recording, errors: &ErrorReport) -> Value {
+    let peaks = responses.peaks(recording);
+    let [energy, trust] = trust(recording, errors);
+    json!({
+        "more": recording.header.outputs.len().saturating_sub(peaks.len()),
+        "peaks": json_of_peaks(&peaks),
+        "energy": energy,
+        "trust": trust,
+    })
+}
+
+/// `[{"output", "value", "unit", "time_s"}, …]`
+pub fn json_of_peaks(peaks: &[Peak]) -> Value {
+    let peak = |peak: &Peak| json!({ "output": peak.name, "value": peak.value, "unit": peak.unit, "time_s": peak.time });
+    peaks.iter().map(peak).collect()
+}
+
+/// How far energy is conserved, and how far outputs are known; `None` of a run that did not reach its end.
+fn trust(recording: &Recording, errors: &ErrorReport) -> [Option<String>; 2] {
+    let done = recording.result.is_ok();
+    let energy = recording.energy.as_ref().filter(|_| done);
+    [energy.map(balance::closes), done.then(|| errors.summary())]
+}
+
+/// A line for each peak; `more` outputs have none.
+fn of_peaks(peaks: &[Peak], more: usize, end: f64) -> String {
+    let (scale, unit) = match end < LONG {
+        true => (1e3, "ms"),
+        false => (1.0, "s"),
+    };
+    let times = Column {
+        name: "at".to_owned(),
+        unit: unit.to_owned(),
+        values: peaks.iter().map(|peak| scale * peak.time).collect(),
+    };
+    let decimals = if scale > 1.0 { 1 } else { 3 };
+    let cells: Vec<[String; 3]> = peaks
+        .iter()
+        .zip(&times.values)
+        .map(|(peak, time)| {
+            let value = Table::number(peak.value, &peak.unit);
+            let unit = typeset(&peak.unit);
+            [
+                peak.name.clone(),
+                format!("{value} {unit}").trim_end().to_owned(),
+                format!("{time:.decimals$} {}", times.unit),
+            ]
+        })
+        .collect();
+    let widest = |column: usize| cells.iter().map(|cell| cell[column].chars().count()).max();
+    let [names, values, at] = [0, 1, 2].map(|column| widest(column).unwrap_or(0));
+    let mut text = String::new();
+    for [name, value, time] in &cells {
+        let _ = writeln!(text, "{name:names$}  {value:>values$}  at {time:>at$}");
+    }
+    if more > 0 {
+        let plural = if more == 1 { "" } else { "s" };
+        let _ = writeln!(text, "{more} more output{plural} in the table");
+    }
+    text
+}
