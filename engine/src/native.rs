@@ -4,7 +4,8 @@ pub use crate::code::{Call, Compiled};
 
 use bryant_generator::expression::Function;
 use bryant_generator::program::{Curve, List};
-use bryant_generator::target::x86_64::{Length, Precision, Target};
+use bryant_generator::target::machine::{Length, Precision};
+use bryant_generator::target::x86_64::Target;
 use bryant_runtime::{Layout, Real};
 
 /// The target of code over this scalar. `None` if the scalar is not made of numbers side by side, or if the processor lacks the instructions.

@@ -6,7 +6,7 @@ use crate::execute::Given as Point;
 use crate::native::{Call, Compiled, compile, target};
 use bryant_generator::expression::Function;
 use bryant_generator::program::List;
-use bryant_generator::target::x86_64::Callee;
+use bryant_generator::target::machine::Callee;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width, with_width_of_singles};
 use bryant_runtime::real::{Array4, Array8};
 use bryant_runtime::{DoubleDouble, Dual, Real, Several, Width};
