@@ -3,8 +3,6 @@
 //! It is written before it becomes executable; no thread can write and execute it at the same time. Arm processors do not see in their caches of
 //! instructions what was written as data, so there it is flushed.
 
-#![expect(unsafe_code, reason = "memory becomes executable")]
-
 /// Memory with code, which may be executed but not written.
 pub struct Executable(memmap2::Mmap);
 
@@ -31,8 +29,9 @@ impl Executable {
 
 /// Makes written memory visible to the fetching of instructions, in all cores. No core can have fetched any of it before, because it is not executable yet.
 ///
-/// The sequence is that of the Arm Architecture Reference Manual, B2.7.4.2.
+/// This is the sequence of the Arm Architecture Reference Manual for code that a program writes: DC CVAU, DSB, IC IVAU, DSB, ISB.
 #[cfg(target_arch = "aarch64")]
+#[expect(unsafe_code, reason = "instructions for caches")]
 fn flush(memory: &[u8]) {
     use std::arch::asm;
     let kind: u64;

@@ -16,7 +16,7 @@
 //! | `slots` | places in the frame |
 //! | `base` | the memory of a function |
 //!
-//! A [`Processor`](emit::Processor) writes the instructions: each has a folder of its own beside this one.
+//! A `Processor` (in `emit`) writes the instructions: each has a folder of its own beside this one.
 //!
 //! The code is one function for a whole list. The function branches only for rare numbers. It uses the stack only as far as calls need it, and works in a
 //! frame that the caller provides. Results are written as soon as they are known.
