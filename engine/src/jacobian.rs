@@ -6,6 +6,9 @@ use crate::execute::{Execute, Given};
 use crate::model::{Shared, derive};
 use crate::native;
 use bryant_generator::program::Method;
+#[cfg(target_arch = "aarch64")]
+use bryant_runtime::real::Array2;
+#[cfg(not(target_arch = "aarch64"))]
 use bryant_runtime::real::{Array4, Array8};
 use bryant_runtime::{Dual, Real};
 use std::any::{Any, TypeId};
@@ -22,19 +25,33 @@ pub(crate) trait Jacobian<T>: Debug {
 
 /// The fastest implementation for this processor. All give the same bits.
 pub(crate) fn jacobian<T: Real>(shared: &Arc<Shared>) -> Box<dyn Jacobian<T>> {
-    let of_doubles: Option<Box<dyn Jacobian<f64>>> = if TypeId::of::<T>() != TypeId::of::<f64>() {
-        None
-    } else if Array8::there() && native::there::<Dual<Array8>>() {
-        Some(Box::new(Differentiated::<f64, Array8>::new(shared)))
-    } else if Array4::there() && native::there::<Dual<Array4>>() {
-        Some(Box::new(Differentiated::<f64, Array4>::new(shared)))
-    } else {
-        None
+    let of_doubles = match TypeId::of::<T>() == TypeId::of::<f64>() {
+        true => several(shared),
+        false => None,
     };
     let found = of_doubles.map(|of_doubles| -> Box<dyn Any> { Box::new(of_doubles) });
     match found.and_then(|found| found.downcast::<Box<dyn Jacobian<T>>>().ok()) {
         Some(found) => *found,
         None => Box::new(Differentiated::<T, T>::new(shared)),
+    }
+}
+
+/// Several columns at once, if there is machine code for that.
+#[cfg(target_arch = "aarch64")]
+fn several(shared: &Arc<Shared>) -> Option<Box<dyn Jacobian<f64>>> {
+    native::there::<Dual<Array2>>()
+        .then(|| -> Box<dyn Jacobian<f64>> { Box::new(Differentiated::<f64, Array2>::new(shared)) })
+}
+
+/// Several columns at once, if there is machine code for that.
+#[cfg(not(target_arch = "aarch64"))]
+fn several(shared: &Arc<Shared>) -> Option<Box<dyn Jacobian<f64>>> {
+    if Array8::there() && native::there::<Dual<Array8>>() {
+        Some(Box::new(Differentiated::<f64, Array8>::new(shared)))
+    } else if Array4::there() && native::there::<Dual<Array4>>() {
+        Some(Box::new(Differentiated::<f64, Array4>::new(shared)))
+    } else {
+        None
     }
 }
 
@@ -84,7 +101,11 @@ macro_rules! holds_doubles {
     };
 }
 
+#[cfg(target_arch = "aarch64")]
+holds_doubles!(Array2, 2);
+#[cfg(not(target_arch = "aarch64"))]
 holds_doubles!(Array4, 4);
+#[cfg(not(target_arch = "aarch64"))]
 holds_doubles!(Array8, 8);
 
 /// The derivatives over dual numbers, with a column in each lane of `S`.

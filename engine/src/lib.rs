@@ -25,15 +25,13 @@
 //! | `evaluate` | machine code where that is possible, the interpreter elsewhere |
 //! | `jacobian` | derivatives of the rates, several columns at once |
 //! | `native` | machine code for this processor, for scalars that are numbers side by side; `--cfg bryant_interpret` leaves it out |
-//! | `code` | machine code in memory, with calls into it and out of it |
+//! | `native::code`, `native::memory` | machine code in memory, with calls into it and out of it |
 //! | `call` | the functions that lists call: curves, force laws, functions of the user |
 //! | `user` | functions of the user, which take and return plain numbers |
 //! | `info` | the facts of a model, in the form of the runtime |
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod call;
-#[cfg(all(target_arch = "x86_64", any(unix, windows), not(bryant_interpret)))]
-mod code;
 mod evaluate;
 mod execute;
 mod front;
@@ -42,16 +40,17 @@ mod interpret;
 mod jacobian;
 mod model;
 #[cfg_attr(
-    not(all(target_arch = "x86_64", any(unix, windows), not(bryant_interpret))),
+    not(all(
+        any(
+            all(target_arch = "x86_64", any(unix, windows)),
+            all(target_arch = "aarch64", any(target_os = "linux", target_os = "macos"))
+        ),
+        not(bryant_interpret)
+    )),
     path = "no_native.rs"
 )]
 mod native;
-#[cfg(all(
-    test,
-    target_arch = "x86_64",
-    any(unix, windows),
-    not(bryant_interpret)
-))]
+#[cfg(test)]
 mod tests;
 mod user;
 

@@ -40,7 +40,7 @@ mod plain;
 mod words;
 
 #[cfg(feature = "std")]
-pub use array::{Array4, Array8};
+pub use array::{Array2, Array4, Array8};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 #[cfg(any(feature = "std", feature = "libm", test))]

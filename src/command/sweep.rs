@@ -70,8 +70,8 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 
-    /// Number of runs side by side in a register: 8 (AVX-512), 4 (AVX2), 1, or plain, which is 1 without fused multiply-adds. In single
-    /// precision 8 and 4 stand for twice as many. All but plain give the same results [default: the most that the processor has]
+    /// Number of runs side by side in a register: 8 (AVX-512), 4 (AVX2), 2 (64-bit ARM), 1, or plain, which is 1 without fused multiply-adds. In
+    /// single precision 8, 4 and 2 stand for twice as many. All but plain give the same results [default: the most that the processor has]
     #[arg(long, value_name = "LANES", value_parser = lanes)]
     lanes: Option<Width>,
 
@@ -318,7 +318,7 @@ fn of_study(study: &Path) -> PathBuf {
 }
 
 fn lanes(text: &str) -> Result<Width, String> {
-    let width = Width::named(text).ok_or("it is 8, 4, 1 or plain")?;
+    let width = Width::named(text).ok_or("it is 8, 4, 2, 1 or plain")?;
     match width.there() {
         true => Ok(width),
         false => Err("this processor has no such registers".into()),

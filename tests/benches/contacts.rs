@@ -141,7 +141,7 @@ fn main() {
             report(&format!("{name}, f64, {PAIRS} calls"), || {
                 all(black_box(&pairs), what)
             });
-            for width in [Width::Four, Width::Eight] {
+            for width in [Width::Two, Width::Four, Width::Eight] {
                 let _ = with_width(width, OfWidth(&name, &pairs, what));
             }
         }
@@ -150,7 +150,7 @@ fn main() {
             report(&format!("{name}, f64, {PAIRS} calls"), || {
                 all(black_box(&pairs), What::Curve)
             });
-            for width in [Width::Four, Width::Eight] {
+            for width in [Width::Two, Width::Four, Width::Eight] {
                 let _ = with_width(width, OfWidth(name, &pairs, What::Curve));
             }
         }

@@ -97,7 +97,7 @@ fn the_same_in_every_width(engine: &Engine, duration: f64) {
         return;
     }
     let narrow = bits(engine, duration, Width::One, 3);
-    for width in [Width::Four, Width::Eight] {
+    for width in [Width::Two, Width::Four, Width::Eight] {
         if width.there() {
             assert!(
                 bits(engine, duration, width, 3) == narrow,

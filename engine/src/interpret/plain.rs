@@ -246,12 +246,7 @@ impl<T: Real> Task for Steps<'_, T> {
 }
 
 // the lists and their evaluation are those of the tests of machine code
-#[cfg(all(
-    test,
-    target_arch = "x86_64",
-    any(unix, windows),
-    not(bryant_interpret)
-))]
+#[cfg(test)]
 mod tests {
     use super::{Steps, encode};
     use crate::call::Library;

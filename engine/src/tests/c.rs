@@ -6,7 +6,7 @@ use crate::call::Library;
 use bryant_generator::expression::{ApproachCall, Function};
 use bryant_generator::program::{Curve, Input, List, Operation, Value};
 use bryant_generator::target::c;
-use bryant_generator::target::x86_64::Callee;
+use bryant_generator::target::machine::Callee;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

@@ -4,7 +4,8 @@ use super::emulator::{Call, Machine, Region};
 use super::evaluate::{Given, called, curves, results};
 use super::random::{INPUTS, Mix, Random, list};
 use bryant_generator::program::List;
-use bryant_generator::target::x86_64::{Base, Code, Length, Precision, Target, assemble};
+use bryant_generator::target::machine::{Base, Code, Length, Precision};
+use bryant_generator::target::x86_64::{Target, assemble};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
 use bryant_runtime::{Dual, Real, Several, Width};
 

@@ -3,7 +3,7 @@
 use bryant_generator::expression::Function;
 use bryant_generator::model::Extrapolate;
 use bryant_generator::program::{Curve, Input, List, Operation};
-use bryant_generator::target::x86_64::Callee;
+use bryant_generator::target::machine::Callee;
 use bryant_runtime::Real;
 use bryant_runtime::curve::Table;
 use bryant_runtime::force::{belt, contact, friction, power, switch};

@@ -47,12 +47,12 @@ pub(super) trait Numbers {
     type One: Real;
     /// The scalar of [`Width::Plain`].
     type Plain: Several<One = Self::One>;
-    /// The scalar of [`Width::One`] and [`Width::Four`]. A processor of x86-64 that fuses products and sums has registers of four, and a
-    /// lane has the same bits in each: so the time loop is not compiled once more for one lane. Other processors have no such registers; there it is
-    /// one lane.
-    type Four: Several<One = Self::One>;
+    /// The scalar of [`Width::One`], [`Width::Two`] and [`Width::Four`]. A processor of x86-64 that fuses products and sums has registers of four, a
+    /// 64-bit ARM registers of two, and a lane has the same bits in each: so the time loop is not compiled once more for one lane. Other processors have
+    /// no such registers; there it is one lane.
+    type Narrow: Several<One = Self::One>;
     /// The scalar of [`Width::Eight`]; where no processor has such registers, that of [`Width::One`].
-    type Eight: Several<One = Self::One>;
+    type Wide: Several<One = Self::One>;
     /// The schedule of one lane, if numbers have a derivative.
     fn one(family: &impl Family) -> Option<Box<dyn Schedule<Self::One> + '_>>;
 }
@@ -65,28 +65,37 @@ pub(super) struct Singles;
 pub(super) struct Duals<N>(N);
 
 #[cfg(target_arch = "x86_64")]
-mod wide {
+mod registers {
     use crate::real::lanes::{Avx2, Avx2Singles, Avx512, Avx512Singles, Lanes};
-    pub type Four = Lanes<Avx2>;
-    pub type Eight = Lanes<Avx512>;
-    pub type FourOfSingles = Lanes<Avx2Singles>;
-    pub type EightOfSingles = Lanes<Avx512Singles>;
+    pub type Narrow = Lanes<Avx2>;
+    pub type Wide = Lanes<Avx512>;
+    pub type NarrowOfSingles = Lanes<Avx2Singles>;
+    pub type WideOfSingles = Lanes<Avx512Singles>;
 }
 
-#[cfg(not(target_arch = "x86_64"))]
-mod wide {
+#[cfg(target_arch = "aarch64")]
+mod registers {
+    use crate::real::lanes::{Lanes, Neon, NeonSingles};
+    pub type Narrow = Lanes<Neon>;
+    pub type Wide = Narrow;
+    pub type NarrowOfSingles = Lanes<NeonSingles>;
+    pub type WideOfSingles = NarrowOfSingles;
+}
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod registers {
     use crate::real::lanes::{Alone, Lanes};
-    pub type Four = Lanes<Alone<f64, true>>;
-    pub type Eight = Four;
-    pub type FourOfSingles = Lanes<Alone<f32, true>>;
-    pub type EightOfSingles = FourOfSingles;
+    pub type Narrow = Lanes<Alone<f64, true>>;
+    pub type Wide = Narrow;
+    pub type NarrowOfSingles = Lanes<Alone<f32, true>>;
+    pub type WideOfSingles = NarrowOfSingles;
 }
 
 impl Numbers for Doubles {
     type One = f64;
     type Plain = Lanes<Alone<f64, false>>;
-    type Four = wide::Four;
-    type Eight = wide::Eight;
+    type Narrow = registers::Narrow;
+    type Wide = registers::Wide;
     fn one(_: &impl Family) -> Option<Box<dyn Schedule<f64> + '_>> {
         None
     }
@@ -95,8 +104,8 @@ impl Numbers for Doubles {
 impl Numbers for Singles {
     type One = f32;
     type Plain = Lanes<Alone<f32, false>>;
-    type Four = wide::FourOfSingles;
-    type Eight = wide::EightOfSingles;
+    type Narrow = registers::NarrowOfSingles;
+    type Wide = registers::WideOfSingles;
     fn one(_: &impl Family) -> Option<Box<dyn Schedule<f32> + '_>> {
         None
     }
@@ -105,8 +114,8 @@ impl Numbers for Singles {
 impl<N: Numbers> Numbers for Duals<N> {
     type One = Dual<N::One>;
     type Plain = Dual<N::Plain>;
-    type Four = Dual<N::Four>;
-    type Eight = Dual<N::Eight>;
+    type Narrow = Dual<N::Narrow>;
+    type Wide = Dual<N::Wide>;
     fn one(family: &impl Family) -> Option<Box<dyn Schedule<Dual<N::One>> + '_>> {
         Some(family.schedule())
     }
@@ -115,8 +124,8 @@ impl<N: Numbers> Numbers for Duals<N> {
 /// Models over the registers of every width. Whoever calls a function of a width has asked [`Width::there`].
 pub(super) trait Source<N: Numbers> {
     fn plain(&self) -> Models<'_, N::Plain>;
-    fn four(&self) -> Models<'_, N::Four>;
-    fn eight(&self) -> Models<'_, N::Eight>;
+    fn narrow(&self) -> Models<'_, N::Narrow>;
+    fn wide(&self) -> Models<'_, N::Wide>;
 }
 
 impl<N: Numbers, F: Family> Source<N> for F {
@@ -124,11 +133,11 @@ impl<N: Numbers, F: Family> Source<N> for F {
         Models::new(self, N::one(self))
     }
 
-    fn four(&self) -> Models<'_, N::Four> {
+    fn narrow(&self) -> Models<'_, N::Narrow> {
         Models::new(self, N::one(self))
     }
 
-    fn eight(&self) -> Models<'_, N::Eight> {
+    fn wide(&self) -> Models<'_, N::Wide> {
         Models::new(self, N::one(self))
     }
 }
@@ -149,7 +158,7 @@ pub(super) fn with_models<N: Numbers, W: OfModels<N::One>>(
 ) -> Option<W::Output> {
     width.there().then(|| match width {
         Width::Plain => task.run(source.plain()),
-        Width::One | Width::Four => task.run(source.four()),
-        Width::Eight => task.run(source.eight()),
+        Width::One | Width::Two | Width::Four => task.run(source.narrow()),
+        Width::Eight => task.run(source.wide()),
     })
 }

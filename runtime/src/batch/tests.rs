@@ -288,7 +288,7 @@ fn a_event_function_that_jumps_where_a_lane_stands_does_not_stop_it() {
             max_steps: 200_000,
             ..settings(pace)
         };
-        for width in [Width::One, Width::Four, Width::Eight] {
+        for width in [Width::One, Width::Two, Width::Four, Width::Eight] {
             let doubles = with_width(width, Ledges(&settings));
             let singles = with_width_of_singles(width, Ledges(&settings));
             for ended in doubles.into_iter().chain(singles).flatten() {
@@ -348,7 +348,7 @@ fn lanes_equal_scalar() {
     let steps = || Method::ALL.into_iter().map(|method| fixed(method, 1e-3));
     for settings in steps().chain([adaptive()]) {
         let narrow = with_width(Width::One, Values(&settings, scenarios(37)));
-        for width in [Width::Four, Width::Eight] {
+        for width in [Width::Two, Width::Four, Width::Eight] {
             let wide = with_width(width, Values(&settings, scenarios(37)));
             if let (Some(wide), Some(narrow)) = (wide, &narrow) {
                 assert_eq!(bits(&wide), bits(narrow), "{width:?}");
@@ -357,7 +357,7 @@ fn lanes_equal_scalar() {
     }
     for settings in steps().chain([coarse()]) {
         let narrow = with_width_of_singles(Width::One, Values(&settings, scenarios(37)));
-        for width in [Width::Four, Width::Eight] {
+        for width in [Width::Two, Width::Four, Width::Eight] {
             let wide = with_width_of_singles(width, Values(&settings, scenarios(37)));
             if let (Some(wide), Some(narrow)) = (wide, &narrow) {
                 assert_eq!(bits(&wide), bits(narrow), "singles, {width:?}");

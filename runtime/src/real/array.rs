@@ -5,11 +5,11 @@
 //! side. Each column has the bits that `Dual<f64>` gives. They need no special instructions, and use wide ones where these exist. Machine code works on
 //! them in whole registers ([`Layout`](super::Layout)).
 //!
-//! On x86-64, tasks over an array are compiled for processors that hold it in one register, and for no others: ask [`Array4::there`] and
-//! [`Array8::there`] before.
+//! On x86-64, tasks over an array of four or eight are compiled for processors that hold it in one register, and for no others: ask
+//! [`Array4::there`] and [`Array8::there`] before. Every processor runs tasks over two.
 
 #[cfg(target_arch = "x86_64")]
-use super::lanes::{Avx2, Avx512, Instructions};
+use super::lanes::{Alone, Avx2, Avx512, Instructions};
 use super::{Base, Form, Mask, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -94,7 +94,7 @@ macro_rules! operator {
 
 /// A scalar of several doubles, aligned like the register that holds it.
 macro_rules! array {
-    ($(#[$text:meta])* $name:ident, $lanes:literal, $align:literal, $instructions:ident) => {
+    ($(#[$text:meta])* $name:ident, $lanes:literal, $align:literal, $instructions:ty) => {
         $(#[$text])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[repr(C, align($align))]
@@ -125,7 +125,7 @@ macro_rules! array {
             #[must_use]
             pub fn there() -> bool {
                 #[cfg(target_arch = "x86_64")]
-                return $instructions::there();
+                return <$instructions>::there();
                 #[cfg(not(target_arch = "x86_64"))]
                 return true;
             }
@@ -142,7 +142,7 @@ macro_rules! array {
             fn dispatch<W: Task>(task: W) -> W::Output {
                 assert!(Self::there(), "registers that this processor does not have");
                 #[cfg(target_arch = "x86_64")]
-                return $instructions::dispatch(task);
+                return <$instructions>::dispatch(task);
                 #[cfg(not(target_arch = "x86_64"))]
                 return task.run();
             }
@@ -234,6 +234,10 @@ macro_rules! array {
 }
 
 array!(
+    /// Two doubles.
+    Array2, 2, 16, Alone<f64, false>
+);
+array!(
     /// Four doubles.
     Array4, 4, 32, Avx2
 );
@@ -244,7 +248,7 @@ array!(
 
 #[cfg(test)]
 mod tests {
-    use super::{Array4, Array8};
+    use super::{Array2, Array4, Array8};
     use crate::real::{Dual, Mask, Real};
 
     /// Numbers of many kinds.
@@ -333,6 +337,11 @@ mod tests {
                         value: Array4(core::array::from_fn(|l| lane(l)[k].value)),
                         slope: Array4(core::array::from_fn(|l| lane(l)[k].slope)),
                     });
+                    let two = [0, 1, 2].map(|k| Dual {
+                        value: Array2(core::array::from_fn(|l| lane(l)[k].value)),
+                        slope: Array2(core::array::from_fn(|l| lane(l)[k].slope)),
+                    });
+                    let two = F::of(two[0], two[1], two[2]);
                     let eight = F::of(eight[0], eight[1], eight[2]);
                     let four = F::of(four[0], four[1], four[2]);
                     for l in 0..8 {
@@ -344,6 +353,9 @@ mod tests {
                             alone,
                             "{name}"
                         );
+                        if l < 2 {
+                            assert_eq!([two.value.0[l], two.slope.0[l]].map(bits), alone, "{name}");
+                        }
                         if l < 4 {
                             assert_eq!(
                                 [four.value.0[l], four.slope.0[l]].map(bits),

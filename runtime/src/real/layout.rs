@@ -1,6 +1,6 @@
 //! The layout of a scalar in memory.
 
-use super::{Array4, Array8, Dual, Real};
+use super::{Array2, Array4, Array8, Dual, Real};
 use core::any::TypeId;
 
 /// The layout of a scalar that machine code can work on: numbers side by side in memory, followed, for a dual number, by the same for its slopes.
@@ -17,7 +17,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout of `f64`, `f32`, [`Array4`], [`Array8`], of the registers of [`lanes`](super::lanes), and of [`Dual`] over these; `None` for
+    /// The layout of `f64`, `f32`, [`Array2`], [`Array4`], [`Array8`], of the registers of [`lanes`](super::lanes), and of [`Dual`] over these; `None` for
     /// any other scalar.
     ///
     /// Every operation of these scalars, except the elementary functions, is an operation of IEEE 754 in each lane.
@@ -30,6 +30,7 @@ impl Layout {
         };
         (numbers(1, false).if_over::<T, f64>())
             .or_else(|| numbers(1, true).if_over::<T, f32>())
+            .or_else(|| numbers(2, false).if_over::<T, Array2>())
             .or_else(|| numbers(4, false).if_over::<T, Array4>())
             .or_else(|| numbers(8, false).if_over::<T, Array8>())
             .or_else(super::lanes::layout::<T>)
@@ -45,7 +46,7 @@ impl Layout {
 
 #[cfg(test)]
 mod tests {
-    use super::{Array4, Array8, Layout};
+    use super::{Array2, Array4, Array8, Layout};
     use crate::real::lanes::{OfAnyWidth, Several, with_width, with_width_of_singles};
     use crate::{Dual, Real, Width};
 
@@ -91,6 +92,10 @@ mod tests {
         let all = all.map(Option::unwrap);
         assert_eq!(all.map(|layout| layout.fused), [false; 4]);
         assert_eq!(all.map(|layout| layout.single), [false, true, false, false]);
+        assert_eq!(
+            Layout::of::<Array2>().map(|two| (8 * two.lanes, two.fused)),
+            Some((size_of::<Array2>(), false))
+        );
         assert_eq!(all[2].lanes * 8, size_of::<Array4>());
         assert_eq!(all[3].lanes * 8, size_of::<Array8>());
         let pair = Layout::of::<Dual<Array8>>().unwrap();

@@ -19,6 +19,27 @@ pub trait Plain: Sized {
     fn powf(self, power: Self) -> Self;
 }
 
+/// The same number, of which the compiler does not know where it comes from.
+///
+/// For 64-bit ARM, LLVM makes −(a b + c) one instruction, FNMADD. But that computes −(a b) − c, which is 0 instead of −0 where a b and c cancel. So a
+/// negation must not see that its operand is such a sum. This takes no instruction.
+#[cfg(target_arch = "aarch64")]
+macro_rules! unknown {
+    ($number:ident) => {{
+        let mut number = $number;
+        // SAFETY: there is no instruction, only a comment.
+        #[allow(unsafe_code, reason = "the compiler must not know a number")]
+        unsafe {
+            core::arch::asm!(
+                "/* {0:v} */",
+                inout(vreg) number,
+                options(pure, nomem, nostack, preserves_flags)
+            );
+        }
+        number
+    }};
+}
+
 /// Implements [`Plain`], given the names of functions of `libm`.
 macro_rules! plain {
     ($float:ident, $sqrt:ident, $fma:ident) => {
@@ -35,9 +56,12 @@ macro_rules! plain {
             #[allow(clippy::disallowed_methods, reason = "it is asked for by name")]
             fn fused(self, a: Self, b: Self) -> Self {
                 #[cfg(any(feature = "std", test))]
-                return $float::mul_add(self, a, b);
+                let sum = $float::mul_add(self, a, b);
                 #[cfg(not(any(feature = "std", test)))]
-                return libm::$fma(self, a, b);
+                let sum = libm::$fma(self, a, b);
+                #[cfg(target_arch = "aarch64")]
+                let sum = unknown!(sum);
+                sum
             }
 
             #[inline]

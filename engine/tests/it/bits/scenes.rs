@@ -304,7 +304,7 @@ fn rows_have_the_same_bits_in_every_width() {
         let rows: Vec<f64> = (0..11)
             .map(|row| start * (0.9 + 0.02 * f64::from(row)))
             .collect();
-        let widths = [Width::One, Width::Four, Width::Eight];
+        let widths = [Width::One, Width::Two, Width::Four, Width::Eight];
         let done = widths
             .into_iter()
             .filter(|width| width.there())

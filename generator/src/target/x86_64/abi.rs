@@ -1,53 +1,10 @@
-//! The calling convention, and the memory of a function.
+//! The calling convention: functions and those that they call are `extern "sysv64"`.
 //!
-//! The function is `extern "sysv64" fn(*const Pointers)`. [`Pointers`](Base) is a struct of pointers, one for each [`Base`], in their order. The
-//! pointers that a function needs are kept in general registers. If there are more pointers than registers, the others are read from the struct at
-//! each use.
-//!
-//! A called function has the signature `extern "sysv64" fn(context: *const (), arguments: *const S, results: *mut S)`. The functions of a list are a
-//! table of pairs of pointers: the function, then its context.
+//! The pointers that a function needs are kept in general registers. If there are more pointers than registers, the others are read from the struct
+//! of pointers at each use.
 
 use super::encode::{Encoder, General, Memory};
-
-/// A region of memory of a function, in the order of the pointers. All regions except the last consist of slots of one scalar each. If one of two
-/// regions is written, they must not overlap.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u8)]
-pub enum Base {
-    /// t, one slot.
-    Time,
-    /// The state y.
-    State,
-    /// Accelerations.
-    Accelerations,
-    /// Event functions.
-    EventFunctions,
-    /// Parameters of the model.
-    Parameters,
-    /// Values that depend on parameters alone.
-    Derived,
-    /// Results, which are written.
-    Results,
-    /// Working memory of the function, which is written.
-    Frame,
-    /// The functions that are called, each as a pair of pointers.
-    Functions,
-}
-
-impl Base {
-    /// All of them, in order.
-    pub const ALL: [Base; 9] = [
-        Base::Time,
-        Base::State,
-        Base::Accelerations,
-        Base::EventFunctions,
-        Base::Parameters,
-        Base::Derived,
-        Base::Results,
-        Base::Frame,
-        Base::Functions,
-    ];
-}
+use crate::target::machine::Base;
 
 /// Registers that a function may change, except the scratch register and the one with the pointers.
 const FREE: [General; 7] = [

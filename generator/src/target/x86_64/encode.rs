@@ -3,6 +3,9 @@
 //! Instructions on vector registers have a VEX prefix if possible. They have an EVEX prefix with 64-byte registers, with registers 16 to 31, and
 //! where memory is broadcast. The layouts are those of the Intel manual, volume 2, chapter 2.
 
+use crate::target::machine::operation::{Binary, Bitwise, Jump, Place, Signs, Vector};
+use crate::target::machine::shape::{Length, Precision, Shape};
+
 /// A general register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -42,10 +45,6 @@ pub enum General {
     R15 = 15,
 }
 
-/// A vector register, 0 to 31.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Vector(pub u8);
-
 /// A place in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Memory {
@@ -64,96 +63,6 @@ pub enum Operand {
     Memory(Memory),
     /// One number in memory, used in every lane.
     Broadcast(Memory),
-}
-
-/// The part of a register that an instruction works on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Length {
-    /// The lowest number.
-    Scalar,
-    /// 16 bytes.
-    Sixteen,
-    /// 32 bytes.
-    ThirtyTwo,
-    /// 64 bytes.
-    SixtyFour,
-}
-
-/// Doubles or singles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Precision {
-    /// `f64`
-    Double,
-    /// `f32`
-    Single,
-}
-
-impl Precision {
-    /// Size of a number in bytes.
-    pub const fn bytes(self) -> u32 {
-        match self {
-            Precision::Double => 8,
-            Precision::Single => 4,
-        }
-    }
-}
-
-/// The length and precision of an instruction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shape {
-    /// The part of a register that it works on.
-    pub length: Length,
-    /// The numbers that it works on.
-    pub precision: Precision,
-}
-
-impl Shape {
-    /// Number of bytes of memory that it reads or writes.
-    pub const fn bytes(self) -> u32 {
-        match self.length {
-            Length::Scalar => self.precision.bytes(),
-            Length::Sixteen => 16,
-            Length::ThirtyTwo => 32,
-            Length::SixtyFour => 64,
-        }
-    }
-
-    /// The whole register that contains it: moves and bitwise operations of registers work on whole registers.
-    const fn whole(self) -> Shape {
-        match self.length {
-            Length::Scalar => Shape {
-                length: Length::Sixteen,
-                ..self
-            },
-            _ => self,
-        }
-    }
-}
-
-/// An operation of two operands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Binary {
-    /// first + second
-    Add,
-    /// first · second
-    Mul,
-    /// first − second
-    Sub,
-    /// first / second
-    Div,
-    /// The larger one; the second where either is NaN or both are zero.
-    Max,
-    /// The smaller one; the second where either is NaN or both are zero.
-    Min,
-}
-
-/// An operation on bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bitwise {
-    /// Set where both bits are set.
-    And,
-    /// Set where exactly one of the bits is set.
-    Xor,
 }
 
 /// The condition of a comparison. With a NaN it is false or true as stated, and raises no exception.
@@ -185,15 +94,6 @@ pub enum Form {
     F231,
 }
 
-/// The signs in a fused operation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Signs {
-    /// −(a · b) instead of a · b
-    pub product: bool,
-    /// − c instead of + c
-    pub addend: bool,
-}
-
 /// Everything that identifies an instruction on vector registers, except its operands.
 #[derive(Clone, Copy)]
 struct Opcode {
@@ -210,14 +110,6 @@ struct Opcode {
     /// The unit of an EVEX displacement, if memory is broadcast.
     element: u32,
 }
-
-/// A place in the code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place(usize);
-
-/// A jump whose displacement must still be filled in; it contains the position of the displacement.
-#[derive(Debug)]
-pub struct Jump(usize);
 
 /// A displacement to the constants that must still be filled in.
 struct Fixup {

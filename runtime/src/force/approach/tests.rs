@@ -653,7 +653,7 @@ fn neighbours_change_no_bit() {
         let Some(alone) = run(&mixed, Width::One) else {
             return;
         };
-        for width in [Width::Four, Width::Eight] {
+        for width in [Width::Two, Width::Four, Width::Eight] {
             let Some(beside) = run(&mixed, width) else {
                 continue;
             };

@@ -3,7 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `register` | the operations of a register; each width implements them |
-//! | `avx512`, `avx2`, `alone` | eight doubles, four, one; sixteen singles, eight, one |
+//! | `avx512`, `avx2`, `neon`, `alone` | eight doubles, four, two, one; sixteen singles, eight, four, one |
 //! | `elementary` | the elementary functions, over any register |
 //! | `several` | the operations on lanes that the time loop of a batch needs |
 //!
@@ -23,6 +23,8 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 pub(super) mod elementary;
+#[cfg(target_arch = "aarch64")]
+mod neon;
 mod register;
 mod several;
 #[cfg(test)]
@@ -33,6 +35,8 @@ pub(crate) use alone::Alone;
 pub(crate) use avx2::{Avx2, Avx2Singles};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::{Avx512, Avx512Singles};
+#[cfg(target_arch = "aarch64")]
+pub(crate) use neon::{Neon, NeonSingles};
 pub use register::MOST_LANES;
 pub(crate) use register::{Instructions, Register};
 pub use several::Several;
@@ -58,6 +62,8 @@ pub enum Width {
     Plain,
     /// One double, with fused multiply-adds. On x86-64 the processor must have them; processors of other kinds that lack them call a function.
     One,
+    /// Two doubles: 64-bit ARM (NEON).
+    Two,
     /// Four doubles: AVX2.
     Four,
     /// Eight doubles: AVX-512.
@@ -66,13 +72,20 @@ pub enum Width {
 
 impl Width {
     /// All of them, the narrowest first.
-    pub const ALL: [Width; 4] = [Width::Plain, Width::One, Width::Four, Width::Eight];
+    pub const ALL: [Width; 5] = [
+        Width::Plain,
+        Width::One,
+        Width::Two,
+        Width::Four,
+        Width::Eight,
+    ];
 
     /// Whether this processor has such registers.
     pub fn there(self) -> bool {
         match self {
             Width::Plain => true,
             Width::One => Alone::<f64, true>::there(),
+            Width::Two => cfg!(target_arch = "aarch64"),
             #[cfg(target_arch = "x86_64")]
             Width::Four => Avx2::there(),
             #[cfg(target_arch = "x86_64")]
@@ -86,6 +99,7 @@ impl Width {
     pub const fn lanes(self) -> usize {
         match self {
             Width::Plain | Width::One => 1,
+            Width::Two => 2,
             Width::Four => 4,
             Width::Eight => 8,
         }
@@ -95,6 +109,7 @@ impl Width {
     pub const fn lanes_of_singles(self) -> usize {
         match self {
             Width::Plain | Width::One => 1,
+            Width::Two => 4,
             Width::Four => 8,
             Width::Eight => 16,
         }
@@ -110,6 +125,7 @@ impl Width {
         match self {
             Width::Plain => "plain",
             Width::One => "1",
+            Width::Two => "2",
             Width::Four => "4",
             Width::Eight => "8",
         }
@@ -144,6 +160,10 @@ pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
     Some(match width {
         Width::Plain => task.run::<Lanes<Alone<f64, false>>>(),
         Width::One => task.run::<Lanes<Alone<f64, true>>>(),
+        #[cfg(target_arch = "aarch64")]
+        Width::Two => task.run::<Lanes<Neon>>(),
+        #[cfg(not(target_arch = "aarch64"))]
+        Width::Two => return None,
         #[cfg(target_arch = "x86_64")]
         Width::Four => task.run::<Lanes<Avx2>>(),
         #[cfg(target_arch = "x86_64")]
@@ -168,6 +188,10 @@ pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Optio
     Some(match width {
         Width::Plain => task.run::<Lanes<Alone<f32, false>>>(),
         Width::One => task.run::<Lanes<Alone<f32, true>>>(),
+        #[cfg(target_arch = "aarch64")]
+        Width::Two => task.run::<Lanes<NeonSingles>>(),
+        #[cfg(not(target_arch = "aarch64"))]
+        Width::Two => return None,
         #[cfg(target_arch = "x86_64")]
         Width::Four => task.run::<Lanes<Avx2Singles>>(),
         #[cfg(target_arch = "x86_64")]
@@ -198,7 +222,9 @@ pub(super) fn layout<T: Real>() -> Option<Layout> {
         .or(is::<T, Avx2Singles>(true))
         .or(is::<T, Avx512>(true))
         .or(is::<T, Avx512Singles>(true));
-    #[cfg(not(target_arch = "x86_64"))]
+    #[cfg(target_arch = "aarch64")]
+    let wide = is::<T, Neon>(true).or(is::<T, NeonSingles>(true));
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     let wide = None;
     alone.or(wide)
 }

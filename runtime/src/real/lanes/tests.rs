@@ -131,7 +131,7 @@ fn all_widths_give_the_same_bits() {
 
 fn all_alike(what: &str, of: impl Fn(Width) -> Option<Vec<[u64; FUNCTIONS]>>) {
     let one = of(Width::One);
-    for width in [Width::Four, Width::Eight] {
+    for width in [Width::Two, Width::Four, Width::Eight] {
         if let (Some(wide), Some(one)) = (of(width), &one) {
             for (i, (wide, one)) in wide.iter().zip(one).enumerate() {
                 assert_eq!(wide, one, "{what}, {width:?}, pair {i}");
@@ -202,6 +202,32 @@ fn products_and_sums_are_rounded_once_where_they_are_fused() {
                 0.0
             };
             assert_eq!(rest, lost, "{width:?}");
+        }
+    }
+}
+
+/// −(a b + c) is −0 where a b and c cancel, and −(a b) − c is 0.
+#[test]
+fn a_sum_that_is_negated_is_computed_before() {
+    struct Cancelled;
+    impl<F: Real> OfAnyWidth<F> for Cancelled {
+        type Output = [bool; 2];
+        fn run<T: Several<One = F>>(self) -> [bool; 2] {
+            let [a, b, c] = [3.0, 2.0, -6.0].map(|x| T::from_f64(std::hint::black_box(x)));
+            // 1/±0
+            let inverse = |zero: T| (T::from_f64(1.0) / zero).lane(0).to_f64();
+            [-a.mul_add(b, c), (-a).mul_add(b, -c)].map(|zero| inverse(zero) < 0.0)
+        }
+    }
+    for width in Width::ALL {
+        for negative in [
+            with_width(width, Cancelled),
+            with_width_of_singles(width, Cancelled),
+        ] {
+            assert!(
+                negative.is_none_or(|negative| negative == [true, false]),
+                "{width:?}"
+            );
         }
     }
 }

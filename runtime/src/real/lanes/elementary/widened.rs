@@ -5,6 +5,8 @@
 //! only in the last rounding.
 
 use super::Elementary;
+#[cfg(target_arch = "aarch64")]
+use crate::real::lanes::NeonSingles;
 use crate::real::lanes::alone::Alone;
 use crate::real::lanes::register::{Doubles, Singles};
 #[cfg(target_arch = "x86_64")]
@@ -79,3 +81,5 @@ by_doubles!(Alone<f32, true>);
 by_doubles!(Avx2Singles);
 #[cfg(target_arch = "x86_64")]
 by_doubles!(Avx512Singles);
+#[cfg(target_arch = "aarch64")]
+by_doubles!(NeonSingles);

@@ -1,22 +1,33 @@
-//! Machine code in memory, with calls into it and out of it. All `unsafe` code of this crate is here.
+//! Calls into machine code and out of it. All `unsafe` code of this crate is here and in `memory`.
 //!
 //! Only [`assemble`] in this file makes code, so no other bytes can be run. The code reads and writes only the slots that it is given, and says how
-//! many these are. The tests run it on an emulated processor that checks every access.
+//! many these are. The tests run that of x86-64 on an emulated processor that checks every access.
 
 #![expect(
     unsafe_code,
     reason = "machine code is run, and functions are handed to it by address"
 )]
 
+use super::memory::Executable;
+use super::processor::{Target, assemble};
 use crate::call;
 use crate::execute::Given;
 use bryant_generator::expression::Function;
 use bryant_generator::program::{Curve, List};
-use bryant_generator::target::x86_64::{Base, Callee, Code, Target, assemble};
+use bryant_generator::target::machine::{Base, Callee, Code};
 use bryant_runtime::Real;
-use memmap2::{Mmap, MmapMut};
 use std::cell::Cell;
 use std::ffi::c_void;
+
+/// A function, or its type, with the calling convention of code.
+#[cfg(target_arch = "x86_64")]
+macro_rules! convention {
+    ($($function:tt)*) => { extern "sysv64" $($function)* };
+}
+#[cfg(not(target_arch = "x86_64"))]
+macro_rules! convention {
+    ($($function:tt)*) => { extern "C" $($function)* };
+}
 
 /// A function that a list calls.
 pub trait Call<T> {
@@ -55,7 +66,7 @@ struct Called<C> {
 
 /// A list as machine code over a scalar that consists of numbers side by side. `C` is the type of the functions that it calls.
 pub struct Compiled<T, C> {
-    memory: Mmap,
+    memory: Executable,
     /// The number of slots of each region.
     slots: [u32; Base::ALL.len()],
     entries: Vec<Entry>,
@@ -70,14 +81,14 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
     /// scalar. `None` where memory cannot be made executable.
     ///
     /// # Panics
-    /// If `target` is not that of the scalar, which [`native`](crate::native) finds.
+    /// If `target` is not that of the scalar, which [`target`](super::target) finds.
     pub(crate) fn new(
         list: &List,
         curves: &[Curve],
         target: &Target,
         mut function: impl FnMut(Function) -> C,
     ) -> Option<Self> {
-        assert_eq!(crate::native::target::<T>().as_ref(), Some(target));
+        assert_eq!(super::target::<T>().as_ref(), Some(target));
         let Code {
             bytes,
             callees,
@@ -105,7 +116,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
             });
         }
         Some(Compiled {
-            memory: executable(&bytes)?,
+            memory: Executable::new(&bytes)?,
             slots,
             entries,
             _called: called,
@@ -152,7 +163,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
         // and writes only the slots that it declares, and these exist: the lengths are checked above. Results and frame are exclusive. Every bit
         // pattern of numbers is a T.
         unsafe {
-            let function: extern "sysv64" fn(*const Pointers<T>) =
+            let function: convention!(fn(*const Pointers<T>)) =
                 std::mem::transmute(self.memory.as_ptr());
             function(&raw const pointers);
         }
@@ -169,15 +180,8 @@ impl<T, C> std::fmt::Debug for Compiled<T, C> {
     }
 }
 
-/// Memory with this content that may be executed but not written. It is written before it becomes executable.
-fn executable(bytes: &[u8]) -> Option<Mmap> {
-    let mut memory = MmapMut::map_anon(bytes.len()).ok()?;
-    memory.copy_from_slice(bytes);
-    memory.make_exec().ok()
-}
-
 /// A function that needs no context.
-fn direct<T>(function: extern "sysv64" fn(*const c_void, *const T, *mut T)) -> Entry {
+fn direct<T>(function: convention!(fn(*const c_void, *const T, *mut T))) -> Entry {
     Entry {
         function: function as *const c_void,
         context: std::ptr::null(),
@@ -186,31 +190,33 @@ fn direct<T>(function: extern "sysv64" fn(*const c_void, *const T, *mut T)) -> E
 
 // Code calls the following three functions. A panic does not pass through code: `extern` functions end the process instead.
 
-extern "sysv64" fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
-    // SAFETY: code passes one argument and room for two results.
-    unsafe {
-        let (sine, cosine) = call::sin_cos(*arguments);
-        *results = sine;
-        *results.add(1) = cosine;
+convention! {
+    fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
+        // SAFETY: code passes one argument and room for two results.
+        unsafe {
+            let (sine, cosine) = call::sin_cos(*arguments);
+            *results = sine;
+            *results.add(1) = cosine;
+        }
     }
 }
 
-extern "sysv64" fn atan2<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
-    // SAFETY: code passes two arguments and room for one result.
-    unsafe { *results = T::dispatch(call::Atan2(*arguments, *arguments.add(1))) };
+convention! {
+    fn atan2<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
+        // SAFETY: code passes two arguments and room for one result.
+        unsafe { *results = T::dispatch(call::Atan2(*arguments, *arguments.add(1))) };
+    }
 }
 
-extern "sysv64" fn any<T: Real, C: Call<T>>(
-    context: *const c_void,
-    arguments: *const T,
-    results: *mut T,
-) {
-    // SAFETY: the context is the `Called` that stands beside this function in the table, and lives as long as the code. Code passes as many arguments
-    // as the function has, and room for its results, which do not overlap. All are initialised, because the frame and all slices are.
-    unsafe {
-        let called = &*context.cast::<Called<C>>();
-        let arguments = std::slice::from_raw_parts(arguments, called.arguments);
-        let results = std::slice::from_raw_parts_mut(results, called.results);
-        called.function.call(arguments, results);
+convention! {
+    fn any<T: Real, C: Call<T>>(context: *const c_void, arguments: *const T, results: *mut T) {
+        // SAFETY: the context is the `Called` that stands beside this function in the table, and lives as long as the code. Code passes as many
+        // arguments as the function has, and room for its results, which do not overlap. All are initialised, because the frame and all slices are.
+        unsafe {
+            let called = &*context.cast::<Called<C>>();
+            let arguments = std::slice::from_raw_parts(arguments, called.arguments);
+            let results = std::slice::from_raw_parts_mut(results, called.results);
+            called.function.call(arguments, results);
+        }
     }
 }

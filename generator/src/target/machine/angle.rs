@@ -3,8 +3,8 @@
 //! The steps follow the runtime (`runtime/src/real/lanes/elementary/angle.rs`, which explains them) operation by operation, so they give the same
 //! bits. Points so near or far that reciprocals leave the range of numbers are rare; they take a branch to the function of the runtime: see `rare`.
 
-use super::encode::{Binary, Bitwise};
 use super::numbers::Signed;
+use super::operation::{Binary, Bitwise};
 use super::steps::{Callee, Lowering};
 use super::terms::Term;
 

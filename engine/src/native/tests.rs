@@ -1,14 +1,14 @@
 //! Tests on this processor.
 
-use super::evaluate::{Given, called, curves, results};
-use super::random::{INPUTS, Mix, Random, list};
+use super::{Call, Compiled, compile, target};
 use crate::execute::Given as Point;
-use crate::native::{Call, Compiled, compile, target};
+use crate::tests::evaluate::{Given, called, curves, results};
+use crate::tests::random::{INPUTS, Mix, Random, list};
 use bryant_generator::expression::Function;
 use bryant_generator::program::List;
-use bryant_generator::target::x86_64::Callee;
+use bryant_generator::target::machine::Callee;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width, with_width_of_singles};
-use bryant_runtime::real::{Array4, Array8};
+use bryant_runtime::real::{Array2, Array4, Array8};
 use bryant_runtime::{DoubleDouble, Dual, Real, Several, Width};
 
 /// How to make a scalar from numbers, and how to read it.
@@ -182,6 +182,115 @@ fn scalar<T: Real>(probe: Probe<T>) -> bool {
     true
 }
 
+/// How many inputs, constants, results and values that live for long are in a long list: more than instructions can address, where they hold an offset.
+const MANY: u32 = 5000;
+
+/// A list of more than 2²⁰ bytes of code, with a rare number and calls at the beginning.
+fn long() -> List {
+    use bryant_generator::expression::UserCall;
+    use bryant_generator::program::{Input, Operation, Value};
+
+    let random = &mut Random::new(11);
+    let mut list = List {
+        constants: (0..MANY)
+            .map(|i| f64::from(i) / f64::from(2 * MANY))
+            .collect(),
+        inputs: (0..MANY).map(Input::State).collect(),
+        ..List::default()
+    };
+    let state = |i: u32| Value(MANY + i % MANY);
+    let mut next = 2 * MANY;
+    list.operations.push(Operation::SinCos(state(0)));
+    list.results.extend([Value(next), Value(next + 1)]);
+    next += 2;
+    for force in 0..40 {
+        let user = UserCall {
+            force,
+            arguments: 1,
+            part: 0,
+            parts: 1,
+        };
+        list.operations.push(Operation::Call {
+            function: Function::User(user),
+            first: list.arguments.len() as u32,
+        });
+        list.arguments.push(state(force.into()));
+        list.results.push(Value(next));
+        next += 1;
+    }
+    let first = next;
+    for i in 0..MANY {
+        let sum = Operation::MulAdd(state(i), Value(i), state(i + 1));
+        list.operations.push(sum);
+        next += 1;
+    }
+    for _ in 0..100_000 {
+        let factor = Value(random.below(MANY as usize) as u32);
+        let addend = Value(first + random.below(MANY as usize) as u32);
+        let sum = Operation::MulAdd(Value(next - 1), factor, addend);
+        list.operations.push(sum);
+        next += 1;
+    }
+    list.results.push(Value(next - 1));
+    for i in 0..MANY {
+        let sum = Operation::Add(Value(first + i), Value(first + MANY - 1 - i));
+        list.operations.push(sum);
+        list.results.push(Value(next));
+        next += 1;
+    }
+    list
+}
+
+/// Checks a long list, if there is code for this scalar.
+fn check_long<T: Real>(probe: Probe<T>) {
+    if target::<T>().is_none() {
+        return;
+    }
+    let list = long();
+    let code = compile::<T, _>(&list, &curves(), Tested).expect("memory may be executable");
+    assert!(code.bytes() > 1 << 20, "{}", code.bytes());
+    let random = &mut Random::new(12);
+    let mut given = Given {
+        time: probe.random(random, false),
+        state: (0..MANY).map(|_| probe.random(random, false)).collect(),
+        accelerations: Vec::new(),
+        event_functions: Vec::new(),
+        parameters: Vec::new(),
+        derived: Vec::new(),
+    };
+    check(probe, &list, &code, &given);
+    // an angle that is rare
+    given.state[0] = (probe.of)(&[1e5; MOST_LANES]);
+    check(probe, &list, &code, &given);
+}
+
+struct LongInLanes;
+
+impl<F: Real> OfAnyWidth<F> for LongInLanes {
+    type Output = ();
+    fn run<T: Several<One = F>>(self) {
+        check_long(lanes::<T>());
+    }
+}
+
+#[test]
+fn code_may_be_longer_than_branches_and_offsets_reach() {
+    check_long(Probe {
+        of: |numbers| numbers[0],
+        bits: |value: f64| vec![bits(value)],
+    });
+    check_long(Probe {
+        of: |numbers| Dual {
+            value: numbers[0],
+            slope: numbers[1],
+        },
+        bits: |dual: Dual<f64>| vec![bits(dual.value), bits(dual.slope)],
+    });
+    with_width(Width::widest(), LongInLanes);
+    with_width_of_singles(Width::widest(), LongInLanes);
+    with_width_of_singles(Width::Plain, LongInLanes);
+}
+
 struct Lanes;
 
 impl<F: Real> OfAnyWidth<F> for Lanes {
@@ -244,6 +353,20 @@ fn numbers() {
         },
     };
     assert!(scalar(columns) || !scalar(array));
+    let columns = Probe {
+        of: |numbers| Dual {
+            value: Array2([numbers[0]; 2]),
+            slope: Array2(*numbers.last_chunk().unwrap()),
+        },
+        bits: |dual: Dual<Array2>| {
+            [dual.value.0, dual.slope.0]
+                .concat()
+                .into_iter()
+                .map(bits)
+                .collect()
+        },
+    };
+    assert_eq!(scalar(columns), scalar::<f64>(double));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 /// Which slots are taken.
 #[derive(Default)]
-pub(super) struct Slots {
+pub(crate) struct Slots {
     /// A bit for each slot, set where it is free.
     free: Vec<u64>,
     /// Index of the first word that may have a free slot.

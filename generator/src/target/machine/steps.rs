@@ -1,8 +1,8 @@
 //! Turns a list into steps of the processor. Each value of the list becomes a term: a number with its sign and, over dual numbers, its slope.
 
-use super::Target;
-use super::encode::{Binary, Bitwise, Length, Precision, Signs};
 use super::numbers::{Numbers, Signed};
+use super::operation::{Binary, Bitwise, Signs};
+use super::shape::{Length, Precision, Values};
 use super::terms::Term;
 use crate::expression::Function;
 use crate::program::{Curve, Input, List, Operation, Value};
@@ -21,7 +21,7 @@ pub enum Callee {
 
 /// The origin of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Origin {
+pub(crate) enum Origin {
     Constant(f64),
     /// An input, or its slope.
     Input {
@@ -32,7 +32,7 @@ pub(super) enum Origin {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// An operation on the first two operands.
     Binary(Binary),
     /// ±(first · second) ± third
@@ -67,7 +67,7 @@ pub(super) enum Kind {
 
 /// Roughly one instruction. Unused operands repeat the first one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
+pub(crate) struct Step {
     pub kind: Kind,
     pub operands: [u32; 4],
     /// The first value that it defines.
@@ -107,7 +107,7 @@ impl Step {
 
 /// All steps.
 #[derive(Default)]
-pub(super) struct Steps {
+pub(crate) struct Steps {
     /// The origin of each value.
     pub origins: Vec<Origin>,
     pub steps: Vec<Step>,
@@ -120,17 +120,17 @@ pub(super) struct Steps {
 }
 
 /// The steps of a list. Operations that no result depends on are left out.
-pub(super) fn steps(list: &List, curves: &[Curve], target: &Target) -> Steps {
-    let doubles = target.precision == Precision::Double;
+pub(crate) fn steps(list: &List, curves: &[Curve], values: &Values) -> Steps {
+    let doubles = values.shape.precision == Precision::Double;
     let mut lowering = Lowering {
         list,
         curves,
-        slopes: target.slopes,
-        one_lane: target.length == Length::Scalar,
+        slopes: values.slopes,
+        one_lane: values.shape.length == Length::Scalar,
         writes_elementary: doubles,
         of: vec![None; list.values()],
         callees: FxHashMap::default(),
-        numbers: Numbers::new(target.fused),
+        numbers: Numbers::new(values.fused),
     };
     let live = live(list);
     let mut is_result = vec![false; list.values()];
@@ -185,7 +185,7 @@ fn live(list: &List) -> Vec<bool> {
     live
 }
 
-pub(super) struct Lowering<'a> {
+pub(crate) struct Lowering<'a> {
     list: &'a List,
     pub curves: &'a [Curve],
     /// Whether every value has a slope.

@@ -5,13 +5,13 @@
 //! of zeros. The slope of a constant is the constant 0. A product with it stays, because it decides the sign of a zero, and shows that a factor
 //! is not finite. But nothing is added or subtracted that cannot change a bit.
 
-use super::encode::Binary;
 use super::numbers::Signed;
+use super::operation::Binary;
 use super::steps::Lowering;
 
 /// A number, and its slope if slopes are computed.
 #[derive(Clone, Copy)]
-pub(super) struct Term {
+pub(crate) struct Term {
     pub value: Signed,
     pub slope: Option<Signed>,
 }

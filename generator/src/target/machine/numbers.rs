@@ -4,13 +4,13 @@
 //! other signs, and a product or quotient passes the sign on. The sign of a sum is not moved, because −(a + b) and (−a) + (−b) differ in the
 //! sign of zero.
 
-use super::encode::{Binary, Bitwise, Signs};
+use super::operation::{Binary, Bitwise, Signs};
 use super::steps::{Kind, Origin, Step, Steps};
 use rustc_hash::FxHashMap;
 
 /// A value, or its negative.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) struct Signed {
+pub(crate) struct Signed {
     value: u32,
     negative: bool,
 }
@@ -34,7 +34,7 @@ impl Signed {
 }
 
 /// The steps so far, and known facts about their values.
-pub(super) struct Numbers {
+pub(crate) struct Numbers {
     /// Whether a · b + c is rounded once.
     fused: bool,
     /// The negative of a value, if it already exists.

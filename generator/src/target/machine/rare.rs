@@ -5,15 +5,15 @@
 //! end. This part stores all registers, calls the function that handles all numbers, and loads all registers again, except those that hold the
 //! results. So the code to which it jumps back need not know of it.
 
-use super::abi::Base;
-use super::emit::{Emitter, Home};
-use super::encode::{Comparison, Jump, Length, Memory, Operand, Place, Vector};
+use super::base::Base;
+use super::emit::{Emitter, Home, Processor};
+use super::operation::{Jump, Place, Vector};
 use super::registers::Set;
 use super::slots::Slots;
 use super::steps::{Kind, Step, Steps};
 
 /// The branches, and the room that they need.
-pub(super) struct Rare {
+pub(crate) struct Rare {
     /// The number of vector registers.
     registers: u32,
     /// First slots in the frame for the arguments of a function, its results, and all registers.
@@ -70,7 +70,7 @@ impl Rare {
     }
 }
 
-impl Emitter<'_> {
+impl<P: Processor> Emitter<'_, P> {
     /// Branches if a size is not below its limit in all lanes. The code continues with the results in their registers.
     pub fn rare(&mut self, step: &Step) {
         let Kind::Rare {
@@ -101,8 +101,8 @@ impl Emitter<'_> {
             keep = keep.with(register);
             registers.push(register);
         }
-        let jump = self.jump_if_rare(size, limit, keep);
-        let back = self.encoder.here();
+        let jump = P::jump_if_rare(self, size, limit, keep);
+        let back = self.processor.here();
         let somewhere = |value: &u32| match self.registers.of(*value) {
             Some(register) => Somewhere::Register(register),
             None => Somewhere::Memory(self.home(*value)),
@@ -126,24 +126,6 @@ impl Emitter<'_> {
         }
     }
 
-    fn jump_if_rare(&mut self, size: Vector, limit: u32, keep: Set) -> Jump {
-        let limit = Memory::Constant(self.constant(limit));
-        let limit = match self.shape.length {
-            Length::SixtyFour => Operand::Broadcast(limit),
-            _ => Operand::Memory(limit),
-        };
-        if self.masks {
-            self.encoder
-                .compare_to_mask(self.shape, Comparison::NotLess, size, limit);
-            self.encoder.jump_if_masked()
-        } else {
-            let scratch = self.make_room(keep);
-            self.encoder
-                .compare(self.shape, Comparison::NotLess, [scratch, size], limit);
-            self.encoder.jump_if_signed(self.shape, scratch)
-        }
-    }
-
     /// The code behind the end of the function: a part for each branch, and before these the parts that branches of one function share.
     pub fn rare_ways(&mut self) {
         let Some(mut rare) = self.rare.take() else {
@@ -153,12 +135,12 @@ impl Emitter<'_> {
         let mut shared: Vec<(u32, Place)> = Vec::new();
         for branch in &branches {
             if shared.iter().all(|(callee, _)| *callee != branch.callee) {
-                shared.push((branch.callee, self.encoder.here()));
+                shared.push((branch.callee, self.processor.here()));
                 self.call_with_all_kept(&rare, branch.callee);
             }
         }
         for branch in branches {
-            self.encoder.land(branch.jump);
+            self.processor.land(branch.jump);
             let slot = |first: u32| (first..).step_by(branch.slots as usize);
             for (slot, number) in slot(rare.given).zip(branch.given) {
                 let register = match number {
@@ -173,33 +155,32 @@ impl Emitter<'_> {
             }
             for (callee, place) in &shared {
                 if *callee == branch.callee {
-                    self.encoder.call_place(*place);
+                    self.processor.call_place(*place);
                 }
             }
             for (slot, register) in slot(rare.results).zip(branch.results) {
                 self.load_from(Base::Frame, slot, register);
             }
-            self.encoder.jump_to(branch.back);
+            self.processor.jump_to(branch.back);
         }
     }
 
     /// Calls a function and restores all vector registers.
     fn call_with_all_kept(&mut self, rare: &Rare, callee: u32) {
-        for (slot, register) in rare.kept() {
-            self.store_to(Base::Frame, slot, register);
+        let kept: Vec<(u32, Vector)> = rare
+            .kept()
+            .filter(|(_, register)| self.processor.changed(*register))
+            .collect();
+        for (slot, register) in &kept {
+            self.store_to(Base::Frame, *slot, *register);
         }
-        if self.shape.length.is_wide() {
-            self.encoder.zero_upper();
-        }
-        // the called function must find the stack at a multiple of 16, and this part was itself called
-        self.encoder.lower_stack(8);
         let [given, results] =
             [rare.given, rare.results].map(|slot| (Base::Frame, self.offset(slot)));
-        self.bases.call(&mut self.encoder, callee, given, results);
-        self.encoder.lower_stack(-8);
-        for (slot, register) in rare.kept() {
+        self.processor
+            .call_from_part(self.shape, callee, given, results);
+        for (slot, register) in kept {
             self.load_from(Base::Frame, slot, register);
         }
-        self.encoder.ret();
+        self.processor.leave_part();
     }
 }

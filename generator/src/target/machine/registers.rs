@@ -1,9 +1,9 @@
 //! Which value is in which register, and which value is evicted if none is free.
 
-use super::encode::Vector;
+use super::operation::Vector;
 
 /// No step: later than every step.
-pub(super) const NEVER: u32 = u32::MAX;
+pub(crate) const NEVER: u32 = u32::MAX;
 /// No register.
 const NONE: u8 = u8::MAX;
 /// No value.
@@ -11,11 +11,16 @@ const EMPTY: u32 = u32::MAX;
 
 /// A set of registers.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Set(u32);
+pub(crate) struct Set(u32);
 
 impl Set {
     pub fn with(self, register: Vector) -> Set {
         Set(self.0 | 1 << register.0)
+    }
+
+    /// The registers of both sets.
+    pub fn and(self, other: Set) -> Set {
+        Set(self.0 | other.0)
     }
 
     fn has(self, register: usize) -> bool {
@@ -24,8 +29,9 @@ impl Set {
 }
 
 /// The contents of all registers.
-pub(super) struct Registers {
+pub(crate) struct Registers {
     count: usize,
+    taken_first: u32,
     free: u32,
     /// The value in each register.
     held: [u32; 32],
@@ -36,9 +42,11 @@ pub(super) struct Registers {
 }
 
 impl Registers {
-    pub fn new(count: usize, first_uses: Vec<u32>) -> Self {
+    /// So many free registers, of which those in `taken_first` are taken before the others.
+    pub fn new(count: usize, taken_first: u32, first_uses: Vec<u32>) -> Self {
         Registers {
             count,
+            taken_first,
             free: (u64::MAX >> (64 - count)) as u32,
             held: [EMPTY; 32],
             of: vec![NONE; first_uses.len()],
@@ -59,8 +67,10 @@ impl Registers {
 
     /// A free register; it is not taken by this.
     pub fn free(&self) -> Option<Vector> {
+        let first = self.free & self.taken_first;
+        let candidates = if first != 0 { first } else { self.free };
         self.any_free()
-            .then(|| Vector(self.free.trailing_zeros() as u8))
+            .then(|| Vector(candidates.trailing_zeros() as u8))
     }
 
     /// The value to evict from its register: the one whose next use is latest (Belady 1966). `stored` says whether a value is also in

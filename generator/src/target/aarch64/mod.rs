@@ -1,0 +1,57 @@
+//! Machine code for AArch64: Arm processors of 64 bits, whose vector registers have 16 bytes (Advanced SIMD, which all of them have).
+//!
+//! | module | what |
+//! |---|---|
+//! | `emit` | the instructions of each step |
+//! | `pairs` | two loads or stores as one instruction |
+//! | `abi` | the calling convention |
+//! | `encode` | instructions as words |
+
+mod abi;
+mod emit;
+mod encode;
+mod pairs;
+#[cfg(test)]
+mod tests;
+
+use super::machine::Code;
+use super::machine::emit::emit;
+use super::machine::shape::{Length, Precision, Shape, Values};
+use super::machine::steps::steps;
+use crate::program::{Curve, List};
+use emit::Arm;
+
+/// The scalar that code is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// Whether a value is a whole register of 16 bytes, with a number in each lane; otherwise it is one number.
+    pub lanes: bool,
+    /// Doubles or singles.
+    pub precision: Precision,
+    /// Whether a · b + c is rounded once; otherwise it is rounded twice.
+    pub fused: bool,
+    /// Whether every scalar is a dual number: a value and, in the next slot, its slope.
+    pub slopes: bool,
+}
+
+/// The function that evaluates a list. `curves` are those of the model. Functions that this target has no steps for are called.
+///
+/// The function is `extern "C"`, and so are the functions that it calls.
+///
+/// # Panics
+/// If the code is longer than 128 MiB.
+pub fn assemble(list: &List, curves: &[Curve], target: &Target) -> Code {
+    let values = Values {
+        shape: Shape {
+            length: match target.lanes {
+                true => Length::Sixteen,
+                false => Length::Scalar,
+            },
+            precision: target.precision,
+        },
+        fused: target.fused,
+        slopes: target.slopes,
+    };
+    let steps = steps(list, curves, &values);
+    emit(&steps, list, &values, 32, |needs| Arm::new(needs.calls))
+}

@@ -1,0 +1,45 @@
+//! The memory of a function.
+//!
+//! A function in machine code has one argument: a struct of pointers, one for each [`Base`], in their order. A called function has the arguments
+//! `(context: *const (), arguments: *const S, results: *mut S)`. The functions of a list are a table of pairs of pointers: the function, then its
+//! context.
+
+/// A region of memory of a function, in the order of the pointers. All regions except the last consist of slots of one scalar each. If one of two
+/// regions is written, they must not overlap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum Base {
+    /// t, one slot.
+    Time,
+    /// The state y.
+    State,
+    /// Accelerations.
+    Accelerations,
+    /// Event functions.
+    EventFunctions,
+    /// Parameters of the model.
+    Parameters,
+    /// Values that depend on parameters alone.
+    Derived,
+    /// Results, which are written.
+    Results,
+    /// Working memory of the function, which is written.
+    Frame,
+    /// The functions that are called, each as a pair of pointers.
+    Functions,
+}
+
+impl Base {
+    /// All of them, in order.
+    pub const ALL: [Base; 9] = [
+        Base::Time,
+        Base::State,
+        Base::Accelerations,
+        Base::EventFunctions,
+        Base::Parameters,
+        Base::Derived,
+        Base::Results,
+        Base::Frame,
+        Base::Functions,
+    ];
+}
