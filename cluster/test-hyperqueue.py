@@ -29,7 +29,7 @@ CRASHES = 20
 STUDY = """\
 model: sled-pendulum
 design: monte carlo
-runs: 131072
+runs: 49152
 seed: 1
 parameters:
   belt_stiffness: { from: 20 kN, to: 100 kN }

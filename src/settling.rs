@@ -295,7 +295,7 @@ impl<'m> Motion<'m> {
             let columns = self.directions();
             let entry = |row: usize, k: usize| -> f64 {
                 let of_row = &by_state[(first + row) * count..][..first];
-                of_row.iter().zip(&columns[k]).map(|(a, b)| a * b).sum()
+                columns[k].iter().map(|(i, rate)| of_row[*i] * rate).sum()
             };
             let pulled: Vec<Vec<f64>> = (0..degrees_of_freedom)
                 .map(|row| (0..degrees_of_freedom).map(|k| entry(row, k)).collect())
@@ -331,21 +331,23 @@ impl<'m> Motion<'m> {
         }
     }
 
-    /// For each degree of freedom, the rates of the coordinates at a velocity of 1.
-    fn directions(&self) -> Vec<Vec<f64>> {
+    /// For each degree of freedom, the coordinates that change, and their rates at a velocity of 1.
+    fn directions(&self) -> Vec<Vec<(usize, f64)>> {
         let velocities = self.velocities();
         let column = |index: usize| {
             let (mut moving, mut column) = (self.state.clone(), vec![0.0; self.state.len()]);
             moving[velocities.clone()].fill(0.0);
             moving[index] = 1.0;
             self.model.coordinate_rates(&moving, &mut column);
-            column
+            column.truncate(self.coordinates());
+            let rates = column.into_iter().enumerate();
+            rates.filter(|(_, rate)| *rate != 0.0).collect()
         };
         velocities.clone().map(column).collect()
     }
 
     /// The motion after a step in each degree of freedom.
-    fn moved(&self, columns: &[Vec<f64>], step: &[f64]) -> Motion<'m> {
+    fn moved(&self, columns: &[Vec<(usize, f64)>], step: &[f64]) -> Motion<'m> {
         let mut moved = Motion {
             state: self.state.clone(),
             rate: self.rate.clone(),
@@ -353,10 +355,9 @@ impl<'m> Motion<'m> {
             drift: self.drift.clone(),
             ..*self
         };
-        let first = self.coordinates();
         for (column, step) in columns.iter().zip(step) {
-            for (coordinate, along) in moved.state[..first].iter_mut().zip(column) {
-                *coordinate += step * along;
+            for (coordinate, along) in column {
+                moved.state[*coordinate] += step * along;
             }
         }
         self.model.normalize(&mut moved.state);
@@ -422,6 +423,9 @@ fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
         let row = a[k].clone();
         for i in k + 1..count {
             let factor = a[i][k] / row[k];
+            if factor == 0.0 {
+                continue;
+            }
             for (entry, above) in a[i][k..].iter_mut().zip(&row[k..]) {
                 *entry -= factor * above;
             }

@@ -49,11 +49,14 @@ pub mod expression;
 pub mod human;
 pub mod joint;
 pub mod law;
-mod method;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod method;
 pub mod model;
 mod names;
 pub mod program;
-mod rotation;
+#[doc(hidden)]
+pub mod rotation;
 pub mod target;
 pub mod urdf;
 

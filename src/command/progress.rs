@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 /// Tasks shorter than this show no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// Time between two lines if there is no terminal.
+/// Time between two lines if there is no terminal; `BRYANT_PROGRESS` names another, in seconds.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// A rate is shown only after it was observed for this long.
 const WATCHED: Duration = Duration::from_secs(1);
@@ -190,9 +190,13 @@ impl Shared {
 
     /// Prints a line every ten seconds of the command.
     fn print_lines(&self) {
+        let asked = std::env::var("BRYANT_PROGRESS").ok();
+        let asked = asked.and_then(|seconds| seconds.parse().ok());
+        let between = asked.filter(|seconds| (0.1..1e6).contains(seconds));
+        let between = between.unwrap_or(BETWEEN_LINES.as_secs_f64());
         loop {
-            let into = self.command.elapsed().as_secs_f64() % BETWEEN_LINES.as_secs_f64();
-            let Some(state) = self.wait(BETWEEN_LINES - Duration::from_secs_f64(into)) else {
+            let left = between - self.command.elapsed().as_secs_f64() % between;
+            let Some(state) = self.wait(Duration::from_secs_f64(left)) else {
                 return;
             };
             let _ = writeln!(io::stderr(), "{}", state.line());

@@ -1,6 +1,7 @@
 //! The default accuracy of a run: better than 0.1 % in every output.
 
 use crate::estimates::engine_of;
+use crate::share::share;
 use bryant::accuracy::target::Difference;
 use bryant::{bundled, simulation};
 use bryant_runtime::program::Job;
@@ -11,7 +12,7 @@ const PROMISED: f64 = 1e-3;
 
 #[test]
 fn bundled_models_err_by_less_than_a_thousandth_by_default() {
-    for bundled in bundled::all() {
+    for bundled in share(3, bundled::all()) {
         let model = bundled::model(bundled).expect("bundled models are right");
         let engine = engine_of(&model);
         let run = |job: &Job| simulation::run(&engine, job, &mut |_| {});

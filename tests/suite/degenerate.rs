@@ -2,6 +2,7 @@
 //! outputs, in every command. Each works, or is refused with its place and a remedy.
 
 use super::called::bryant;
+use super::share::share;
 use super::{directory, json};
 use std::path::Path;
 
@@ -112,23 +113,23 @@ fn what_cannot_move_by_itself_panics_in_no_command() {
             "--no-files",
         ],
     ];
-    for (name, system) in SYSTEMS {
-        for (k, force) in FORCES.iter().enumerate() {
-            for ball in [false, true] {
-                let of = format!("{name} {k} {ball}");
-                let text = scene(system, force, ball, true);
-                std::fs::write(here.join("s.yaml"), &text).unwrap();
-                // every command with the first two forces, the run with all
-                let commands = &commands[..if k < 2 { commands.len() } else { 3 }];
-                let ran = holds(here, commands[0], &of);
-                for command in &commands[1..] {
-                    holds(here, command, &of);
-                }
-                assert!(ran || matches!(name, "free" | "followers"), "{of}:\n{text}");
-                std::fs::write(here.join("s.yaml"), scene(system, force, ball, false)).unwrap();
-                holds(here, commands[0], &of);
-            }
+    let all = SYSTEMS.into_iter().flat_map(|system| {
+        let forces = FORCES.into_iter().enumerate();
+        forces.flat_map(move |force| [(system, force, false), (system, force, true)])
+    });
+    for ((name, system), (k, force), ball) in share(4, all) {
+        let of = format!("{name} {k} {ball}");
+        let text = scene(system, force, ball, true);
+        std::fs::write(here.join("s.yaml"), &text).unwrap();
+        // every command with the first two forces, the run with all
+        let commands = &commands[..if k < 2 { commands.len() } else { 3 }];
+        let ran = holds(here, commands[0], &of);
+        for command in &commands[1..] {
+            holds(here, command, &of);
         }
+        assert!(ran || matches!(name, "free" | "followers"), "{of}:\n{text}");
+        std::fs::write(here.join("s.yaml"), scene(system, force, ball, false)).unwrap();
+        holds(here, commands[0], &of);
     }
 }
 

@@ -1,5 +1,6 @@
 //! The error that a run estimates for itself, against the true error, in a thousand random scenes.
 
+use crate::share::share;
 use bryant::accuracy::target::{self, Difference};
 use bryant::build_on_demand::UserForces;
 use bryant::equations::{self, Engine};
@@ -41,15 +42,16 @@ pub fn engine_of(model: &Model) -> Engine {
 
 #[test]
 fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
-    let mut seed = 1;
-    let (mut covered, mut reached, mut kept, mut scenes) = (0, 0, 0, 0);
+    let (mut covered, mut reached, mut kept, mut scenes) = (0u32, 0u32, 0u32, 0u32);
     let mut worst = Vec::new();
     for (name, count) in SCENES {
         let bundled = bundled::find(name).expect("a bundled model");
         let model = bundled::model(bundled).expect("bundled models are right");
         let engine = engine_of(&model);
         let info = engine.info();
-        for scene in 0..count {
+        for scene in share(5, 0..count) {
+            // the same parameters, whatever other scenes are tried
+            let mut seed = 1000 * name.len() as u64 + scene as u64;
             let parameters = info.parameters.iter().map(|p| {
                 let low = if p.min.is_finite() {
                     p.min.max(0.5 * p.default)
@@ -84,8 +86,8 @@ fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
                 .estimate
                 .map_or(f64::INFINITY, |estimate| estimate.worst);
             scenes += 1;
-            kept += usize::from(Difference::of(&default.table, &sharp.table).worst <= PROMISED);
-            reached += usize::from(error.worst <= wanted);
+            kept += u32::from(Difference::of(&default.table, &sharp.table).worst <= PROMISED);
+            reached += u32::from(error.worst <= wanted);
             if error.worst <= estimate {
                 covered += 1;
             } else {
@@ -93,10 +95,23 @@ fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
             }
         }
     }
-    assert!(scenes == 1000);
-    assert!(covered >= 950, "{covered}: {worst:?}");
+    // of a random part of the scenes, less by three standard deviations of its number at most
+    let least = |share: f64| {
+        let count = f64::from(scenes);
+        let scatter = if scenes < 1000 {
+            (count * share * (1.0 - share)).sqrt()
+        } else {
+            0.0
+        };
+        count * share - 3.0 * scatter
+    };
+    assert!(scenes >= 200);
+    assert!(
+        f64::from(covered) >= least(0.95),
+        "{covered} of {scenes}: {worst:?}"
+    );
     // the requested accuracy is reached, too
-    assert!(reached >= 950, "{reached}");
+    assert!(f64::from(reached) >= least(0.95), "{reached} of {scenes}");
     // and so is the default promise
-    assert!(kept >= 990, "{kept}");
+    assert!(f64::from(kept) >= least(0.99), "{kept} of {scenes}");
 }

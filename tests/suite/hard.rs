@@ -1,4 +1,8 @@
-//! Every hard case is a test by its name: `cargo test --test hard`, or with a word of a name behind it.
+//! Every hard case is a test by its name: `cargo test --test hard` runs one in three, chosen at random, or with a word of a name behind it all of that
+//! name. `bryant stability` runs all.
+
+#[path = "share.rs"]
+mod share;
 
 use bryant::stability::report::text::text;
 use bryant::stability::{Scenes, run_case};
@@ -6,8 +10,14 @@ use libtest_mimic::{Arguments, Failed, Trial};
 use std::sync::Arc;
 
 fn main() {
+    let arguments = Arguments::from_args();
     let scenes = Arc::new(Scenes::new());
-    let trials = bryant_hard::cases().into_iter().map(|case| {
+    let cases = bryant_hard::cases();
+    let chosen = match arguments.filter {
+        Some(_) => cases,
+        None => share::share(3, cases),
+    };
+    let trials = chosen.into_iter().map(|case| {
         let scenes = Arc::clone(&scenes);
         let name = format!("{}: {}", case.group.title(), case.name);
         Trial::test(name, move || {
@@ -18,5 +28,5 @@ fn main() {
             }
         })
     });
-    libtest_mimic::run(&Arguments::from_args(), trials.collect()).exit();
+    libtest_mimic::run(&arguments, trials.collect()).exit();
 }

@@ -19,6 +19,7 @@ fn begin(directory: &Path, arguments: &[&str]) -> Child {
     let mut command = bryant(directory);
     command.args(arguments);
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.env("BRYANT_PROGRESS", "2");
     // tests in the background of a shell ignore Ctrl-C, and their child processes inherit this
     #[expect(unsafe_code, reason = "between fork and exec")]
     // SAFETY: `signal` may be called between fork and exec, and no handler is installed.
@@ -72,7 +73,7 @@ fn interrupted_when(directory: &Path, arguments: &[&str], said: &str) -> (String
     expect(output, arguments, 130)
 }
 
-/// A line of progress appears after ten seconds, with the simulated time, its total, and the time left. The table and the file have the
+/// A line of progress appears after the time between lines, with the simulated time, its total, and the time left. The table and the file have the
 /// same samples up to the time in the message, and not those of the whole run.
 #[test]
 fn a_run_that_is_interrupted_keeps_its_samples() {
@@ -252,7 +253,7 @@ fn a_study_of_accuracy_keeps_to_its_budget() {
 #[test]
 fn a_sweep_that_is_interrupted_goes_on_from_there() {
     let directory = directory();
-    let study = "model: clock.yaml\ndesign: sobol\nruns: 262144\nparameters: { gravity: { from: 9, to: 10 } }\n\
+    let study = "model: clock.yaml\ndesign: sobol\nruns: 131072\nparameters: { gravity: { from: 9, to: 10 } }\n\
                  responses: [{ of: swing, what: peak }]\n";
     std::fs::write(directory.path().join("study.yaml"), study).unwrap();
     let arguments = ["sweep", "study.yaml", "--no-estimate"];
@@ -264,7 +265,7 @@ fn a_sweep_that_is_interrupted_goes_on_from_there() {
     interrupt(&child);
     let (_, stderr) = expect(child.wait_with_output().unwrap(), &arguments, 130);
     assert!(
-        stderr.contains("of 262144 runs are stored")
+        stderr.contains("of 131072 runs are stored")
             && stderr.contains("the same command goes on from there"),
         "{stderr}"
     );

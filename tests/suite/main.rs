@@ -25,6 +25,7 @@ mod operations;
 mod prescribed;
 mod robustness;
 mod scipy;
+mod share;
 mod snapshots;
 mod stiffness;
 mod switches;

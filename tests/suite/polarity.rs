@@ -3,6 +3,7 @@
 
 use super::called::call;
 use super::directory;
+use super::share::share;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -150,7 +151,7 @@ fn the_neck_has_the_signs_of_its_manipulations() {
         };
         format!("outputs:\n{}{}", one("force", "FO"), one("moment", "MO"))
     };
-    for who in people() {
+    for who in share(3, people()) {
         let carried = who.two([("thorax", 0.0), ("head", 0.05)], 0.25);
         // on either side of the joint it is the same channel
         for more in ["", ", axes: man/head", ", on: man/thorax"] {

@@ -1,5 +1,6 @@
 //! The emitted text depends only on the model: not on the run, and not on the place of the file.
 
+use crate::share::share;
 use bryant_generator::{Config, Generated};
 use std::path::{Path, PathBuf};
 
@@ -39,7 +40,7 @@ fn a_model_gives_the_same_bytes_anywhere_and_any_time() {
         .canonicalize();
     let root = root.expect("the project");
     let copied = |path: &Path| place.join(path.strip_prefix(&root).expect("a file of the project"));
-    for path in models() {
+    for path in share(3, models()) {
         let here = path.parent().expect("a directory");
         let first = generate(&path, &elsewhere.path().join("first"));
         // a copy with all files that it includes

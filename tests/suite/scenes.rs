@@ -15,11 +15,11 @@ fn the_driver_begins_at_rest_and_is_held() {
     assert!(largest(&held, "bag on the head") > 0.0);
     // each device has its effect
     let chest = "chest acceleration resultant";
-    let (loose, _) = run("frontal", &["--set", "pulled_in=0"]);
+    let (loose, _) = run("frontal", &["--set", "pulled_in=0", "--no-verify"]);
     assert!(largest(&loose, chest) > largest(&held, chest));
-    let (stiff, _) = run("frontal", &["--set", "limit=20 kN"]);
+    let (stiff, _) = run("frontal", &["--set", "limit=20 kN", "--no-verify"]);
     assert!(largest(&stiff, "belt at the reel") > reel);
-    let (bare, _) = run("frontal", &["--set", "gas=0"]);
+    let (bare, _) = run("frontal", &["--set", "gas=0", "--no-verify"]);
     assert_eq!(largest(&bare, "bag on the head"), 0.0);
     assert!(largest(&bare, "head excursion") > largest(&held, "head excursion"));
 }
@@ -43,9 +43,9 @@ fn the_belt_holds_its_manikin_within_the_corridor() {
     assert!((0.08..0.2).contains(&largest(&held, pelvis)));
     let reel = largest(&held, "belt at the reel");
     assert!((reel - 4000.0).abs() < 1e-6, "the limiter: {reel}");
-    let (soft, _) = run("belt-sled", &["--set", "limit=2 kN"]);
+    let (soft, _) = run("belt-sled", &["--set", "limit=2 kN", "--no-verify"]);
     assert!(largest(&soft, chest) > largest(&held, chest));
-    let (stiff, _) = run("belt-sled", &["--set", "stiffness=1.6"]);
+    let (stiff, _) = run("belt-sled", &["--set", "stiffness=1.6", "--no-verify"]);
     assert!(largest(&stiff, pelvis) < largest(&held, pelvis));
 }
 
@@ -142,12 +142,21 @@ fn the_child_restraint_keeps_its_limits() {
         assert_eq!(column(&held, "vehicle belt")[0], 0.0);
     }
     let (held, _) = run("child-restraint", &[]);
-    let (loose, _) = run("child-restraint", &["--set", "belt_slack=40 mm"]);
+    let (loose, _) = run(
+        "child-restraint",
+        &["--set", "belt_slack=40 mm", "--no-verify"],
+    );
     assert!(largest(&loose, chest) > largest(&held, chest));
     assert!(largest(&loose, head) > largest(&held, head));
-    let (wide, _) = run("child-restraint", &["--set", "harness_slack=60 mm"]);
+    let (wide, _) = run(
+        "child-restraint",
+        &["--set", "harness_slack=60 mm", "--no-verify"],
+    );
     assert!(largest(&wide, head) > largest(&held, head));
-    let (below, _) = run("child-restraint", &["--set", "anchor_x=0 mm"]);
+    let (below, _) = run(
+        "child-restraint",
+        &["--set", "anchor_x=0 mm", "--no-verify"],
+    );
     assert!(largest(&below, head) > largest(&held, head));
 }
 
@@ -169,10 +178,10 @@ fn the_carrycot_holds_its_infant() {
     assert!(largest(&held, wall) > 0.0);
     // the rim is 170 mm above the floor
     assert!(largest(&held, "head above the floor") < 0.17);
-    let (soft, _) = run("carrycot", &["--set", "strap=0.3"]);
+    let (soft, _) = run("carrycot", &["--set", "strap=0.3", "--no-verify"]);
     assert!(largest(&soft, head) < largest(&held, head));
     assert!(largest(&soft, "head forward") > largest(&held, "head forward"));
-    let (bare, _) = run("carrycot", &["--set", "cover=0.001"]);
+    let (bare, _) = run("carrycot", &["--set", "cover=0.001", "--no-verify"]);
     let chest = "chest acceleration resultant";
     assert!(largest(&bare, chest) > largest(&held, chest));
     let bent = |table| column(table, "neck").iter().copied().fold(0.0, f64::min);

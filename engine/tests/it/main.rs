@@ -13,5 +13,7 @@ mod onset;
 mod outputs;
 mod riding;
 mod rows_again;
+#[path = "../../../tests/suite/share.rs"]
+mod share;
 mod stops;
 mod waiting;

@@ -41,12 +41,16 @@ pub mod force;
 pub mod kinematics;
 pub mod lagrange;
 pub mod layout;
-mod link;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod link;
 mod mass_matrix;
 mod momentum;
 pub(crate) mod numbers;
 mod outputs;
-mod spatial;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod spatial;
 pub(crate) mod translation;
 pub(crate) mod vehicle;
 

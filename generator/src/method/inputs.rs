@@ -11,7 +11,7 @@ use crate::names::snake;
 
 /// An input as emission sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Input {
+pub enum Input {
     /// t
     Time,
     /// `q[i]`
@@ -34,7 +34,7 @@ pub(crate) enum Input {
 
 impl Input {
     /// The array and the index in it; `None` for what is no element of an array argument.
-    pub(crate) fn element(self) -> Option<(Argument, usize)> {
+    pub fn element(self) -> Option<(Argument, usize)> {
         match self {
             Input::Coordinate(i) => Some((Argument::Coordinates, i)),
             Input::Velocity(i) => Some((Argument::Velocities, i)),
@@ -47,7 +47,7 @@ impl Input {
     }
 
     /// The argument that it comes with; `None` for what the mechanism knows.
-    pub(crate) fn argument(self) -> Option<Argument> {
+    pub fn argument(self) -> Option<Argument> {
         match self {
             Input::Time => Some(Argument::Time),
             _ => self.element().map(|(argument, _)| argument),
@@ -57,7 +57,7 @@ impl Input {
 
 /// An argument of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Argument {
+pub enum Argument {
     /// t
     Time,
     /// q
@@ -77,7 +77,7 @@ pub(crate) enum Argument {
 impl Argument {
     /// Those that are arrays, in the order in which they are taken apart: z and m first, because a coordinate may be
     /// called so too.
-    pub(crate) const ARRAYS: [Argument; 6] = [
+    pub const ARRAYS: [Argument; 6] = [
         Argument::Auxiliaries,
         Argument::Memory,
         Argument::Coordinates,
@@ -87,7 +87,7 @@ impl Argument {
     ];
 
     /// The name that it has everywhere.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Argument::Time => "t",
             Argument::Coordinates => "q",
@@ -101,7 +101,8 @@ impl Argument {
 }
 
 /// Names of all inputs.
-pub(crate) struct Inputs {
+#[derive(Default)]
+pub struct Inputs {
     /// Names of q.
     pub coordinates: Vec<String>,
     /// Names of v.
@@ -124,7 +125,7 @@ pub(crate) struct Inputs {
 
 impl Inputs {
     /// Names for the inputs of a model's functions; derived constants are added by whoever finds them.
-    pub(crate) fn new(model: &Model, equations: &Equations) -> Self {
+    pub fn new(model: &Model, equations: &Equations) -> Self {
         let only = model.systems.len() == 1;
         let word = |variable: &Variable| {
             let system = &model.systems[variable.system].name;
@@ -165,7 +166,7 @@ impl Inputs {
     }
 
     /// The symbol that stands for an input.
-    pub(crate) fn symbol(&self, input: Input) -> Symbol {
+    pub fn symbol(&self, input: Input) -> Symbol {
         let parameter = |index: usize| Symbol::Parameter(index as u32);
         match input {
             Input::Time => Symbol::Time,
@@ -185,7 +186,7 @@ impl Inputs {
     }
 
     /// The input that a symbol stands for.
-    pub(crate) fn input(&self, symbol: Symbol) -> Input {
+    pub fn input(&self, symbol: Symbol) -> Input {
         let parameters = self.parameters.len();
         let accelerations = parameters + self.accelerations.len();
         let event_functions = accelerations + self.event_functions.len();
@@ -205,7 +206,7 @@ impl Inputs {
     }
 
     /// Number of elements of an array argument; 0 for time.
-    pub(crate) fn length(&self, argument: Argument) -> usize {
+    pub fn length(&self, argument: Argument) -> usize {
         match argument {
             Argument::Time => 0,
             Argument::Coordinates => self.coordinates.len(),
@@ -217,7 +218,7 @@ impl Inputs {
     }
 
     /// The inputs that change from call to call, with the names they would like to have.
-    pub(crate) fn variables(&self) -> impl Iterator<Item = (Input, String)> {
+    pub fn variables(&self) -> impl Iterator<Item = (Input, String)> {
         let all = |names: &[String], input: fn(usize) -> Input| {
             let names = names.to_vec();
             names

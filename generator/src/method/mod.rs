@@ -8,9 +8,9 @@
 //!
 //! [`program`](crate::program) puts the operations of each method in order, and [`target`](crate::target) writes them; both walk the table.
 
-pub(crate) mod inputs;
-pub(crate) mod results;
-pub(crate) mod table;
+pub mod inputs;
+pub mod results;
+pub mod table;
 
 /// A method by which a model is evaluated. Those that the runtime calls are in its table of functions, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

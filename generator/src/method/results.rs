@@ -2,7 +2,7 @@
 
 /// What a method returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Results {
+pub enum Results {
     /// One number.
     Scalar,
     /// So many numbers.
@@ -27,7 +27,7 @@ pub(crate) enum Results {
 
 /// How many numbers a method returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Length {
+pub enum Length {
     /// As many as q has.
     Coordinates,
     /// As many as v has.
@@ -47,7 +47,7 @@ pub(crate) enum Length {
 
 impl Results {
     /// Whether they go to an output writer one by one.
-    pub(crate) fn one_by_one(self) -> bool {
+    pub fn one_by_one(self) -> bool {
         matches!(self, Results::Written { .. })
     }
 }

@@ -14,7 +14,7 @@ use crate::names::snake;
 
 /// A method before any pass.
 #[derive(Clone, Debug)]
-pub(crate) struct Specification {
+pub struct Specification {
     pub name: &'static str,
     /// The method of the lists that it is, or is a part of: parts follow one another in the order of the table. `None` of what another has
     /// anyway.
@@ -40,7 +40,7 @@ pub(crate) struct Specification {
 }
 
 /// What methods are made from.
-pub(crate) struct Source<'a> {
+pub struct Source<'a> {
     pub model: &'a Model,
     pub equations: &'a Equations,
     pub inputs: &'a Inputs,
@@ -75,7 +75,7 @@ const TABLE: [fn(&Source<'_>) -> Option<Specification>; 22] = [
 ];
 
 /// The methods that a model has. `only` are the names of those that are wanted; all where nothing is said.
-pub(crate) fn methods(source: &Source<'_>, only: Option<&[&str]>) -> Vec<Specification> {
+pub fn methods(source: &Source<'_>, only: Option<&[&str]>) -> Vec<Specification> {
     let found = TABLE.iter().filter_map(|entry| entry(source));
     found
         .filter(|method| only.is_none_or(|only| only.contains(&method.name)))
@@ -83,7 +83,7 @@ pub(crate) fn methods(source: &Source<'_>, only: Option<&[&str]>) -> Vec<Specifi
 }
 
 /// What depends on parameters alone. Its roots are found by the passes; its labels are the fields that keep them.
-pub(crate) fn new(inputs: &Inputs) -> Specification {
+pub fn new(inputs: &Inputs) -> Specification {
     Specification {
         documentation: "The mechanism with these parameters; what depends on them alone is computed here, once.",
         labels: inputs.derived.clone(),
@@ -92,7 +92,7 @@ pub(crate) fn new(inputs: &Inputs) -> Specification {
 }
 
 /// q̇ and v̇ by one method, made of those for each: the coordinates and velocities of an element are then read once for both.
-pub(crate) fn motion(rates: &Specification, accelerations: &Specification) -> Specification {
+pub fn motion(rates: &Specification, accelerations: &Specification) -> Specification {
     Specification {
         name: "motion",
         part_of: Some(Method::Derivative),
@@ -108,11 +108,11 @@ pub(crate) fn motion(rates: &Specification, accelerations: &Specification) -> Sp
 }
 
 /// The method that writes q̇ and v̇.
-pub(crate) const EACH_MOTION: &str = "each_motion";
+pub const EACH_MOTION: &str = "each_motion";
 
 /// Whether memory is renewed by the sign of an event function. It is then given the event functions, to see the very values that ended the
 /// step: computed a second time, a value close to 0 may have the other sign.
-pub(crate) fn renews_by_event_functions(equations: &Equations) -> bool {
+pub fn renews_by_event_functions(equations: &Equations) -> bool {
     let live = Live::new(&equations.graph, &next(&equations.memory));
     let event_functions = equations
         .event_functions
@@ -535,56 +535,4 @@ fn labels(prefix: &str, words: &[String], suffix: &str) -> Vec<String> {
     words
         .map(|word| format!("{prefix}{word}{suffix}"))
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::dynamics::derive;
-    use crate::model::read;
-    use std::collections::BTreeSet;
-    use std::path::Path;
-
-    /// Models that have all there is among them: curves that parameters stretch, pivots that may vanish, event functions, charts, states of laws.
-    const MODELS: [&str; 6] = [
-        "models/child-seat.yaml",
-        "tests/models/curves.yaml",
-        "tests/models/incline.yaml",
-        "tests/models/pendulum.yaml",
-        "tests/models/poles-bryant.yaml",
-        "tests/models/switches.yaml",
-    ];
-
-    #[test]
-    fn every_method_of_the_lists_has_an_entry() {
-        let mut found = BTreeSet::from([Method::Derived]);
-        for path in MODELS {
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
-            let (model, _) = read(&path).expect("a valid model");
-            let equations = derive(&model);
-            let inputs = Inputs::new(&model, &equations);
-            let source = Source {
-                model: &model,
-                equations: &equations,
-                inputs: &inputs,
-                matrices: true,
-            };
-            let methods = methods(&source, None);
-            let named = |name| methods.iter().find(|of| of.name == name);
-            let both = named("coordinate_rates").zip(named("accelerations"));
-            let motion = both.map(|(rates, accelerations)| motion(rates, accelerations));
-            let mut names = BTreeSet::new();
-            for method in methods.iter().chain(&motion) {
-                let name = method.name;
-                assert!(names.insert(name), "two methods are called {name}");
-                assert_eq!(method.labels.len(), method.roots.len(), "{name}");
-                assert!(!method.documentation.is_empty(), "{name}");
-                found.extend(method.part_of);
-            }
-        }
-        let missing: Vec<_> = (Method::ALL.iter())
-            .filter(|method| !found.contains(method))
-            .collect();
-        assert!(missing.is_empty(), "{missing:?}");
-    }
 }

@@ -253,3 +253,42 @@ fn text_goes_in_and_text_comes_out() {
     assert!(generated.source.contains("pub struct Mechanism<T>"));
     assert_eq!(generated.written, PathBuf::new());
 }
+
+/// A function in a file is included by its path; one whose file has inner documentation stays as it is.
+#[test]
+fn files_of_the_users_are_included_where_they_are() {
+    let bundled = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models");
+    let at = std::env::temp_dir().join(format!("bryant-include-{}", std::process::id()));
+    std::fs::create_dir_all(at.join("forces")).expect("a directory");
+    let model = std::fs::read_to_string(bundled.join("skydiver.yaml")).expect("a model");
+    let drag = std::fs::read_to_string(bundled.join("forces/drag.rs")).expect("a function");
+    std::fs::write(at.join("skydiver.yaml"), model).expect("a file");
+    let mut texts = Vec::new();
+    let outer = drag.replace("//!", "//");
+    assert_ne!(outer, drag);
+    for text in [&drag, &outer] {
+        std::fs::write(at.join("forces/drag.rs"), text).expect("a file");
+        let mut config = Config::new();
+        let all = config
+            .model(at.join("skydiver.yaml"))
+            .out_dir(at.join("out"))
+            .generate();
+        let all = all.expect("a module");
+        texts.push((
+            all[0].source.clone(),
+            bryant_generator::config::including(&all[0]),
+        ));
+    }
+    std::fs::remove_dir_all(&at).expect("removed");
+    let [(source, inner), (pasted, included)] = &texts[..] else {
+        unreachable!()
+    };
+    assert_eq!(source, inner);
+    assert!(pasted.contains("let factor = ") && !included.contains("let factor = "));
+    let path = at.join("forces/drag.rs").display().to_string();
+    assert!(
+        included.contains(&format!("::core::include!({path:?});")),
+        "{included}"
+    );
+    syn::parse_file(included).expect("Rust");
+}

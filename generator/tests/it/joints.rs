@@ -244,7 +244,7 @@ fn every_joint_on_every_other_in_space() {
             }
         }
     }
-    for text in share(5, texts) {
+    for text in share(20, texts) {
         check(&text, 2);
     }
 }
@@ -268,7 +268,7 @@ fn every_joint_as_root_in_space() {
             }
         }
     }
-    for text in share(2, texts) {
+    for text in share(6, texts) {
         check(&text, 3);
     }
 }
@@ -293,7 +293,7 @@ fn every_joint_on_every_other_in_the_plane() {
             }
         }
     }
-    for text in share(5, texts) {
+    for text in share(20, texts) {
         check(&text, 2);
     }
 }
@@ -341,7 +341,7 @@ fn freedoms_that_follow_others_and_rotors_in_space() {
             }
         }
     }
-    for text in share(5, texts) {
+    for text in share(20, texts) {
         check(&text, 2);
     }
 }

@@ -6,8 +6,11 @@ mod emission;
 mod joined;
 mod joints;
 mod language;
+mod link;
 mod malformed;
+mod methods;
 mod parameters;
+mod placement;
 mod reference;
 #[path = "../../../tests/suite/share.rs"]
 mod share;

@@ -200,10 +200,10 @@ impl<T: Several> Step<T> {
     /// The stages from `from` to before `to`; the state of the last is left in `end`.
     #[inline(always)]
     fn stages<B: Tableau>(&mut self, model: &dyn Dynamics<T>, from: usize, to: usize) {
-        // written out, so that every stage knows its coefficients when it is compiled
+        // written out, so that every stage knows its coefficients when it is compiled; those that the method lacks are not
         macro_rules! stages {
             ($($i:literal)*) => {
-                $(if from <= $i && $i < to { self.stage::<B, $i>(model); })*
+                $(if const { $i < B::ALL } && from <= $i && $i < to { self.stage::<B, $i>(model); })*
             };
         }
         stages!(1 2 3 4 5 6);

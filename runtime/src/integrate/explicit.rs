@@ -55,10 +55,10 @@ impl<'w, T: Real, B: Tableau> Explicit<'w, T, B> {
     /// Evaluates the stages from `from` to before `to`.
     #[inline(always)]
     fn stages(&mut self, f: &mut Evaluator<'_, T>, from: usize, to: usize) {
-        // written out, so that the compiler knows the coefficients of every stage
+        // written out, so that the compiler knows the coefficients of every stage; those that the method lacks are not compiled
         macro_rules! stages {
             ($($i:literal)*) => {
-                $(if from <= $i && $i < to { self.stage::<$i>(f); })*
+                $(if const { $i < B::ALL } && from <= $i && $i < to { self.stage::<$i>(f); })*
             };
         }
         stages!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);

@@ -210,14 +210,17 @@ const WITH_ORDER: [Formula; 7] = [
 fn check<M: Model<f64>>(exact: &[f64], without: f64) {
     for formula in WITH_ORDER {
         let nominal = f64::from(formula.order());
-        let located = errors::<M>(formula, true, exact, [1e-11, 1e-2], 1.23);
+        // a low order would take millions of steps to the error that shows a high one
+        let least = if nominal < 3.0 { 1e-8 } else { 1e-11 };
+        let located = errors::<M>(formula, true, exact, [least, 1e-2], 1.23);
         assert!(located.len() >= 6, "{formula}: {located:?}");
         let observed = slope(&located);
         assert!(
             observed > nominal - 0.3,
             "{formula}, located: {observed} {located:?}"
         );
-        let passed = errors::<M>(formula, false, exact, [1e-9, 1e-2], 1.37);
+        let least = if without < 1.5 { 1e-5 } else { 1e-8 };
+        let passed = errors::<M>(formula, false, exact, [least, 1e-2], 1.37);
         let observed = slope(&passed);
         assert!(
             observed < without + 0.5 && observed < nominal + 0.5,

@@ -4,7 +4,7 @@
 //! what the marks in its HTML comments mean. Two environment variables change what is done:
 //!
 //! - `PAGES_UPDATE=1` writes what the commands print and draw into the pages.
-//! - `PAGES_ALL=1` also runs what is marked as slow.
+//! - `PAGES_ALL=1` also runs what is marked as slow, and all lines of tables of runs.
 //!
 //! At the end stands what was not run, with the reason that its page gives.
 
@@ -17,6 +17,8 @@ mod names;
 mod output;
 mod page;
 mod run;
+#[path = "../share.rs"]
+mod share;
 mod table;
 
 use libtest_mimic::{Arguments, Failed, Trial};

@@ -304,7 +304,13 @@ impl Page<'_> {
                 ),
             }
         }
-        match table::renewed(shown, &part.mark, |command, wanted| {
+        // each line takes a run: one in three, but all where the page is written anew
+        let of = if asked("PAGES_ALL") || asked("PAGES_UPDATE") {
+            1
+        } else {
+            3
+        };
+        match table::renewed(shown, &part.mark, of, |command, wanted| {
             responses(&folder, command, wanted)
         }) {
             Ok(now) => self.compare(part, now),

@@ -2,13 +2,14 @@
 //!
 //! A table in Markdown with a run in each line has these marks:
 //!
-//! - `rows`: the command of all lines. What stands in code in the first cell of a line is added as `--set`. `{1}` is the last word of that cell.
+//! - `rows`: the command of all lines, of which a random third is run. What stands in code in the first cell of a line is added as `--set`. `{1}` is the last word of that cell.
 //! - `columns`: for each further column the response that it shows, as behind `-r`, with the unit of the column in brackets; `-` is not
 //!   compared, and a mark `other` says why. Columns are separated by `;`.
 //! - `with`: `LABEL: OPTIONS` are further options of the line whose first cell is or begins with this label.
 
 use super::compare::Number;
 use super::page::Mark;
+use super::share::share;
 
 /// A unit of columns in SI. With a sign in front the column shows the opposite.
 fn unit(name: &str) -> Option<f64> {
@@ -112,17 +113,20 @@ fn like(cell: &str, value: f64) -> Option<String> {
     })
 }
 
-/// The lines of a table as they are now. `read` runs a command and returns the values of responses in SI, by their order.
+/// The lines of a table as they are now, of which one `of` so many is run. `read` runs a command and returns the values of responses in SI, by their order.
 pub fn renewed(
     lines: &[&str],
     mark: &Mark,
+    of: usize,
     mut read: impl FnMut(&str, &[String]) -> Result<Vec<Option<f64>>, String>,
 ) -> Result<Vec<String>, String> {
     let base = mark.get("rows").ok_or("there is no `rows`")?;
     let columns = columns(mark.get("columns").ok_or("there is no `columns`")?)?;
     let mut now: Vec<String> = lines[..2].iter().map(|line| line.to_string()).collect();
     let mut used = 0;
-    for line in &lines[2..] {
+    let of_runs = (2..lines.len()).filter(|at| !cells(lines[*at])[0].starts_with("limit"));
+    let chosen = share(of, of_runs);
+    for (at, line) in lines.iter().enumerate().skip(2) {
         let cells = cells(line);
         let label = cells[0];
         if cells.len() != columns.len() + 1 {
@@ -132,7 +136,7 @@ pub fn renewed(
                 cells.len()
             ));
         }
-        if label.starts_with("limit") {
+        if !chosen.contains(&at) {
             now.push(line.to_string());
             continue;
         }
@@ -167,7 +171,8 @@ pub fn renewed(
         now.push(row);
     }
     match used {
-        0 => Err("no number of the table is compared".to_owned()),
+        // the lines that are run now may have words alone
+        0 if of == 1 => Err("no number of the table is compared".to_owned()),
         _ => Ok(now),
     }
 }
@@ -294,7 +299,7 @@ pub fn rules_hold() -> Result<(), String> {
         "| all 3 | 4.00 | 1 | – |",
     ];
     let mut asked = Vec::new();
-    let now = renewed(&table, &mark, |command, wanted| {
+    let now = renewed(&table, &mark, 1, |command, wanted| {
         asked.push(format!("{command}: {}", wanted.join(", ")));
         Ok(vec![Some(4006.0), Some(0.0204)])
     })?;

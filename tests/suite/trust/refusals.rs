@@ -624,7 +624,7 @@ fn faults(of: usize, check: impl Fn(&str, &str, &str) -> Vec<String> + Sync) -> 
 
 #[test]
 fn a_parameter_is_refused_where_the_constant_is() {
-    let faults = faults(4, checked);
+    let faults = faults(20, checked);
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
@@ -663,7 +663,7 @@ fn no_number_of_a_law_is_forgotten() {
 
 #[test]
 fn infinite_parameters_are_refused() {
-    let faults = faults(4, |scene, path, default| {
+    let faults = faults(20, |scene, path, default| {
         let parameters = format!("parameters: {{ p: {default} }}\n");
         let (_, engine) = sound(&text(scene, path, "p", &parameters));
         let values = [f64::INFINITY, f64::NEG_INFINITY, f64::NAN].into_iter();

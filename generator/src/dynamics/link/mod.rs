@@ -23,17 +23,15 @@
 mod articulated;
 mod axis;
 mod body;
-mod elimination;
+pub mod elimination;
 mod forces;
-mod frames;
+pub mod frames;
 mod keep;
 mod mass_matrix;
 mod motion;
-mod search;
-mod shared;
-#[cfg(test)]
-mod tests;
-mod tree;
+pub mod search;
+pub mod shared;
+pub mod tree;
 mod turn;
 mod wrench;
 
@@ -136,13 +134,13 @@ fn cost(graph: &Graph, values: &[Expr<'_>]) -> usize {
 }
 
 /// S, r_s and r_k of a system.
-struct Matrices<'g> {
+pub struct Matrices<'g> {
     /// Terms of the upper or lower triangle of S, by row and column. Terms with the same place must be added.
-    matrix: Vec<(usize, usize, Expr<'g>)>,
+    pub matrix: Vec<(usize, usize, Expr<'g>)>,
     /// Terms of r_s by row.
-    velocity_forces: Vec<(usize, Expr<'g>)>,
+    pub velocity_forces: Vec<(usize, Expr<'g>)>,
     /// Terms of r_k by row.
-    applied_forces: Vec<(usize, Expr<'g>)>,
+    pub applied_forces: Vec<(usize, Expr<'g>)>,
 }
 
 /// S and the forces of the links of a system, in chosen frames.
@@ -150,7 +148,7 @@ struct Needs<'g> {
     /// The composite body of each link.
     composites: Vec<Body<'g>>,
     /// Terms of S by row and column.
-    matrix: Vec<(usize, usize, Expr<'g>)>,
+    pub matrix: Vec<(usize, usize, Expr<'g>)>,
     /// The reference motion of each link.
     motions: Vec<LinkMotion<'g>>,
     /// Terms, by row, of the forces that the reference motion needs, without the forces that act.
@@ -174,7 +172,7 @@ impl<'g> Needs<'g> {
 }
 
 /// S, r_s and r_k of the system; `None` if link frames do not apply.
-fn matrices<'g>(
+pub fn matrices<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
     choose: impl FnOnce(&Tree<'g>) -> Choice,
@@ -207,7 +205,7 @@ fn matrices<'g>(
 }
 
 /// Sets the rows of v̇ of the system, computed from its S; returns false if link frames do not apply.
-fn accelerations_by_factors<'g>(
+pub fn accelerations_by_factors<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
     choose: impl FnOnce(&Tree<'g>) -> Choice,
@@ -259,7 +257,7 @@ fn accelerations_by_factors<'g>(
 }
 
 /// Adds terms to both triangles of S.
-fn add_entries<'g>(matrix: &mut [Vec<Option<Expr<'g>>>], terms: &[(usize, usize, Expr<'g>)]) {
+pub fn add_entries<'g>(matrix: &mut [Vec<Option<Expr<'g>>>], terms: &[(usize, usize, Expr<'g>)]) {
     for &(i, j, value) in terms {
         if !value.is_zero() {
             let sum = matrix[i][j].map_or(value, |entry| entry + value);
@@ -269,7 +267,7 @@ fn add_entries<'g>(matrix: &mut [Vec<Option<Expr<'g>>>], terms: &[(usize, usize,
 }
 
 /// v̇ of the joints of all links, by row.
-fn rates<'g>(
+pub fn rates<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
     tree: &Tree<'g>,

@@ -71,9 +71,9 @@ struct Column<'g> {
 
 /// A wrench: a force at the origin of an element and a moment about it, in absolute axes.
 #[derive(Clone, Copy)]
-pub(super) struct Wrench<'g> {
-    pub(super) force: Vec3<'g>,
-    pub(super) moment: Vec3<'g>,
+pub struct Wrench<'g> {
+    pub force: Vec3<'g>,
+    pub moment: Vec3<'g>,
 }
 
 impl<'g> Column<'g> {
@@ -85,14 +85,14 @@ impl<'g> Column<'g> {
 
 impl<'g> Wrench<'g> {
     /// The wrench 0.
-    pub(super) fn none(graph: &'g Graph) -> Self {
+    pub fn none(graph: &'g Graph) -> Self {
         Wrench {
             force: Vec3::zero(graph),
             moment: Vec3::zero(graph),
         }
     }
 
-    pub(super) fn plus(self, other: Wrench<'g>) -> Self {
+    pub fn plus(self, other: Wrench<'g>) -> Self {
         Wrench {
             force: self.force + other.force,
             moment: self.moment + other.moment,
@@ -130,31 +130,31 @@ pub fn coupled_accelerations<'g>(
 }
 
 impl<'g, 'a> Spatial<'g, 'a> {
-    pub(super) fn of_system(&self) -> &'a System {
+    pub fn of_system(&self) -> &'a System {
         &self.model.systems[self.system]
     }
 
     /// Whether all joints of the system are balls.
-    pub(super) fn has_balls_alone(&self) -> bool {
+    pub fn has_balls_alone(&self) -> bool {
         self.of_system().has_balls_alone()
     }
 
-    pub(super) fn id(&self, element: usize) -> ElementId {
+    pub fn id(&self, element: usize) -> ElementId {
         ElementId {
             system: self.system,
             element,
         }
     }
 
-    pub(super) fn motion_of(&self, element: usize) -> &'a ElementMotion<'g> {
+    pub fn motion_of(&self, element: usize) -> &'a ElementMotion<'g> {
         &self.motion.systems[self.system][element]
     }
 
-    pub(super) fn rows(&self, element: usize) -> Range<usize> {
+    pub fn rows(&self, element: usize) -> Range<usize> {
         self.layout.element_velocities(self.id(element))
     }
 
-    pub(super) fn label(&self, element: usize) -> String {
+    pub fn label(&self, element: usize) -> String {
         path(self.model, self.id(element))
     }
 
@@ -163,7 +163,7 @@ impl<'g, 'a> Spatial<'g, 'a> {
     }
 
     /// Whether v of an element are the rates of Bryant angles.
-    pub(super) fn has_bryant_angles(&self, element: usize) -> bool {
+    pub fn has_bryant_angles(&self, element: usize) -> bool {
         self.layout.orientation == Orientation::Bryant
             && self.of_system().elements[element].joint == Joint::Ball
     }
@@ -191,7 +191,7 @@ impl<'g, 'a> Spatial<'g, 'a> {
     }
 
     /// Whether a degree of freedom follows another. Then S is not as sparse as the tree.
-    pub(super) fn is_coupled(&self) -> bool {
+    pub fn is_coupled(&self) -> bool {
         self.of_system().is_coupled()
     }
 

@@ -71,7 +71,6 @@ pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
 }
 
 /// The number of links that a search brings into frames, and of those whose equations it derives, trial by trial.
-#[cfg(test)]
 pub fn work(tree: &Tree<'_>, aim: Aim) -> [usize; 2] {
     let mut search = Search::new(tree, aim);
     search.sweep();
@@ -79,7 +78,6 @@ pub fn work(tree: &Tree<'_>, aim: Aim) -> [usize; 2] {
 }
 
 /// Frames of links drawn at random from those that a search tries. `draw` returns a number below its argument.
-#[cfg(test)]
 pub fn drawn(tree: &Tree<'_>, aim: Aim, draw: &mut dyn FnMut(usize) -> usize) -> Choice {
     let mut search = Search::new(tree, aim);
     for k in (0..tree.links.len()).rev() {

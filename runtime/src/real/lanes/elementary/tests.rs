@@ -8,19 +8,34 @@ mod power;
 use crate::real::lanes::alone::Alone;
 use crate::real::lanes::register::Doubles;
 use crate::{DoubleDouble, Real};
+use std::sync::OnceLock;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// The arithmetic of registers with fused multiply-adds.
 type Fused = Alone<f64, true>;
 /// The arithmetic of registers without them.
 type Unfused = Alone<f64, false>;
 
-/// The number of random points on which each bound is tried.
-const POINTS: usize = 1_000_000;
+/// The number of random points on which each bound is tried: other points in each run, and ten times as many with `BRYANT_TESTS=all`.
+fn points() -> usize {
+    let all = std::env::var("BRYANT_TESTS").is_ok_and(|which| which == "all");
+    if all { 1_000_000 } else { 100_000 }
+}
 
-/// Random numbers, the same in each run (Steele, Lea and Flood 2014, "SplitMix").
+/// Random numbers, others in each run (Steele, Lea and Flood 2014, "SplitMix"). A test that fails says where.
 struct Random(u64);
 
 impl Random {
+    /// A sequence of its own for each seed.
+    fn new(seed: u64) -> Self {
+        static RUN: OnceLock<u64> = OnceLock::new();
+        let run = RUN.get_or_init(|| {
+            let now = SystemTime::now().duration_since(UNIX_EPOCH);
+            now.map_or(0, |since| since.as_nanos() as u64)
+        });
+        Random(run.wrapping_add(seed << 40))
+    }
+
     fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

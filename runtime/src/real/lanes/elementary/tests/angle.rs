@@ -1,7 +1,7 @@
 //! The angle of a point.
 
 use super::super::atan2;
-use super::{Fused, POINTS, Random, Unfused, Worst, around, ulps};
+use super::{Fused, Random, Unfused, Worst, around, points, ulps};
 use crate::real::lanes::register::Doubles;
 use crate::{DoubleDouble, Real};
 
@@ -17,15 +17,15 @@ fn error<R: Doubles>(y: f64, x: f64) -> f64 {
 /// Over points in a square, points whose coordinates differ in size, and points near the rays where the formula
 /// changes.
 fn worst<R: Doubles>() -> Worst {
-    let (mut random, mut worst) = (Random(1), Worst::default());
-    for i in 0..POINTS / 2 {
+    let (mut random, mut worst) = (Random::new(1), Worst::default());
+    for i in 0..points() / 2 {
         let (y, x) = (random.even(), random.even());
         worst.consider(error::<R>(y, x), [y, x]);
         let y = y * 0.5_f64.powi(i as i32 % 120);
         worst.consider(error::<R>(y, x), [y, x]);
         worst.consider(error::<R>(x, y), [x, y]);
     }
-    for _ in 0..POINTS / 100 {
+    for _ in 0..points() / 100 {
         let x = random.even();
         for ratio in [0.5, 1.0, 2.0] {
             for y in around(ratio * x) {
@@ -48,8 +48,8 @@ fn angles_are_within_two_ulp_without_fused_steps() {
 
 #[test]
 fn points_of_all_sizes_have_angles() {
-    let mut random = Random(2);
-    for _ in 0..POINTS / 10 {
+    let mut random = Random::new(2);
+    for _ in 0..points() / 10 {
         let (y, x) = (random.any(), random.any());
         let (found, expected) = (angle::<Fused>(y, x), y.atan2(x));
         // the error of the library itself is up to 1 ulp, and a subnormal angle is exact to the last bit

@@ -1,7 +1,7 @@
 //! Exponential and logarithm.
 
 use super::super::{exp, ln};
-use super::{Fused, POINTS, Random, Unfused, Worst, around, of, ulps};
+use super::{Fused, Random, Unfused, Worst, around, of, points, ulps};
 use crate::real::lanes::register::Doubles;
 use crate::{DoubleDouble, Real};
 
@@ -15,8 +15,8 @@ fn error_of_ln<R: Doubles>(x: f64) -> f64 {
 
 /// Over arguments for which the result and its tail are normal in the reference, and over small arguments.
 fn worst_exp<R: Doubles>() -> Worst {
-    let (mut random, mut worst) = (Random(1), Worst::default());
-    for _ in 0..POINTS / 2 {
+    let (mut random, mut worst) = (Random::new(1), Worst::default());
+    for _ in 0..points() / 2 {
         for reach in [660.0, 1.0] {
             let x = random.even() * reach;
             worst.consider(error_of_exp::<R>(x), [x, reach]);
@@ -27,8 +27,8 @@ fn worst_exp<R: Doubles>() -> Worst {
 
 /// Over all positive numbers, and next to 1, where the logarithm vanishes.
 fn worst_ln<R: Doubles>() -> Worst {
-    let (mut random, mut worst) = (Random(2), Worst::default());
-    for i in 0..POINTS / 2 {
+    let (mut random, mut worst) = (Random::new(2), Worst::default());
+    for i in 0..points() / 2 {
         let x = random.any().abs();
         worst.consider(error_of_ln::<R>(x), [x, 0.0]);
         let x = 1.0 + random.even() * 0.5_f64.powi((i % 50) as i32 + 1);
@@ -55,11 +55,11 @@ fn the_exponential_is_within_one_ulp_without_fused_steps_too() {
 
 #[test]
 fn subnormal_exponentials_are_within_one_ulp() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     // 2¹⁰⁰ e^x is normal, where the reference has its digits
     let up = 2.0_f64.powi(100);
     let logarithm = Real::ln(DoubleDouble::from_f64(up));
-    for _ in 0..POINTS / 10 {
+    for _ in 0..points() / 10 {
         let x = -726.0 + 18.0 * random.even();
         let exact = Real::exp(DoubleDouble::from_f64(x) + logarithm).to_f64();
         let found = of::<Fused>(exp, x) * up;

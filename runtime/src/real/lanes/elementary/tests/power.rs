@@ -1,7 +1,7 @@
 //! Powers.
 
 use super::super::powf;
-use super::{Fused, POINTS, Random, Unfused, Worst, ulps};
+use super::{Fused, Random, Unfused, Worst, points, ulps};
 use crate::real::lanes::register::Doubles;
 use crate::{DoubleDouble, Real};
 
@@ -17,8 +17,8 @@ fn error<R: Doubles>(x: f64, y: f64) -> f64 {
 /// Over bases of all exponents, near 1 and between, with small exponents and exponents that use the whole range of
 /// results.
 fn worst<R: Doubles>() -> Worst {
-    let (mut random, mut worst) = (Random(1), Worst::default());
-    for i in 0..POINTS / 4 {
+    let (mut random, mut worst) = (Random::new(1), Worst::default());
+    for i in 0..points() / 4 {
         let bases = [
             random.any().abs(),
             1.0 + random.even() * 0.5_f64.powi(i as i32 % 45 + 1),

@@ -1,17 +1,20 @@
 //! S, r_s, r_k and the accelerations in the frames of links, compared with those in absolute axes, whichever of them the generator would choose.
 
-use super::frames::{Choice, Framed, ReferenceTurn, natural_axes};
-use super::search::Aim;
-use super::tree::Tree;
-use super::{elimination, search};
-use crate::dynamics::augmented::AugmentedTree;
-use crate::dynamics::kinematics::{Motion, State};
-use crate::dynamics::layout::Layout;
-use crate::dynamics::spatial::{self, Spatial};
-use crate::dynamics::{chart, force};
-use crate::expression::evaluate::{Inputs, evaluate};
-use crate::expression::{Expr, Function, Graph, NodeId};
-use crate::model::{Model, read_str};
+use crate::share::share;
+use bryant_generator::dynamics::augmented::AugmentedTree;
+use bryant_generator::dynamics::kinematics::{Motion, State};
+use bryant_generator::dynamics::layout::Layout;
+use bryant_generator::dynamics::link::frames::{
+    Choice, Framed, ReferenceTurn, can_align, natural_axes,
+};
+use bryant_generator::dynamics::link::search::{self, Aim};
+use bryant_generator::dynamics::link::tree::{Link, Tree};
+use bryant_generator::dynamics::link::{self, elimination, shared};
+use bryant_generator::dynamics::spatial::{self, Spatial};
+use bryant_generator::dynamics::{chart, force};
+use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::expression::{Expr, Function, Graph, NodeId};
+use bryant_generator::model::{Model, read_str};
 use std::path::Path;
 
 fn read(text: &str) -> Model {
@@ -223,7 +226,7 @@ fn at_random(numbers: &mut Numbers, links: usize, tree: &Tree<'_>) -> Choice {
             link.turn = 2.0 * numbers.next();
             link.place = numbers.next();
         }
-        link.aligned = numbers.below(2) == 0 && super::frames::can_align(tree, &natural, k);
+        link.aligned = numbers.below(2) == 0 && can_align(tree, &natural, k);
         link.by_inertia = numbers.below(2) == 0;
         let children = tree.links.iter().enumerate();
         let children = children.filter(|(_, l)| l.parent == Some(k));
@@ -399,12 +402,12 @@ fn said<'g>(
             Way::Drawn => drawn.clone(),
             Way::Found => search::choice(tree, aim),
         };
-        if super::shared::heads(&tree).is_some() {
+        if shared::heads(&tree).is_some() {
             let choice = choice(&tree, Aim::Elimination);
             let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
-            let name = |_: &super::tree::Link<'_>| String::new();
+            let name = |_: &Link<'_>| String::new();
             let solved = elimination::accelerations(&tree, &framed, &choice, &name);
-            let found = super::rates(spatial, applied, &tree, &solved);
+            let found = link::rates(spatial, applied, &tree, &solved);
             let mut rows: Vec<usize> = found.iter().map(|(row, _)| *row).collect();
             rows.sort_unstable();
             assert!(rows.into_iter().eq(0..size), "every row once\n{text}");
@@ -419,9 +422,9 @@ fn said<'g>(
             ..choice(tree, aim)
         };
         let chosen = |tree: &Tree<'g>| unshifted(tree, Aim::Matrices);
-        let found = super::matrices(spatial, applied, chosen).expect("link frames can say it");
+        let found = link::matrices(spatial, applied, chosen).expect("link frames can say it");
         let mut entries = vec![vec![None; size]; size];
-        super::add_entries(&mut entries, &found.matrix);
+        link::add_entries(&mut entries, &found.matrix);
         for (i, row) in entries.iter().enumerate() {
             for (j, entry) in row.iter().enumerate() {
                 let node = |e: Option<Expr<'g>>| e.map(|e| e.id());
@@ -433,7 +436,7 @@ fn said<'g>(
         say("r_k", sums(&found.applied_forces), ids(&r_k));
         let chosen = |tree: &Tree<'g>| unshifted(tree, Aim::Factorization);
         let mut factorized = none.clone();
-        let possible = super::accelerations_by_factors(spatial, applied, chosen, &mut factorized);
+        let possible = link::accelerations_by_factors(spatial, applied, chosen, &mut factorized);
         assert!(possible, "link frames can say it\n{text}");
         say("accelerations by S", ids(&factorized), ids(&rates));
     }
@@ -442,9 +445,12 @@ fn said<'g>(
 
 /// Compares random trees. Both ways are backward stable, and no tree here has a condition number above 1e4 or so.
 fn compare(seed: u64, count: usize, kind: Kind, coordinates: &[&str]) {
-    let mut numbers = Numbers(seed);
     let mut worst: f64 = 0.0;
-    for i in 0..count {
+    for i in share(6, 0..count) {
+        let mut numbers = Numbers(
+            seed.wrapping_add(i as u64)
+                .wrapping_mul(0x9e37_79b9_7f4a_7c15),
+        );
         let text = match kind {
             Kind::Plane => tree_in_the_plane(&mut numbers),
             _ => tree(&mut numbers, coordinates[i % coordinates.len()], kind),
