@@ -236,18 +236,16 @@ impl Arm {
         let instructions = &self.encoder.instructions;
         let mut code: Vec<u32> = Vec::with_capacity(instructions.len() + end.len());
         let mut places = Vec::with_capacity(instructions.len() + 1);
-        for index in 0..=instructions.len() {
+        let all = instructions.iter().zip(gone).map(Some).chain([None]);
+        for (index, next) in all.enumerate() {
             if index == self.end {
                 code.extend(end.iter().map(|instruction| instruction.word));
             }
             places.push(code.len());
-            let Some(Instruction { word, .. }) = instructions.get(index).filter(|_| !gone[index])
-            else {
-                continue;
-            };
-            match far {
-                true => code.extend(long_branch(*word)),
-                false => code.push(*word),
+            match next {
+                Some((instruction, false)) if far => code.extend(long_branch(instruction.word)),
+                Some((instruction, false)) => code.push(instruction.word),
+                _ => {}
             }
         }
         for branch in &self.encoder.branches {

@@ -387,13 +387,13 @@ impl Encoder {
     /// Two general registers are moved to or from memory, at a multiple of 8 up to 504: LDP, STP
     pub fn general_pair(&mut self, store: bool, base: General, offset: u32, pair: [General; 2]) {
         let operands = u32::from(pair[1].0) << 10 | u32::from(base.0) << 5 | u32::from(pair[0].0);
-        self.other(0xa900_0000 | u32::from(!store) << 22 | offset / 8 << 15 | operands);
+        self.other(0xa900_0000 | u32::from(!store) << 22 | (offset / 8) << 15 | operands);
     }
 
     /// A general register is moved to or from memory, at a multiple of 8 up to 32760: LDR, STR
     pub fn general(&mut self, store: bool, base: General, offset: u32, register: General) {
         let operands = u32::from(base.0) << 5 | u32::from(register.0);
-        self.other(0xf900_0000 | u32::from(!store) << 22 | offset / 8 << 10 | operands);
+        self.other(0xf900_0000 | u32::from(!store) << 22 | (offset / 8) << 10 | operands);
     }
 
     /// Lowers the stack by up to 4095 bytes: SUB
