@@ -10,7 +10,7 @@ pub fn closes(energy: &Energy) -> String {
         return "there is none: nothing moves, and nothing works".to_owned();
     }
     let [gap, largest] = [energy.gap().abs(), largest].map(joules);
-    format!("closes to {gap} of {largest} (--energy lists the works)")
+    format!("closes to {gap} of {largest}")
 }
 
 /// The largest energy in a balance \[J\].
@@ -146,12 +146,12 @@ mod tests {
         assert_eq!(
             text,
             "energy [J]\n  \
-               kinetic energy at the start             0\n  \
-               field sled                           1000\n  \
-               belt chest                           -900\n  \
-               joint man/head: damping                -1\n  \
-               not accounted for                   0.0e0\n  \
-               kinetic energy at the end              99"
+               kinetic energy at the start            0\n  \
+               field sled                          1000\n  \
+               belt chest                          -900\n  \
+               joint man/head: damping               -1\n  \
+               not accounted for                  0.0e0\n  \
+               kinetic energy at the end             99"
         );
     }
 

@@ -108,6 +108,8 @@ files! {
     "real/lanes/elementary/tests/power.rs",
     "real/lanes/elementary/widened.rs",
     "real/lanes/mod.rs",
+    "real/lanes/neon.rs",
+    "real/lanes/neon/singles.rs",
     "real/lanes/register.rs",
     "real/lanes/several.rs",
     "real/lanes/tests.rs",

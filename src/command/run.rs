@@ -359,10 +359,10 @@ impl Arguments {
         let printed = done.print(&files, &written, terminal);
         let printed = printed.and_then(|()| terminal.flush());
         self.tell_cost(&recording, &errors, terminal);
-        let printed = printed.and_then(|()| done.print_result(&files, terminal));
         for line in &recording.notes {
             terminal.note(line);
         }
+        let printed = printed.and_then(|()| done.print_result(&files, terminal));
         if let [first, others @ ..] = &written[..] {
             let others = others.iter().map(|file| format!(", {}", file.display()));
             terminal.note(&format!(

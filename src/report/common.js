@@ -1,5 +1,7 @@
 // Shared by the pages of runs and of studies: numbers, elements, tables.
-const data = JSON.parse(document.getElementById("data").textContent);
+// A unit as people write it: N*m/s^2 is N·m/s².
+const typeset = (unit) => unit.replace(/\^2/g, "²").replace(/\^3/g, "³").replace(/\*/g, "·");
+const data = JSON.parse(document.getElementById("data").textContent, (key, value) => (key === "unit" && typeof value === "string" ? typeset(value) : value));
 const byId = (id) => document.getElementById(id);
 
 // An element of the document with text, never HTML.

@@ -75,7 +75,7 @@ fn keyframes_are_where_the_outputs_say() {
         "swing.glb",
     ];
     let (_, told) = call(path, &run, 0);
-    assert!(told.contains("wrote swing.glb"), "{told}");
+    assert!(told.contains("wrote run.csv, swing.glb"), "{told}");
     let bytes = fs::read(path.join("swing.glb")).unwrap();
     let (json, buffer) = parts(&bytes);
     let columns = tables::read(&path.join("run.csv"));

@@ -77,7 +77,7 @@ impl Responses {
         let classes: Vec<Class> = filters.map(|filter| filter.class).collect();
         let sampling = sampling.unwrap_or_else(|| {
             let needed = classes.iter().copied().map(Class::longest_interval);
-            let own = match asked.is_empty() {
+            let own = match asked.is_empty() && classes.is_empty() {
                 true => arguments.every.unwrap_or(model.run.every) / BETWEEN_ROWS,
                 false => response::sampling(facts.run.sampling, &asked),
             };

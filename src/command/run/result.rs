@@ -91,12 +91,23 @@ pub fn text(done: &Done<'_>, width: Option<usize>) -> String {
     let lines = ["energy", "trust"]
         .into_iter()
         .zip(trust(recording, errors));
+    let lines = lines.map(|(what, line)| match what {
+        "energy" => (what, line.map(|line| line + " (--energy lists the works)")),
+        _ => (what, line),
+    });
     for (index, (what, line)) in lines
         .filter_map(|(what, line)| Some((what, line?)))
         .enumerate()
     {
         let begin = if index == 0 { "\n" } else { "" };
         let _ = writeln!(text, "{begin}{what:7} {line}");
+    }
+    match recording.notes.len() {
+        0 => {}
+        1 => text += "remark  one, above\n",
+        count => {
+            let _ = writeln!(text, "remarks {count}, above");
+        }
     }
     text
 }
