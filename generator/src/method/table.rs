@@ -1,6 +1,6 @@
 //! A specification for each emitted method, in the order of the emitted text.
 //!
-//! A new method is a function here and its line in [`TABLE`]; its variant of [`Method`], where it is no part of another; and its function in
+//! A new method is a function here and its line in `TABLE`; its variant of [`Method`], where it is no part of another; and its function in
 //! the runtime's table.
 
 use super::inputs::{Argument, Inputs};

@@ -161,7 +161,7 @@ pub struct FramedLink<'g> {
     pub place: Vec3<'g>,
     /// Its body after regrouping.
     pub body: Body<'g>,
-    /// The body for the reference motion: the same, or with [a part of it moved elsewhere](super::keep).
+    /// The body for the reference motion: the same, or with a part of it moved elsewhere (`keep`).
     pub in_reference: Body<'g>,
     /// Whether it keeps the axes of the inboard side of its joint.
     pub aligned: bool,

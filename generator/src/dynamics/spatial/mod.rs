@@ -1,6 +1,6 @@
 //! Systems that have joints other than balls, by spatial algebra in absolute axes.   \[Featherstone 2008\]
 //!
-//! An element k has the origin p_k, in its joint, and the columns (s_j, e_j) of [its velocities](crate::joint::twist). With the carrier p and
+//! An element k has the origin p_k, in its joint, and the columns (s_j, e_j) of its velocities (`joint::twist`). With the carrier p and
 //! u = p_k − p_p (if k is on a ball joint, it does not turn with its carrier, so α_k has no term α_p),
 //!
 //! a_k = a_p + α_p × u + c_k + Σ s_j v̇_j,   α_k = α_p + Σ e_j v̇_j + …      (… and c_k: what is there when v̇ = 0)
@@ -18,7 +18,7 @@
 //! articulated-body algorithm of this module cannot handle this, because the two are at different places of the tree; then v̇ follows from S.
 //! The algorithm in [the frames of the links](super::link) can handle it.
 //!
-//! Systems whose joints are all balls have [a shorter algorithm](super::elimination), in which the mass of the carried elements is a point of
+//! Systems whose joints are all balls have a shorter algorithm (`elimination`), in which the mass of the carried elements is a point of
 //! the carrier.
 
 mod articulated_body;
