@@ -45,7 +45,7 @@ systems:
     start: { rates: { rod: -3 } }
 forces: [{ joint: s/rod, elastic: { points: [[-2, -80], [2, 80]], extrapolate: linear } }]
 outputs: [{ name: angle, of: s/rod, what: angle }, { name: rate, of: s/rod, what: angular_velocity }]
-run: { duration: 0.9 s, every: 0.1 s }
+run: { duration: 0.4 s, every: 0.1 s }
 ";
 
 #[test]
