@@ -249,9 +249,10 @@ impl File {
         mesh
     }
 
-    /// Adds keyframes of a node.
+    /// Adds keyframes of a node. The first is also where the node rests: what shows the file without playing it shows the start.
     fn key(&mut self, node: usize, path: &str, values: &[f64], width: usize) {
         debug_assert_eq!(values.len(), width * self.count);
+        self.list("nodes")[node][path] = json!(values[..width]);
         let output = self.floats(values, width, None);
         let sampler = json!({ "input": self.times, "output": output, "interpolation": "LINEAR" });
         let channel = json!({ "node": node, "path": path });

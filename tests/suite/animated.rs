@@ -132,6 +132,21 @@ fn keyframes_are_where_the_outputs_say() {
             assert!(product > 0.0, "the turn jumps at row {k}");
         }
     }
+    // at rest everything is where the first keyframe has it
+    let mut moved = 0;
+    for channel in animation["channels"].as_array().unwrap() {
+        let target = &channel["target"];
+        let sampler = &animation["samplers"][channel["sampler"].as_u64().unwrap() as usize];
+        let first = floats(&json, buffer, &sampler["output"]);
+        let node = &nodes[target["node"].as_u64().unwrap() as usize];
+        let rest = node[target["path"].as_str().unwrap()].as_array();
+        for (rest, first) in rest.expect("it rests somewhere").iter().zip(first) {
+            near(rest.as_f64().unwrap(), first);
+            moved += 1;
+        }
+    }
+    // translation and rotation of two bodies at least
+    assert!(moved >= 14, "{moved}");
     // z is up: the node above all others rotates it to y
     let root: Vec<f64> = nodes[0]["rotation"]
         .as_array()
