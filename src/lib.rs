@@ -92,3 +92,4 @@ mod state_file;
 pub mod sweep;
 pub mod table;
 pub mod timing;
+mod units;

@@ -86,8 +86,8 @@ const OF_FORMATS: [&str; 38] = [
 
 /// So much of the beginning of a file is looked at, and of the end a part \[bytes\].
 const LOOKED_AT: u64 = 1 << 24;
-/// The first heading of a table of a run.
-pub const FIRST_HEADING: &str = "\"time [s]\"";
+/// The first heading of a table of a run, in each system of units.
+const FIRST_HEADINGS: [&str; 2] = ["\"time [s]\"", "\"time [ms]\""];
 /// The beginning of the last line of the text of a model.
 const SIGNED: &str =
     "# Written by bryant and not changed since, if this is the SHA-256 of the lines above: ";
@@ -148,7 +148,10 @@ fn is_own(begin: &[u8], end: &[u8], kind: Kind) -> bool {
 
 /// Whether a line is the heading of a table as a run writes it: the first heading in quotation marks, the others only where they need them.
 fn is_own_heading(line: &[u8]) -> bool {
-    let Some(rest) = line.strip_prefix(FIRST_HEADING.as_bytes()) else {
+    let Some(rest) = FIRST_HEADINGS
+        .iter()
+        .find_map(|first| line.strip_prefix(first.as_bytes()))
+    else {
         return false;
     };
     let mut reader = csv::ReaderBuilder::new()
@@ -215,6 +218,7 @@ mod tests {
             "\"time [s]\",a [N]",
             "\"time [s]\",\"a, b [N]\"",
             "\"time [s]\"",
+            "\"time [ms]\",a [N]",
         ] {
             assert!(is_own_heading(own.as_bytes()), "{own}");
         }

@@ -3,7 +3,7 @@
 //! For people, the number of decimals of a column follows from its unit (newtons without decimals, metres to the millimetre), with more
 //! decimals if three digits of the largest value need them. Files have all digits.
 
-use bryant_picture::text::wrap;
+use bryant_picture::text::{typeset, wrap};
 use std::fmt::Write as _;
 use std::io;
 
@@ -108,9 +108,18 @@ impl Table {
 }
 
 impl Column {
-    /// Name and unit in one line.
+    /// Name and unit in one line, as files have them.
     pub fn heading(&self) -> String {
-        match self.unit.as_str() {
+        self.with(&self.unit)
+    }
+
+    /// Name and unit in one line, as people write them.
+    pub fn title(&self) -> String {
+        self.with(&typeset(&self.unit))
+    }
+
+    fn with(&self, unit: &str) -> String {
+        match unit {
             "" => self.name.clone(),
             unit => format!("{} [{unit}]", self.name),
         }
@@ -216,8 +225,8 @@ impl Format {
 fn natural_decimals(unit: &str) -> usize {
     match unit {
         "s" | "m" | "rad" => 3,
-        "m/s" | "rad/s" => 2,
-        "J" | "N*m" => 1,
+        "m/s" | "rad/s" | "kN" => 2,
+        "J" | "N*m" | "g" | "deg" | "kPa" => 1,
         _ => 0,
     }
 }
@@ -225,7 +234,7 @@ fn natural_decimals(unit: &str) -> usize {
 /// Number of decimals that distinguishes the rows of a column of equidistant times; `None` for any other column.
 fn spacing_decimals(column: &Column) -> Option<usize> {
     let values = &column.values;
-    if column.unit != "s" || values.len() < 2 {
+    if !["s", "ms"].contains(&column.unit.as_str()) || values.len() < 2 {
         return None;
     }
     let step = values[1] - values[0];
@@ -242,11 +251,6 @@ fn spacing_decimals(column: &Column) -> Option<usize> {
         step * bryant_picture::chart::power_of_ten(decimals as i32) > 0.5
             && values.iter().all(|v| whole(*v))
     })
-}
-
-/// A unit as people write it: `N*m/s^2` is N·m/s².
-pub(crate) fn typeset(unit: &str) -> String {
-    unit.replace("^2", "²").replace("^3", "³").replace('*', "·")
 }
 
 /// The columns that stand side by side.

@@ -100,7 +100,7 @@ pub struct Arguments {
     set: Vec<String>,
 
     /// Directory of the files [default: the current one]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// CSV file of all points with their settings; - prints it instead of the table [default: MODEL-accuracy.csv]

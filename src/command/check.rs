@@ -13,6 +13,7 @@ use bryant_generator::model::{
 };
 use bryant_generator::program::{self, Options};
 use bryant_generator::target::rust;
+use bryant_picture::text::typeset;
 use bryant_study::criteria::limits::Limits;
 use bryant_study::criteria::{Judged, Missing, judge};
 use bryant_study::facts::ModelFacts;
@@ -240,10 +241,9 @@ fn as_text(model: &Model, costs: &Costs) -> String {
         let _ = writeln!(text, "  parameter   {}", describe(parameter));
     }
     for output in &model.outputs {
-        let unit = if output.unit.is_empty() {
-            "-"
-        } else {
-            &output.unit
+        let unit = match model.unit_of(output).name.as_str() {
+            "" => "-".to_owned(),
+            unit => typeset(unit),
         };
         let _ = writeln!(text, "  output      {} [{unit}]", output.name);
     }
@@ -292,7 +292,7 @@ fn indent(system: &System, mut element: usize) -> String {
 fn describe(parameter: &Parameter) -> String {
     let unit = match parameter.unit.as_str() {
         "" => String::new(),
-        unit => format!(" {unit}"),
+        unit => format!(" {}", typeset(unit)),
     };
     let bounds = match (parameter.min, parameter.max) {
         (None, None) => String::new(),
@@ -368,7 +368,7 @@ fn as_json(scene: &Scene, costs: &Costs) -> Value {
     let outputs: Vec<Value> = model
         .outputs
         .iter()
-        .map(|o| json!({ "name": o.name, "unit": o.unit }))
+        .map(|o| json!({ "name": o.name, "unit": model.unit_of(o).name }))
         .collect();
     let cost = |count: &Count| {
         json!({

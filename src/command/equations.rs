@@ -38,7 +38,7 @@ Examples:
   bryant equations sled-pendulum
   bryant equations sled-pendulum --latex > equations.tex
   bryant equations my.yaml --rust > model.rs
-  bryant equations child-seat --c --output src       write src/child_seat.h and src/child_seat.c
+  bryant equations child-seat --c --out src          write src/child_seat.h and src/child_seat.c
   bryant equations my.yaml --json                    values at the start
   echo '{\"t\": 0, \"q\": [0.1, 0, 0, 0.2], \"v\": [0, 0, 0, 1]}' | bryant equations sled-pendulum --at - --json")]
 pub struct Arguments {
@@ -58,8 +58,14 @@ pub struct Arguments {
     c: bool,
 
     /// Write the C99 as NAME.h and NAME.c into this directory instead
-    #[arg(long, short, value_name = "DIRECTORY", requires = "c")]
-    output: Option<PathBuf>,
+    #[arg(
+        long,
+        short,
+        alias = "output",
+        value_name = "DIRECTORY",
+        requires = "c"
+    )]
+    out: Option<PathBuf>,
 
     /// Coordinates of orientations in space, instead of those of the model
     #[arg(long, value_enum)]
@@ -155,14 +161,14 @@ impl Arguments {
             header,
             source,
         } = made;
-        let Some(directory) = &self.output else {
+        let Some(directory) = &self.out else {
             return terminal.print(&format!("{header}\n{source}"));
         };
         let files = [("h", header), ("c", source)];
         let files = files.map(|(ending, text)| (directory.join(format!("{name}.{ending}")), text));
         let mut outputs = Outputs::of(read, self.replacing);
         for (path, _) in &files {
-            outputs.take("--output", path, Kind::Source)?;
+            outputs.take("--out", path, Kind::Source)?;
         }
         for (path, text) in files {
             files::replace(&path, |out| out.write_all(text.as_bytes())).map_err(Error::system)?;

@@ -63,8 +63,8 @@ pub struct Arguments {
     planar: bool,
 
     /// Write to this file, instead of to standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[arg(long, short, alias = "output", value_name = "FILE")]
+    out: Option<PathBuf>,
 
     #[command(flatten)]
     replacing: Replacing,
@@ -155,10 +155,10 @@ impl Arguments {
             },
         };
         let text = yaml(&person, written).map_err(Error::Input)?;
-        match &self.output {
+        match &self.out {
             Some(path) if !is_standard(path) => {
                 let mut outputs = Outputs::of([], self.replacing);
-                outputs.take("--output", path, Kind::Model)?;
+                outputs.take("--out", path, Kind::Model)?;
                 files::replace(path, |out| out.write_all(own::signed(&text).as_bytes()))
                     .map_err(Error::system)
             }

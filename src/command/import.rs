@@ -33,8 +33,8 @@ pub struct Arguments {
     file: PathBuf,
 
     /// Write the model to this file, instead of to standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[arg(long, short, alias = "output", value_name = "FILE")]
+    out: Option<PathBuf>,
 
     /// What the root link does
     #[arg(long, value_enum, default_value_t = RootLink::Fixed)]
@@ -95,11 +95,11 @@ impl Arguments {
         // the written model can be run: a body that no model can have is found here
         model::read_str(&imported.name, &imported.text, &read_file)
             .map_err(|found| Error::Model(imported.in_file(found)))?;
-        match &self.output {
+        match &self.out {
             None => terminal.print(&imported.text)?,
             Some(path) => {
                 let mut outputs = Outputs::of([&self.file], self.replacing);
-                outputs.take("--output", path, Kind::Model)?;
+                outputs.take("--out", path, Kind::Model)?;
                 let text = own::signed(&imported.text);
                 files::replace(path, |file| file.write_all(text.as_bytes()))
                     .map_err(Error::system)?;

@@ -4,6 +4,7 @@ use super::Error;
 use super::terminal::Terminal;
 use crate::bundled::{self, Bundled};
 use bryant_generator::description::load::{beside, read_file, read_model, shown};
+use bryant_generator::model::units::UnitSystem;
 use bryant_generator::model::{self, ForceKind, Model, Scene, scene};
 use std::path::{Path, PathBuf};
 
@@ -36,6 +37,11 @@ impl Found {
             scene,
             files,
         }
+    }
+
+    /// Shows outputs in units of this system, but for those with a unit of their own; as the model says if there is none.
+    pub fn show_in(&mut self, system: Option<UnitSystem>) {
+        self.model.units.system = system.unwrap_or(self.model.units.system);
     }
 
     /// Prints the notes about the import of a URDF file.

@@ -104,7 +104,7 @@ impl Requested {
     pub fn of_study(response: &response::Response) -> Requested {
         Requested {
             name: response.name.clone(),
-            unit: response.unit.clone(),
+            unit: response.si.clone(),
             window: response.what.window(),
             asked: Asked {
                 channel: response.channel,

@@ -32,7 +32,10 @@ use crate::equations::Engine;
 use crate::interrupt;
 use crate::picture::{Format, View};
 use crate::simulation::{self, Recording, Runs};
+use crate::table::Table;
+use crate::units::{self, Units};
 use crate::{balance, quantity, state_file};
+use bryant_generator::model::units::UnitSystem;
 use bryant_generator::model::{Model, Scene};
 use bryant_runtime::program::{ErrorKind, Finding, Job, RunError};
 use bryant_runtime::response::filter::Standard;
@@ -141,7 +144,7 @@ pub struct Arguments {
     energy_limit: Option<f64>,
 
     /// Directory of the files [default: the current one]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// File of the table with all digits; - prints it instead of the readable table [default: MODEL.csv]
@@ -268,6 +271,11 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
 
+    /// Units in which outputs and responses are shown and written: SI, or engineering (mm, g, kN, °, kPa, ms). An output with a unit of its own keeps it. Files of
+    /// ISO-MME and criteria have the units of their standards [default: as the model says]
+    #[arg(long, value_name = "SYSTEM", value_parser = units::system())]
+    units: Option<UnitSystem>,
+
     /// Significant digits of the largest value of every column of the table [default: by the unit]
     #[arg(long, value_name = "DIGITS", value_parser = clap::value_parser!(u8).range(1..=17))]
     precision: Option<u8>,
@@ -302,7 +310,8 @@ const CUSTOMARY_STEP: f64 = 1e-4;
 impl Arguments {
     /// Runs the model.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
-        let found = find(&self.model)?;
+        let mut found = find(&self.model)?;
+        found.show_in(self.units);
         found.tell(terminal);
         let mut job = self.job(&found.scene)?;
         let files = Files::of(&self, &found)?;
@@ -350,6 +359,7 @@ impl Arguments {
             found: &found,
             job: &job,
             recording: &recording,
+            table: Units::of(&found.model).table(&recording.table),
             errors: &errors,
             responses: &responses,
             verdict: responses.verdict(&recording),
@@ -597,6 +607,8 @@ struct Done<'a> {
     found: &'a Found,
     job: &'a Job,
     recording: &'a Recording,
+    /// Its table, in the units in which it is shown.
+    table: Table,
     errors: &'a ErrorReport,
     responses: &'a Responses,
     /// `None` if no criteria are requested, `Some(None)` if they are not judged.
@@ -613,9 +625,9 @@ impl Done<'_> {
             recording,
             ..
         } = *self;
-        let mut written = files.write(arguments, &found.model, job, recording)?;
+        let mut written = files.write(arguments, &found.model, job, (recording, &self.table))?;
         if let Some(path) = &arguments.report {
-            let of_run = (recording, self.errors);
+            let of_run = (recording, &self.table, self.errors);
             let judged = self.verdict.as_ref().map(judged_json);
             let judged = (self.responses, judged);
             let page = report::html(arguments, found, job, of_run, judged, terminal)?;
@@ -625,7 +637,7 @@ impl Done<'_> {
         }
         if let Some(path) = &arguments.parquet {
             crate::files::replace(path, |out| {
-                files::parquet(out, &found.model.name, recording)
+                files::parquet(out, &found.model.name, (recording, &self.table))
             })
             .map_err(Error::system)?;
             written.push(path.clone());
@@ -654,7 +666,13 @@ impl Done<'_> {
             ..
         } = *self;
         if arguments.json {
-            let mut value = outcome::json(&arguments.engine, job, recording, errors, written);
+            let mut value = outcome::json(
+                &arguments.engine,
+                job,
+                (recording, &self.table),
+                errors,
+                written,
+            );
             value["responses"] = responses.json(recording, errors);
             value["peaks"] = result::json_of_peaks(&responses.peaks(recording));
             if let Some(verdict) = &self.verdict {
@@ -662,7 +680,13 @@ impl Done<'_> {
             }
             return terminal.print_json(&value);
         }
-        files.print(arguments, &self.found.model, job, recording, terminal)?;
+        files.print(
+            arguments,
+            &self.found.model,
+            job,
+            (recording, &self.table),
+            terminal,
+        )?;
         match &self.verdict {
             Some(Some(verdict)) if !arguments.quiet && !files.prints_a_file() => {
                 terminal.print(&format!("\n{}", verdict.remarks()))

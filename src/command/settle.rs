@@ -43,8 +43,8 @@ pub struct Arguments {
     model: String,
 
     /// Write the state to this file, for `bryant run --start`, instead of to standard output
-    #[arg(short, long, value_name = "STATE.json")]
-    output: Option<PathBuf>,
+    #[arg(long, short, alias = "output", value_name = "STATE.json")]
+    out: Option<PathBuf>,
 
     /// Value of a parameter of the model, with its unit; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
@@ -67,7 +67,7 @@ pub struct Arguments {
     evaluations: u64,
 
     /// Print the forces that carry the model as JSON
-    #[arg(long, requires = "output")]
+    #[arg(long, requires = "out")]
     json: bool,
 
     #[command(flatten)]
@@ -104,13 +104,13 @@ impl Arguments {
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         found.tell(terminal);
-        if let Some(path) = &self.output {
+        if let Some(path) = &self.out {
             let mut outputs = Outputs::of(&found.files, self.replacing);
             let kind = match self.yaml {
                 true => Kind::Model,
                 false => Kind::State,
             };
-            outputs.take("--output", path, kind)?;
+            outputs.take("--out", path, kind)?;
         }
         let values = values_of(&found.model, &self.set_values(&found)?);
         let watched = Watched::new(&found.model);
@@ -184,7 +184,7 @@ impl Arguments {
             }));
         }
         for line in text(&settled, worst, farthest, &rests).lines() {
-            match &self.output {
+            match &self.out {
                 Some(path) if !is_standard(path) => terminal.print(&format!("{line}\n"))?,
                 // the state goes to standard output, so the line goes to standard error
                 _ => terminal.note(line),
@@ -211,7 +211,7 @@ impl Arguments {
                 .map_err(Error::failed)?,
             false => state_file::of_state(&found.model.name, info, 0.0, &settled.state),
         };
-        match &self.output {
+        match &self.out {
             Some(path) if !is_standard(path) => {
                 files::replace(path, |out| out.write_all(state.as_bytes())).map_err(Error::system)
             }

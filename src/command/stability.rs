@@ -37,7 +37,7 @@ pub struct Arguments {
     #[arg(long)]
     list: bool,
 
-    /// Write the table as a page; - prints it instead of the table
+    /// Write a summary as a page, and a page for each group into the folder of its name, FILE/; - prints all of it instead of the table
     #[arg(long, value_name = "FILE.md")]
     markdown: Option<PathBuf>,
 
@@ -66,11 +66,20 @@ impl Arguments {
             return terminal.flush();
         }
         let mut outputs = Outputs::of([], self.replacing);
+        let mut pages = Vec::new();
         if self.json {
             outputs.take("--json", Path::new("-"), Kind::Table)?;
         }
         if let Some(path) = &self.markdown {
             outputs.take("--markdown", path, Kind::Markdown)?;
+            for case in cases.iter().filter(|_| !is_standard(path)) {
+                // groups have several cases
+                let page = path.with_extension("").join(markdown::file(case.group));
+                if !pages.contains(&page) {
+                    outputs.take("--markdown", &page, Kind::Markdown)?;
+                    pages.push(page);
+                }
+            }
         }
         let scenes = Scenes::new();
         let whole = Whole::Count(cases.len() as u64, "hard cases");
@@ -90,12 +99,11 @@ impl Arguments {
         };
         let file = page.filter(|path| !is_standard(path));
         if let Some(path) = file {
-            let text = markdown::page(&outcomes, command);
-            files::replace(path, |file| file.write_all(text.as_bytes())).map_err(Error::system)?;
+            write_pages(path, &outcomes, command)?;
         }
         let printed = match page {
             _ if self.json => terminal.print_json(&json::json(&outcomes)),
-            Some(path) if is_standard(path) => terminal.print(&markdown::page(&outcomes, command)),
+            Some(path) if is_standard(path) => terminal.print(&markdown::whole(&outcomes, command)),
             _ => terminal.print(&format!(
                 "{}\n{}\n",
                 text::text(&outcomes, self.laws).trim_start(),
@@ -119,4 +127,25 @@ impl Arguments {
         };
         terminal.end(printed, outcome)
     }
+}
+
+/// Writes the summary, and the page of each group beside it.
+fn write_pages(path: &Path, outcomes: &[stability::Outcome], command: &str) -> Result<(), Error> {
+    let folder = path.with_extension("");
+    let name = |path: &Path| {
+        path.file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned()
+    };
+    let links = [format!("{}/", name(&folder)), format!("../{}", name(path))];
+    let (summary, pages) = markdown::pages(outcomes, command, links.each_ref().map(String::as_str));
+    std::fs::create_dir_all(&folder).map_err(Error::system)?;
+    let groups = pages
+        .iter()
+        .map(|page| (folder.join(&page.file), &page.text));
+    for (path, text) in groups.chain([(path.to_owned(), &summary)]) {
+        files::replace(&path, |file| file.write_all(text.as_bytes())).map_err(Error::system)?;
+    }
+    Ok(())
 }

@@ -59,7 +59,7 @@ pub struct Arguments {
     study: PathBuf,
 
     /// Folder of the results [default: the study's name and -results]
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, short, value_name = "FOLDER")]
     out: Option<PathBuf>,
 
     /// Run only shard I of N, counted from 0; with N alone, the shard of this task of a job array

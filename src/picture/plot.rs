@@ -7,6 +7,7 @@ use super::corridor::Corridor;
 use crate::table::{Column, Table};
 use bryant_picture::Drawing;
 use bryant_picture::chart::{self, Axes, COLOURS, range};
+use bryant_picture::text::typeset;
 
 /// The columns that are drawn, and the column that they are drawn over.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -140,7 +141,7 @@ impl Request {
         };
         let named = |unit: &str| match unit {
             "" => "pure numbers".to_owned(),
-            unit => unit.to_owned(),
+            unit => typeset(unit),
         };
         Err(PlotError::Units {
             first: of[0].0.to_owned(),
@@ -183,11 +184,11 @@ impl Request {
 fn draw(title: &str, over: &Column, of: &[&Column], corridors: &[&Corridor]) -> Drawing {
     let across = WIDTH - LEFT - RIGHT;
     let (upwards, names) = match of {
-        [one] => (one.heading(), Vec::new()),
+        [one] => (one.title(), Vec::new()),
         [first, ..] => {
             let unit = match first.unit.as_str() {
                 "" => String::new(),
-                unit => format!("[{unit}]"),
+                unit => format!("[{}]", typeset(unit)),
             };
             (unit, of.iter().map(|column| column.name.as_str()).collect())
         }
@@ -217,7 +218,7 @@ fn draw(title: &str, over: &Column, of: &[&Column], corridors: &[&Corridor]) -> 
     let mut drawing = Drawing::new(WIDTH, top + HEIGHT + 48.0, title, &style);
     chart::title(&mut drawing, [LEFT, 10.0], across, title);
     chart::legend(&mut drawing, [LEFT, 14.0 + titles], across, &names);
-    axes.draw(&mut drawing, [&over.heading(), &upwards]);
+    axes.draw(&mut drawing, [&over.title(), &upwards]);
     drawing.open_clipped("inside", frame);
     for corridor in corridors {
         let corner = |bound: usize| {

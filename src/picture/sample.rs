@@ -155,6 +155,7 @@ pub fn child() -> Model {
             every: 0.002,
         },
         shown: Vec::new(),
+        units: Default::default(),
         digest: String::new(),
     }
 }

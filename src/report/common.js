@@ -1,6 +1,6 @@
 // Shared by the pages of runs and of studies: numbers, elements, tables.
-// A unit as people write it: N*m/s^2 is N·m/s².
-const typeset = (unit) => unit.replace(/\^2/g, "²").replace(/\^3/g, "³").replace(/\*/g, "·");
+// A unit as people write it: N*m/s^2 is N·m/s², deg/s is °/s.
+const typeset = (unit) => unit.replace(/\^2/g, "²").replace(/\^3/g, "³").replace(/\*/g, "·").replace(/deg/g, "°");
 const data = JSON.parse(document.getElementById("data").textContent, (key, value) => (key === "unit" && typeof value === "string" ? typeset(value) : value));
 const byId = (id) => document.getElementById(id);
 

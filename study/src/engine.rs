@@ -1,5 +1,6 @@
 //! The engine behind two traits: a model, whoever made it. The study knows no equations and no integrator.
 
+use crate::response::Response;
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -143,6 +144,15 @@ impl Outcomes {
         self.reasons.push(reason);
         let known = responses.iter().copied().chain(std::iter::repeat(f64::NAN));
         self.responses.extend(known.take(self.width));
+    }
+
+    /// Converts all responses from SI to their units.
+    pub fn show_in_units_of(&mut self, responses: &[Response]) {
+        for row in self.responses.chunks_mut(self.width.max(1)) {
+            for (value, response) in row.iter_mut().zip(responses) {
+                *value = response.in_unit(*value);
+            }
+        }
     }
 
     /// Removes the first runs and returns them.

@@ -85,12 +85,15 @@ pub struct ParameterFact {
 }
 
 /// An output.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OutputFact {
     /// Its name.
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
+    /// The unit in which responses show it, and the SI value of that unit; `None` for the SI unit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shown: Option<(String, f64)>,
     /// Its channel code of ISO-MME.
     #[serde(default)]
     pub code: Option<String>,
@@ -135,6 +138,9 @@ impl ModelFacts {
         let outputs = model.outputs.iter().map(|output| OutputFact {
             name: output.name.clone(),
             unit: output.unit.clone(),
+            shown: Some(model.unit_of(output))
+                .filter(|unit| unit.name != output.unit)
+                .map(|unit| (unit.name, unit.size)),
             code: output.code.clone(),
             filter: output.filter.map(str::to_owned),
             resultant: match &output.quantity {

@@ -25,8 +25,19 @@ pub struct Response {
     pub of: String,
     /// The kind of response.
     pub what: What,
-    /// SI unit of the number, "" if it has no unit.
+    /// Unit of the number, "" if it has no unit.
     pub unit: String,
+    /// The SI value of that unit.
+    #[serde(skip_serializing_if = "is_si")]
+    pub size: f64,
+    /// The SI unit of the same quantity.
+    #[serde(skip)]
+    pub si: String,
+}
+
+/// Whether a unit of this size is that of the SI.
+fn is_si(size: &f64) -> bool {
+    *size == 1.0
 }
 
 impl Response {
@@ -34,6 +45,15 @@ impl Response {
     pub fn caution(&self, outputs: &[OutputFact]) -> Option<String> {
         let mut of = self.channel.outputs().iter();
         of.find_map(|index| self.what.caution(outputs.get(*index)?))
+    }
+
+    /// The number in its unit, from its SI value.
+    pub fn in_unit(&self, si: f64) -> f64 {
+        // in SI all digits stay as they are
+        match is_si(&self.size) {
+            true => si,
+            false => si / self.size,
+        }
     }
 
     /// The longest time between samples that its filter allows \[s\], if it has a filter.

@@ -297,6 +297,7 @@ impl State<'_> {
                 let message = format!("the engine answered {answered} of {asked} rows");
                 return Err(EngineError(message).into());
             }
+            outcomes.show_in_units_of(&self.study.responses);
             let mut rest = outcomes;
             for block in mine {
                 let rows = blocks.rows(*block);

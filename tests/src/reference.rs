@@ -99,6 +99,7 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
         curves: vec![],
         vehicles: vec![],
         shown: vec![],
+        units: Default::default(),
         systems: vec![System {
             name: "tree".into(),
             elements,

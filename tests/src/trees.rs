@@ -132,6 +132,7 @@ fn one_system(
             every: 0.01,
         },
         shown: vec![],
+        units: Default::default(),
         digest: String::new(),
     }
 }

@@ -33,6 +33,7 @@ mod sweep;
 mod tables;
 mod trust;
 mod turning;
+mod units;
 
 use called::{bryant, call, expect};
 use std::path::Path;

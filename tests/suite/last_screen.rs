@@ -10,7 +10,7 @@ const SCREEN: (usize, usize) = (24, 80);
 fn the_result_of_a_run_fits_on_one_screen() {
     let directory = directory();
     for (model, words) in [
-        ("child-seat", &["head accelerometer", "remark  one"][..]),
+        ("child-seat", &["head accelerometer", "head excursion"][..]),
         ("child-restraint", &["met by", "HIC", "remarks 4"]),
         ("frontal", &["met by", "Nij", "femur left"]),
     ] {

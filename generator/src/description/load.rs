@@ -42,6 +42,8 @@ record! {
         dimension: Dimension,
         /// How orientation is described in space.
         coordinates: Option<Coordinates>,
+        /// The system of units in which outputs are shown.
+        units: Option<Units>,
         /// Files to read first, relative to this one.
         include: Option<Vec<Include>>,
         /// Numbers that may be changed without compiling again.
@@ -96,6 +98,16 @@ record! {
         switches: Option<Vec<Switch>>,
         /// Columns of the table.
         outputs: Option<Vec<Column>>,
+    }
+}
+
+words! {
+    /// A system of units.
+    Units {
+        /// m, N, rad, s, …
+        Si = "SI",
+        /// mm, g, kN, °, kPa, ms.
+        Engineering = "engineering",
     }
 }
 
@@ -161,6 +173,8 @@ pub struct Header {
     pub dimension: Dimension,
     /// Coordinates of orientation.
     pub coordinates: Option<Coordinates>,
+    /// The system of units in which outputs are shown.
+    pub units: Option<Units>,
     /// Duration and sampling.
     pub run: Option<Run>,
     /// By what a run is judged.
@@ -476,6 +490,7 @@ impl Reader<'_> {
             title: model.title,
             dimension: model.dimension,
             coordinates: model.coordinates,
+            units: model.units,
             run: model.run,
             criteria: model.criteria,
         })

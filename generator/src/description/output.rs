@@ -39,6 +39,8 @@ record! {
         code: Option<String>,
         /// The channel frequency class that it is filtered by.
         filter: Option<Class>,
+        /// The unit in which it is shown.
+        unit: Option<String>,
         /// Whether it has a mirror image.
         mirror: Option<bool>,
     }
@@ -55,6 +57,8 @@ record! {
         formula: String,
         /// Words of the formula and the outputs that they stand for.
         with: Option<Named<String>>,
+        /// The unit in which it is shown.
+        unit: Option<String>,
     }
 }
 

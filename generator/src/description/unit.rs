@@ -29,6 +29,11 @@ impl Dimension {
         Dimension { m, kg, s, k, rad }
     }
 
+    /// The power of the radian, which names units and makes no difference otherwise.
+    pub const fn radians(self) -> i32 {
+        self.rad
+    }
+
     /// The same times K^`k`.
     pub const fn kelvin(self, k: i32) -> Self {
         Dimension { k, ..self }
@@ -148,7 +153,7 @@ pub struct Unit {
 }
 
 /// Standard gravity \[m/s²\] (CGPM 1901).
-const STANDARD_GRAVITY: f64 = 9.80665;
+pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// Units that take the prefixes n, µ, m, c, d, k, M, G.
 const PREFIXED: [(&str, f64, Dimension); 9] = [

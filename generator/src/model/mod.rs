@@ -17,6 +17,7 @@ pub mod rule;
 pub mod scene;
 mod switch;
 mod thin;
+pub mod units;
 pub(crate) mod unloading;
 
 use std::fmt;
@@ -32,6 +33,7 @@ pub use resolve::{read, read_str, read_without_sources};
 pub use rule::Rule;
 pub use scene::Scene;
 pub use switch::{Active, Switch, SwitchQuantity, Trigger};
+pub use units::Units;
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
 #[derive(Clone, PartialEq)]
@@ -62,7 +64,9 @@ pub struct Model {
     pub run: Run,
     /// Ellipsoids that meet nothing, for pictures; at the default parameters.
     pub shown: Vec<Shown>,
-    /// SHA-256 of all of the above but [`shown`](Model::shown), as lower-case hexadecimal: of what the text means, not of how it is written.
+    /// The units in which outputs are shown.
+    pub units: Units,
+    /// SHA-256 of all of the above but [`shown`](Model::shown) and [`units`](Model::units), as lower-case hexadecimal: of what the text means, not of how it is written.
     pub digest: String,
 }
 

@@ -504,6 +504,7 @@ impl Model {
             outputs,
             run: _,
             shown: _,
+            units: _,
             digest: _,
         } = self;
         let mut numbers = Vec::new();

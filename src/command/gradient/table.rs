@@ -3,7 +3,10 @@
 use super::slopes::{SMALL, size};
 use crate::accuracy::conclusion::percent;
 use crate::command::response::Requested;
+use crate::quantity::dimension;
+use bryant_generator::description::unit::Dimension;
 use bryant_generator::model::Parameter;
+use bryant_picture::text::typeset;
 use serde_json::json;
 
 /// Differences disagree if they are off by more than this share of the largest derivative.
@@ -166,17 +169,14 @@ fn number(value: f64) -> String {
 fn with_unit(unit: &str) -> String {
     match unit {
         "" => String::new(),
-        unit => format!(" {unit}"),
+        unit => format!(" {}", typeset(unit)),
     }
 }
 
+/// The SI unit of a response in one SI unit divided by a parameter in another.
 fn quotient(above: &str, below: &str) -> String {
-    match (above, below) {
-        (above, "") => above.to_owned(),
-        ("", below) => format!("1/({below})"),
-        (above, below) if above == below => String::new(),
-        (above, below) => format!("({above})/({below})"),
-    }
+    let dimension = |unit: &str| dimension(unit).unwrap_or(Dimension::ONE);
+    (dimension(above) / dimension(below)).to_string()
 }
 
 #[cfg(test)]
@@ -188,7 +188,10 @@ mod tests {
         assert_eq!(number(1234.5678), "1234.568");
         assert_eq!(number(-0.25), "-0.2500000");
         assert_eq!(number(1e-9), "1.000000e-9");
-        assert_eq!(quotient("N", "m"), "(N)/(m)");
+        assert_eq!(quotient("N", "m"), "N/m");
         assert_eq!(quotient("N", "N"), "");
+        assert_eq!(quotient("", "m"), "1/m");
+        assert_eq!(quotient("m/s^2", ""), "m/s^2");
+        assert_eq!(quotient("N", "N/m"), "m");
     }
 }

@@ -13,6 +13,7 @@ use crate::command::prepare::prepare;
 use crate::report::{Scene, short};
 use crate::simulation::{self, Recording};
 use crate::table::Table;
+use crate::units::Units;
 use bryant_generator::model::Model;
 use bryant_runtime::program::Job;
 use bryant_signal::{Channel, NoChannel, unit};
@@ -81,11 +82,12 @@ pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<V
         let signal = &channel.signal;
         let stride = signal.values.len().div_ceil(MOST_SAMPLES).max(1);
         let shown = || (0..signal.values.len()).step_by(stride);
+        let unit = model.unit_of(output);
         Ok(json!({
             "name": format!("{} measured", output.name),
-            "unit": output.unit,
+            "unit": unit.name,
             "times": shown().map(|i| short(signal.time(i))).collect::<Vec<_>>(),
-            "values": shown().map(|i| short(factor * signal.values[i])).collect::<Vec<_>>(),
+            "values": shown().map(|i| short(unit.of_si(factor * signal.values[i]))).collect::<Vec<_>>(),
         }))
     });
     curves.collect()
@@ -135,11 +137,12 @@ pub fn run(
     let instants = kept(&second);
     let scene = Scene::new(&found.model, &second.coordinates, &parameters, &instants);
     let scene = scene.map_err(Error::system)?.json(&[]);
-    let [times, columns @ ..] = second.table.columns.as_slice() else {
+    let Some(times) = second.table.columns.first() else {
         return Ok(Value::Null);
     };
     let times: Vec<Value> = times.values.iter().map(|t| short(*t)).collect();
-    let curves = columns.iter().map(|column| {
+    let table = Units::of(&found.model).table(&second.table);
+    let curves = table.columns.iter().skip(1).map(|column| {
         let values = column.values.iter().map(|value| short(*value));
         json!({
             "name": format!("{} with {label}", column.name),

@@ -10,7 +10,8 @@ use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement, Format, View};
 use crate::simulation::Recording;
 use crate::state_file;
-use crate::table::Layout;
+use crate::table::{Layout, Table};
+use crate::units::Units;
 use bryant_generator::model::{Dimension, Model};
 use bryant_runtime::program::Job;
 use bryant_signal::filter::{Standard, class_of_code, filtered};
@@ -117,12 +118,12 @@ impl Files {
         arguments: &Arguments,
         model: &Model,
         job: &Job,
-        recording: &Recording,
+        (recording, table): (&Recording, &Table),
     ) -> Result<Vec<PathBuf>, Error> {
         let file = |path: &Option<PathBuf>| path.clone().filter(|path| !is_standard(path));
         let mut written = Vec::new();
         if let Some(path) = file(&self.csv) {
-            files::replace(&path, |out| recording.table.write_csv(out)).map_err(Error::system)?;
+            files::replace(&path, |out| table.write_csv(out)).map_err(Error::system)?;
             written.push(path);
         }
         if let Some(path) = file(&self.final_state).filter(|_| !recording.last_state.is_empty()) {
@@ -144,7 +145,7 @@ impl Files {
                 title => title,
             };
             let drawing = plot
-                .draw(title, &recording.table, &self.corridors)
+                .draw(title, table, &self.corridors)
                 .map_err(Error::input)?;
             let bytes = drawing.bytes(arguments.pictures).map_err(Error::system)?;
             files::replace(path, |out| out.write_all(&bytes)).map_err(Error::system)?;
@@ -162,12 +163,12 @@ impl Files {
         arguments: &Arguments,
         model: &Model,
         job: &Job,
-        recording: &Recording,
+        (recording, table): (&Recording, &Table),
         terminal: &mut Terminal,
     ) -> Result<(), Error> {
         let standard = |path: &Option<PathBuf>| path.as_deref().is_some_and(is_standard);
         if standard(&self.csv) {
-            terminal.write(|out| recording.table.write_csv(out))
+            terminal.write(|out| table.write_csv(out))
         } else if standard(&self.final_state) {
             match recording.last_state.is_empty() {
                 true => Ok(()),
@@ -183,7 +184,7 @@ impl Files {
                 digits: arguments.precision.map(usize::from),
                 width: terminal.width(),
             };
-            terminal.print(&recording.table.text(layout))
+            terminal.print(&table.text(layout))
         }
     }
 
@@ -215,9 +216,8 @@ fn plots(
     directory: &Path,
     outputs: &mut Outputs,
 ) -> Result<(Vec<Plot>, Vec<Corridor>), Error> {
-    let columns = model.outputs.iter();
-    let columns = columns.map(|output| (output.name.as_str(), output.unit.as_str()));
-    let columns: Vec<_> = std::iter::once(("time", "s")).chain(columns).collect();
+    let units = Units::of(model);
+    let (columns, si_columns) = (units.columns(), units.si_columns());
     let mut plots = Vec::new();
     for text in &arguments.plot {
         let plot = Request::read(text, &columns).map_err(Error::input)?;
@@ -232,7 +232,10 @@ fn plots(
         plots.push((plot, path));
     }
     let corridors = arguments.corridor.iter();
-    let corridors = corridors.map(|text| Corridor::read(text, &columns).map_err(Error::Input));
+    let corridors = corridors.map(|text| {
+        let corridor = Corridor::read(text, &si_columns).map_err(Error::Input)?;
+        Ok(units.corridor(corridor))
+    });
     let corridors: Vec<Corridor> = corridors.collect::<Result<_, _>>()?;
     for corridor in &corridors {
         if !plots.iter().any(|(plot, _)| plot.shows(corridor)) {
@@ -301,9 +304,9 @@ fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<Path
 pub fn parquet(
     out: &mut dyn std::io::Write,
     model: &str,
-    recording: &Recording,
+    (recording, table): (&Recording, &Table),
 ) -> std::io::Result<()> {
-    let columns = &recording.table.columns;
+    let columns = &table.columns;
     let units = columns
         .iter()
         .map(|c| (c.name.clone(), c.unit.clone().into()));

@@ -3,6 +3,7 @@
 use super::{Error, ErrorReport};
 use crate::balance;
 use crate::simulation::Recording;
+use crate::table::Table;
 use bryant_runtime::Cause;
 use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
 use serde_json::json;
@@ -12,11 +13,11 @@ use std::path::PathBuf;
 pub fn json(
     engine: &str,
     job: &Job,
-    recording: &Recording,
+    (recording, table): (&Recording, &Table),
     errors: &ErrorReport,
     written: &[PathBuf],
 ) -> serde_json::Value {
-    let mut value = recording.table.json();
+    let mut value = table.json();
     value["model"] = json!(recording.header.name);
     value["digest"] = json!(recording.header.digest);
     let parameters = recording

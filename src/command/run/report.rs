@@ -14,6 +14,7 @@ use crate::picture::Instant;
 use crate::report::study::quoted;
 use crate::report::{Scene, page, short, with_forces};
 use crate::simulation::{self, Recording};
+use crate::table::Table;
 use bryant_generator::effect;
 use bryant_runtime::program::{Header, History, Job};
 use serde_json::{Value, json};
@@ -32,7 +33,7 @@ pub fn html(
     arguments: &Arguments,
     found: &Found,
     job: &Job,
-    (recording, errors): (&Recording, &ErrorReport),
+    (recording, table, errors): (&Recording, &Table, &ErrorReport),
     (responses, criteria): (&Responses, Option<Value>),
     terminal: &Terminal,
 ) -> Result<String, Error> {
@@ -48,7 +49,9 @@ pub fn html(
     }
     let scene = Scene::new(model, &recording.coordinates, &parameters, &instants);
     let scene = scene.map_err(Error::system)?.json(&forces);
-    let columns = recording.table.columns.iter().map(|column| {
+    // the page says times in s or ms as it needs
+    let times = recording.table.columns.iter().take(1);
+    let columns = times.chain(table.columns.iter().skip(1)).map(|column| {
         let values: Vec<Value> = column.values.iter().map(|value| short(*value)).collect();
         json!({ "name": column.name, "unit": column.unit, "values": values })
     });

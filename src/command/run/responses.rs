@@ -11,8 +11,9 @@ use crate::command::response::{self, Requested, intervals};
 use crate::command::sweep;
 use crate::criteria::Verdict;
 use crate::simulation::Recording;
-use crate::table::typeset;
+use crate::units::Units;
 use bryant_generator::model::Model;
+use bryant_picture::text::typeset;
 use bryant_runtime::program::{Kept, Reading};
 use bryant_runtime::response::Channel;
 use bryant_runtime::response::filter::{Class, MEAN};
@@ -32,6 +33,8 @@ pub struct Responses {
     kept: usize,
     /// The outputs whose peaks are told, each with the index of its signal.
     peaks: Vec<(usize, usize)>,
+    /// The units in which responses and peaks are shown.
+    units: Units,
     /// Time between the samples \[s\].
     every: f64,
     /// The responses as a request to the runtime.
@@ -106,6 +109,7 @@ impl Responses {
             criteria,
             kept: columns,
             peaks,
+            units: Units::of(model),
             every: (end - start) / intervals as f64,
             otherwise,
         })
@@ -118,11 +122,16 @@ impl Responses {
 
     /// The peaks of the first outputs; none if the run did not reach its end.
     pub fn peaks(&self, recording: &Recording) -> Vec<Peak> {
-        let peak = |&(output, kept): &(usize, usize)| {
-            let output = recording.header.outputs.get(output)?;
+        let peak = |&(index, kept): &(usize, usize)| {
+            let output = recording.header.outputs.get(index)?;
             let samples = recording.kept.get(kept)?;
             let times = [recording.first_time(), self.every];
-            Peak::of((&output.name, &output.unit), samples, times)
+            let unit = self.units.output(index);
+            let peak = Peak::of((&output.name, &unit.name), samples, times)?;
+            Some(Peak {
+                value: unit.of_si(peak.value),
+                ..peak
+            })
         };
         self.peaks.iter().filter_map(peak).collect()
     }
@@ -133,21 +142,25 @@ impl Responses {
         Some(criteria.verdict(recording, [self.own, self.kept], self.every))
     }
 
-    /// Each response with its value and its difference from the run that it was compared with.
+    /// Each response with its value, its unit, and its difference from the run that it was compared with.
     fn values<'a>(
         &'a self,
         recording: &'a Recording,
         errors: &'a ErrorReport,
-    ) -> impl Iterator<Item = (&'a Requested, Option<f64>, Option<f64>)> {
+    ) -> impl Iterator<Item = (&'a Requested, Option<f64>, String, Option<f64>)> {
         self.asked[..self.own]
             .iter()
             .enumerate()
             .map(|(index, response)| {
                 let answer = recording.answers.get(index).map(|answer| answer.value);
                 let apart = errors.responses().and_then(|all| all.get(index).copied());
+                let outputs = response.asked.channel.outputs();
+                let unit = self.units.response(&response.unit, outputs);
+                let value = answer.map(|si| unit.of_si(si));
                 (
                     response,
-                    answer.filter(|value| value.is_finite()),
+                    value.filter(|value| value.is_finite()),
+                    unit.name,
                     apart.filter(|apart| apart.is_finite()),
                 )
             })
@@ -160,8 +173,8 @@ impl Responses {
         }
         let lines: Vec<[String; 3]> = self
             .values(recording, errors)
-            .map(|(response, value, apart)| {
-                let value = match (value, response.unit.as_str()) {
+            .map(|(response, value, unit, apart)| {
+                let value = match (value, unit.as_str()) {
                     (None, _) => "not known".to_owned(),
                     (Some(value), "") => digits(value),
                     (Some(value), unit) => format!("{} {}", digits(value), typeset(unit)),
@@ -199,11 +212,11 @@ impl Responses {
     pub fn json(&self, recording: &Recording, errors: &ErrorReport) -> Value {
         let each = self
             .values(recording, errors)
-            .map(|(response, value, apart)| {
+            .map(|(response, value, unit, apart)| {
                 json!({
                     "response": response.name,
                     "value": value,
-                    "unit": response.unit,
+                    "unit": unit,
                     "difference": apart,
                 })
             });

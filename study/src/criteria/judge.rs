@@ -116,7 +116,9 @@ fn response(
         channel,
         of,
         what: formed.what,
+        si: unit.clone(),
         unit,
+        size: 1.0,
     };
     let remarks = indices
         .iter()

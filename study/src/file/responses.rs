@@ -141,12 +141,18 @@ fn response(
             Some(reader.word(at, "filter", &words)?.to_owned())
         }
     };
+    let si = what.unit(&output.unit);
+    // an integral over time, for one, has another unit than the output
+    let shown = output.shown.clone().filter(|_| si == output.unit);
+    let (unit, size) = shown.unwrap_or_else(|| (si.clone(), 1.0));
     let response = Response {
         name,
         channel: channel_of(index, filter.as_deref()),
         of: output.name.clone(),
         what,
-        unit: what.unit(&output.unit),
+        unit,
+        size,
+        si,
     };
     sampled(reader, at.key("what"), word, &response, facts, run).then_some(response)
 }

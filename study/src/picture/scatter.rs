@@ -5,7 +5,7 @@ use crate::study::Study;
 use crate::summary::sample::Sample;
 use crate::table::csv::heading;
 use bryant_picture::chart::{self, Axes, range};
-use bryant_picture::text::wrap;
+use bryant_picture::text::{typeset, wrap};
 use bryant_picture::{Anchor, Drawing};
 
 /// Pixels of a panel, of its frame, and of the offset between their corners.
@@ -49,8 +49,8 @@ pub fn draw(study: &Study, sample: &Sample) -> Drawing {
         ];
         let axes = Axes::new([corner[0], corner[1], FRAME[0], FRAME[1]], ranges);
         let (x, y) = (&study.varied[parameter], &study.responses[response]);
-        axes.draw(&mut drawing, [&heading(&x.name, &x.unit), ""]);
-        let lines = wrap(&heading(&y.name, &y.unit), NAME);
+        axes.draw(&mut drawing, [&heading(&x.name, &typeset(&x.unit)), ""]);
+        let lines = wrap(&heading(&y.name, &typeset(&y.unit)), NAME);
         for (index, line) in lines.iter().rev().enumerate() {
             let at = [corner[0] - 54.0, corner[1] - 8.0 - 14.0 * index as f64];
             drawing.label("axis", at, Anchor::Start, line);

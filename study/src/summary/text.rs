@@ -3,6 +3,7 @@
 use super::index::{Estimate, Method, Sensitivity};
 use super::{About, Summary};
 use crate::table::csv::heading;
+use bryant_picture::text::typeset;
 use std::fmt::Write as _;
 
 /// Significant digits of numbers.
@@ -61,7 +62,7 @@ fn numbers(responses: &[About]) -> Vec<Vec<String>> {
     ];
     let row = |about: &About| {
         let mut row = vec![
-            heading(&about.name, &about.unit),
+            heading(&about.name, &typeset(&about.unit)),
             about.count.to_string(),
             about.missing.to_string(),
         ];

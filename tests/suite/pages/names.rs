@@ -19,6 +19,7 @@ pub fn trials() -> Vec<Trial> {
     vec![
         one("rules of comparison", rules),
         one("links lead to files and headings", links),
+        one("contents have all headings", contents),
         one("commands, options and models exist", commands),
         one("files in code exist", files),
         one("targets of cargo exist", targets),
@@ -88,16 +89,78 @@ fn prose(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
+/// Words of a page without contents, at most.
+const LONG: usize = 8000;
+
+/// The section of a page that lists its headings.
+const CONTENTS: &str = "## Contents";
+
+/// A page with contents lists all of its headings there, and a long page has contents. With `PAGES_UPDATE` they are written.
+fn contents() -> Found {
+    let mut found = Vec::new();
+    for (path, text) in texts() {
+        let Some((before, behind)) = text.split_once(&format!("{CONTENTS}\n\n")) else {
+            if text.split_whitespace().count() > LONG {
+                found.push(format!(
+                    "{}: a page of this length needs `{CONTENTS}`",
+                    path.display()
+                ));
+            }
+            continue;
+        };
+        let (shown, rest) = behind.split_once("\n\n").unwrap_or((behind, ""));
+        let listed = listed(rest);
+        if shown == listed {
+            continue;
+        }
+        match std::env::var_os("PAGES_UPDATE") {
+            Some(_) => {
+                let text = format!("{before}{CONTENTS}\n\n{listed}\n\n{rest}");
+                std::fs::write(root().join(&path), text).unwrap();
+            }
+            None => found.push(format!(
+                "{}: its contents should be\n{listed}",
+                path.display()
+            )),
+        }
+    }
+    found
+}
+
+/// A line for each heading of the second level, with those of the third behind it.
+fn listed(text: &str) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for (_, line) in prose(text) {
+        let link = |title: &str| format!("[{title}](#{})", anchor(title));
+        match (line.strip_prefix("## "), line.strip_prefix("### ")) {
+            (Some(title), _) => lines.push(format!("- {}", link(title))),
+            (_, Some(title)) => {
+                if let Some(last) = lines.last_mut() {
+                    let joint = if last.contains("): ") { "," } else { ":" };
+                    *last += &format!("{joint} {}", link(title));
+                }
+            }
+            _ => {}
+        }
+    }
+    lines.join("\n")
+}
+
+/// The anchor that GitHub gives the first heading with this title.
+fn anchor(title: &str) -> String {
+    let title = title.to_lowercase();
+    let kept = title
+        .chars()
+        .filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+    kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
 /// The anchors that GitHub gives the headings of a page.
 fn anchors(text: &str) -> BTreeSet<String> {
     let mut found: BTreeMap<String, usize> = BTreeMap::new();
     let mut anchors = BTreeSet::new();
     for (_, line) in prose(text).filter(|(_, line)| line.starts_with('#')) {
-        let title = line.trim_start_matches('#').trim().to_lowercase();
-        let kept = title
-            .chars()
-            .filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
-        let anchor: String = kept.map(|c| if c == ' ' { '-' } else { c }).collect();
+        let anchor = anchor(line.trim_start_matches('#').trim());
         let count = found.entry(anchor.clone()).or_default();
         anchors.insert(match *count {
             0 => anchor,

@@ -3,14 +3,14 @@
 //! A block in `sh` is run line by line. A block in `text` is what a command printed: the last one of the `sh` block directly before it, or the
 //! one of a mark. A line `…` stands for lines that are left out. A block in `yaml` is a model, a study, or a part of a model.
 //!
-//! Files that stand beside a page, and those in the folder of its name, are in the folder of its commands.
+//! Files that stand beside a page, those in the folder of its name, and those in the folder of its name in `examples` are in the folder of its commands.
 //!
 //! Marks are HTML comments of lines `KEY: VALUE`. They are about the next block, table or line of pictures:
 //!
 //! | key | means |
 //! |---|---|
 //! | `file` | the block is this file in the folder in which the page's commands run |
-//! | `prints` | the block is what this command prints |
+//! | `prints` | the block, also one in `yaml`, is what this command prints |
 //! | `part of` | the block is some columns and rows of the table that this command prints |
 //! | `exit` | the exit code of the command, by default 0 |
 //! | `run` | a command that the page does not show is run first; several are separated by ` && ` |

@@ -43,7 +43,7 @@ pub fn page(path: &Path) -> Told {
             };
         }
     };
-    if path == Path::new("docs/stability.md") {
+    if path == Path::new("docs/stability.md") || path.starts_with("docs/stability") {
         let reason = "`bryant stability --markdown` writes this page; `cargo test --test hard` runs its cases";
         let left_out = vec![format!("{}: {reason}", path.display())];
         return Told {
@@ -127,6 +127,8 @@ impl Page<'_> {
         match part.kind {
             Kind::Block if part.language == "sh" => self.commands(part),
             Kind::Block if part.language == "text" => self.text(part),
+            // a file that is there, and not one that the page makes
+            Kind::Block if part.mark.get("prints").is_some() => self.text(part),
             Kind::Block if part.language == "yaml" => self.yaml(part),
             Kind::Table if part.mark.get("rows").is_some() => self.table(part),
             Kind::Table => self.unmarked(part),
@@ -397,10 +399,14 @@ fn write_block(path: &Path, lines: &[&str], part: &Part) -> Result<(), String> {
     std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Copies the files beside a page, and those in the folder of its name, but no pages and no pictures: these are made by commands.
+/// Copies the files beside a page, those in the folder of its name, and the examples of its name, but no pages and no pictures: these are made by commands.
 fn beside(page: &Path, folder: &Path) {
     let here = root().join(page);
     let mut places = vec![here.with_extension("")];
+    places.extend(
+        page.file_stem()
+            .map(|name| root().join("examples").join(name)),
+    );
     places.extend(
         here.parent()
             .filter(|parent| *parent != root())
@@ -504,7 +510,8 @@ pub fn strange(part: &Part) -> Option<String> {
         "not run" | "slow" | "run" | "says" | "replace" | "take" => true,
         "file" => part.kind == Kind::Block,
         "other" => part.kind == Kind::Table || matches!(part.language.as_str(), "text" | "yaml"),
-        "prints" | "part of" | "exit" => part.kind == Kind::Block && part.language == "text",
+        "prints" => part.kind == Kind::Block && matches!(part.language.as_str(), "text" | "yaml"),
+        "part of" | "exit" => part.kind == Kind::Block && part.language == "text",
         "within" => part.kind == Kind::Block && part.language == "yaml",
         "rows" | "columns" | "with" => part.kind == Kind::Table,
         "picture" | "each" => part.kind == Kind::Pictures,

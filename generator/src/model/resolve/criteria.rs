@@ -203,6 +203,7 @@ fn asked(name: &str, of: &str, what: &str, component: WrittenComponent) -> Writt
         freedom: None,
         code: None,
         filter: None,
+        unit: None,
         mirror: None,
     }
 }

@@ -3,6 +3,7 @@
 use super::Resolver;
 use super::output::heading;
 use super::quantity::Measure;
+use super::units::unit_shown;
 use crate::description::expression;
 use crate::description::output::Formula as Written;
 use crate::description::place::At;
@@ -14,7 +15,7 @@ use std::cell::RefCell;
 /// The checked form of a formula; `None` where it is wrong or switched off. `headings` are those of the outputs seen so far, also of those that are
 /// switched off.
 pub(super) fn formula(
-    resolver: &Resolver<'_>,
+    resolver: &mut Resolver<'_>,
     written: &Written,
     at: At<'_>,
     headings: &mut Vec<String>,
@@ -82,6 +83,9 @@ pub(super) fn formula(
             return None;
         }
     };
+    if let Some(shown) = &written.unit {
+        unit_shown(resolver, shown, &unit, &written.name, at.key("unit"));
+    }
     (written.enabled != Some(false)).then(|| Output {
         name: written.name.clone(),
         quantity: Quantity::Formula(Box::new(Formula { value, leaves })),
@@ -131,15 +135,7 @@ fn output_above(
         );
         return None;
     }
-    let none = |_: &str, _, _| None;
-    let dimension = match expression::parse(&output.unit) {
-        Ok(unit) => {
-            match resolver.expression(&unit, At::root(&resolver.loaded.files[0].source), &none) {
-                Some((_, Measure::Known(dimension))) => dimension,
-                _ => Dimension::ONE,
-            }
-        }
-        Err(_) => Dimension::ONE,
-    };
+    let unit = expression::unit_of(&output.unit);
+    let dimension = unit.map_or(Dimension::ONE, |unit| unit.dimension);
     Some((output.quantity.clone(), dimension))
 }

@@ -26,6 +26,7 @@ pub(crate) mod rust;
 mod switch;
 mod system;
 mod translation;
+mod units;
 mod vehicle;
 
 use super::{
@@ -43,10 +44,12 @@ use crate::description::table::Table;
 use crate::description::tree::MAX_ELEMENTS;
 use crate::description::{
     load::Coordinates as WrittenCoordinates, load::Dimension as WrittenDimension,
+    load::Units as WrittenUnits,
 };
 use crate::diagnostic::{Diagnostics, quoted, suggestion};
 use crate::law::belt::check::check_belts;
 use crate::law::contact::check::surface;
+use crate::model::units::{Unit, UnitSystem, Units};
 use name::Style;
 use quantity::LENGTH;
 use regularity::check_regularity;
@@ -165,6 +168,8 @@ pub struct Resolver<'a> {
     pub(crate) outputs: Vec<Output>,
     /// Ellipsoids that meet nothing.
     pub(crate) shown: Vec<Shown>,
+    /// Outputs with a unit of their own.
+    units: Vec<(String, Unit)>,
     pub(crate) switch_names: Vec<String>,
     /// In the order of their names; `None` for what is wrong.
     pub(crate) switches: Vec<Option<Switch>>,
@@ -193,6 +198,7 @@ impl<'a> Resolver<'a> {
             off: Vec::new(),
             outputs: Vec::new(),
             shown: Vec::new(),
+            units: Vec::new(),
             switch_names: Vec::new(),
             switches: Vec::new(),
             loaded,
@@ -253,6 +259,13 @@ impl<'a> Resolver<'a> {
             outputs: self.outputs,
             run,
             shown: self.shown,
+            units: Units {
+                system: match header.units {
+                    Some(WrittenUnits::Engineering) => UnitSystem::Engineering,
+                    _ => UnitSystem::Si,
+                },
+                own: self.units,
+            },
             digest: String::new(),
         };
         let mut written = model.clone();

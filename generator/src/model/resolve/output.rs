@@ -2,6 +2,7 @@
 
 use super::channel::{self, Wanted};
 use super::quantity::LENGTH;
+use super::units::unit_shown;
 use super::vehicle::vehicle_named;
 use super::{NOWHERE, Resolver};
 use crate::description::output::{Axis, Component as WrittenComponent, Output as Written};
@@ -96,7 +97,7 @@ enum Subject {
 
 /// The checked form of an output; `None` where it is wrong or switched off. `headings` are those seen so far, also of outputs that are switched off.
 pub(super) fn output(
-    resolver: &Resolver<'_>,
+    resolver: &mut Resolver<'_>,
     written: &Written,
     at: At<'_>,
     headings: &mut Vec<String>,
@@ -138,6 +139,9 @@ pub(super) fn output(
             "a resultant is not filtered: sensors measure components, and their filtered values make the resultant",
             "give `component: [x, y, z]`, or leave the filter to `criteria`, which filter components first",
         ));
+    }
+    if let Some(shown) = &written.unit {
+        unit_shown(resolver, shown, unit, &written.name, at.key("unit"));
     }
     Some(Output {
         name: written.name.clone(),

@@ -4,7 +4,7 @@
 use super::Resolver;
 use super::name::Style;
 use super::quantity::{Expected, TIME};
-use crate::description::expression::{Kind, parse};
+use crate::description::expression::{Kind, parse, unit_of};
 use crate::description::load::Loaded;
 use crate::description::output::Output as Looked;
 use crate::description::place::At;
@@ -135,6 +135,7 @@ fn trigger(
         freedom: written.freedom.clone(),
         code: None,
         filter: None,
+        unit: None,
         mirror: None,
     };
     let quantity = resolver.quantity(&looked, at, false);
@@ -159,7 +160,7 @@ fn trigger(
     let (quantity, unit) = quantity?;
     let expected = Expected {
         name: "a threshold",
-        dimension: dimension_of(unit),
+        dimension: unit_of(unit).map_or(Dimension::ONE, |unit| unit.dimension),
     };
     let shown = written_in(threshold).unwrap_or((unit.to_owned(), 1.0));
     let threshold = resolver.number(threshold, at.key(key), expected);
@@ -188,12 +189,4 @@ fn written_in(quantity: &Quantity) -> Option<(String, f64)> {
         text.trim_start_matches(number).trim().to_owned(),
         unit.factor,
     ))
-}
-
-/// The dimension of a unit as outputs name it, "" for a pure number.
-fn dimension_of(unit: &str) -> Dimension {
-    match parse(&format!("1 {unit}")).map(|e| e.kind) {
-        Ok(Kind::Quantity(_, unit)) => unit.dimension,
-        _ => Dimension::ONE,
-    }
 }

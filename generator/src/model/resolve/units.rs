@@ -1,0 +1,53 @@
+//! The units in which outputs are shown, as a model gives them.
+
+use super::Resolver;
+use crate::description::expression::unit_of;
+use crate::description::place::At;
+use crate::description::table::is_unit;
+use crate::description::unit::{Dimension, unit};
+use crate::diagnostic::quoted;
+use crate::model::units::Unit;
+
+/// Standard gravity, as the unit of an acceleration.
+const GRAVITY: &str = "g";
+
+/// Enters the unit of an output, whose SI unit is `si`; reported where it is none, or one of another quantity.
+pub(super) fn unit_shown(
+    resolver: &mut Resolver<'_>,
+    written: &str,
+    si: &str,
+    output: &str,
+    at: At<'_>,
+) {
+    let text = written.trim().replace('\u{b0}', "deg");
+    let of_output = unit_of(si).map_or(Dimension::ONE, |unit| unit.dimension);
+    let acceleration = Dimension::new(1, 0, -2, 0);
+    // of an acceleration, g is no gram
+    let found = match text.as_str() {
+        GRAVITY | "gn" if of_output == acceleration => unit("gn"),
+        text => unit_of(text).filter(|_| is_unit(text)),
+    };
+    let help = match si {
+        "" => "give `%`, or leave the key `unit` out: the output is a pure number".to_owned(),
+        si => format!("the output is in {si}: give a multiple of that, as in `unit: mm`"),
+    };
+    let Some(found) = found else {
+        let problem = at.problem(format!("{} is no unit", quoted(written)), help);
+        resolver.problems.add(problem);
+        return;
+    };
+    // Of a rotation, 1/s or Hz would be turns for some readers and radians for others.
+    if found.dimension != of_output || found.dimension.radians() != of_output.radians() {
+        let message = format!("the output cannot be shown in {}", quoted(written));
+        resolver.problems.add(at.problem(message, help));
+        return;
+    }
+    let name = match text.as_str() {
+        "gn" => GRAVITY.to_owned(),
+        _ => text,
+    };
+    let size = found.factor;
+    resolver
+        .units
+        .push((output.to_owned(), Unit { name, size }));
+}

@@ -1,0 +1,112 @@
+//! The units in which outputs are shown. All computing is in SI.
+
+use super::{Model, Output};
+use crate::description::unit::{STANDARD_GRAVITY, whole_power};
+
+/// A system of units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UnitSystem {
+    /// m, N, rad, s, …
+    #[default]
+    Si,
+    /// Those of crash tests and workshops: mm, g, kN, °, °/s, kPa, ms.
+    Engineering,
+}
+
+/// A unit in which a number is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit {
+    /// As files have it: `g`, `mm`, `deg`, `N*m`; "" for a pure number.
+    pub name: String,
+    /// The SI value of one unit.
+    pub size: f64,
+}
+
+/// The units of a scene's outputs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Units {
+    /// The system of outputs without a unit of their own, and of times.
+    pub system: UnitSystem,
+    /// The outputs with a unit of their own, by name.
+    pub own: Vec<(String, Unit)>,
+}
+
+impl UnitSystem {
+    /// The names of all families, as models and the command line have them.
+    pub const NAMES: [&str; 2] = ["SI", "engineering"];
+
+    /// The system of this name, one of [`UnitSystem::NAMES`].
+    pub fn named(name: &str) -> Option<UnitSystem> {
+        match name {
+            "SI" => Some(UnitSystem::Si),
+            "engineering" => Some(UnitSystem::Engineering),
+            _ => None,
+        }
+    }
+
+    /// The unit for quantities of this SI unit.
+    pub fn unit(self, si: &str) -> Unit {
+        let (name, size) = match (self, si) {
+            (UnitSystem::Si, si) => (si, 1.0),
+            (UnitSystem::Engineering, "m/s^2") => ("g", STANDARD_GRAVITY),
+            (UnitSystem::Engineering, "m") => ("mm", whole_power(10.0, -3)),
+            (UnitSystem::Engineering, "N") => ("kN", 1e3),
+            (UnitSystem::Engineering, "rad") => ("deg", std::f64::consts::PI / 180.0),
+            (UnitSystem::Engineering, "rad/s") => ("deg/s", std::f64::consts::PI / 180.0),
+            (UnitSystem::Engineering, "Pa") => ("kPa", 1e3),
+            (UnitSystem::Engineering, "s") => ("ms", whole_power(10.0, -3)),
+            (UnitSystem::Engineering, si) => (si, 1.0),
+        };
+        Unit {
+            name: name.to_owned(),
+            size,
+        }
+    }
+}
+
+impl Unit {
+    /// A number in this unit, from its SI value.
+    pub fn of_si(&self, value: f64) -> f64 {
+        // in SI all digits stay as they are
+        match self.size {
+            1.0 => value,
+            size => value / size,
+        }
+    }
+}
+
+impl Model {
+    /// The unit in which an output is shown.
+    pub fn unit_of(&self, output: &Output) -> Unit {
+        let own = self.units.own.iter().find(|(name, _)| *name == output.name);
+        match own {
+            Some((_, unit)) => unit.clone(),
+            None => self.units.system.unit(&output.unit),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::UnitSystem;
+
+    #[test]
+    fn a_family_has_the_units_of_the_trade() {
+        let shown = |si: &str, value: f64| {
+            let unit = UnitSystem::Engineering.unit(si);
+            format!("{} {}", unit.of_si(value), unit.name)
+        };
+        assert_eq!(shown("m/s^2", 9.80665), "1 g");
+        assert_eq!(shown("m", 0.25), "250 mm");
+        assert_eq!(shown("N", 10_008.0), "10.008 kN");
+        assert_eq!(shown("rad", std::f64::consts::FRAC_PI_2), "90 deg");
+        assert_eq!(shown("Pa", 125_500.0), "125.5 kPa");
+        assert_eq!(shown("s", 0.074), "74 ms");
+        assert_eq!(shown("N*m", 31.0), "31 N*m");
+        let si = UnitSystem::Si.unit("m");
+        assert_eq!((si.name.as_str(), si.of_si(0.1)), ("m", 0.1));
+        for name in UnitSystem::NAMES {
+            assert!(UnitSystem::named(name).is_some(), "{name}");
+        }
+    }
+}
