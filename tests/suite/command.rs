@@ -623,7 +623,7 @@ fn check_says_what_is_in_a_model() {
         "a rod that swings",
         "1 element, 1 freedom",
         "earth",
-        "gravity = 9.81 m/s^2",
+        "gravity = 9.81 m/s²",
         "swing [rad]",
         "operations",
     ] {

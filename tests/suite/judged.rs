@@ -635,6 +635,8 @@ fn criteria_of_a_model_are_the_same_in_every_command() {
         "HIC15",
         "--wrt",
         "lap_slack",
+        "--set",
+        "lap_slack=0.03",
         "--json",
     ];
     let gradient = call(path, &gradient, 0).0;

@@ -37,7 +37,7 @@ responses: [{ of: bob height, what: mean }]
     }
     call(here, &["merge", "study-results"], 0);
     let scatter = std::fs::read_to_string(here.join("study-results/scatter.svg")).unwrap();
-    assert!(scatter.contains("mean of bob height [m]") && scatter.contains("gravity [m/s^2]"));
+    assert!(scatter.contains("mean of bob height [m]") && scatter.contains("gravity [m/s²]"));
 }
 
 #[test]
