@@ -21,6 +21,7 @@ use crate::own::Kind;
 use crate::picture::Format;
 use crate::{files, interrupt, quantity};
 use bryant_generator::model::Model;
+use bryant_picture::text::wrap;
 use bryant_runtime::program::{ErrorKind, Job, RunError};
 use clap::Args;
 use std::path::{Component, Path, PathBuf};
@@ -185,11 +186,17 @@ impl Arguments {
         let printed = match prints.first() {
             _ if self.json => terminal.print_json(&json::json(&study, &conclusion)),
             Some((_, bytes)) => terminal.write(|out| out.write_all(bytes)),
-            None => terminal.print(&format!(
-                "{}\n\n{}\n",
-                text::text(&study, &conclusion),
-                conclusion.sentence(&study)
-            )),
+            None => {
+                let sentence = conclusion.sentence(&study);
+                let sentence = match terminal.width() {
+                    Some(width) => wrap(&sentence, width).join("\n"),
+                    None => sentence,
+                };
+                terminal.print(&format!(
+                    "{}\n\n{sentence}\n",
+                    text::text(&study, &conclusion)
+                ))
+            }
         };
         let printed = printed.and_then(|()| terminal.flush());
         for file in &written {

@@ -122,7 +122,8 @@ impl Arguments {
             parameters: derivations[GENERAL].variant.model.parameters.len(),
         };
 
-        let table = Table::new(rows.iter().map(|(row, _)| row), &total, !self.no_time);
+        let room = terminal.width();
+        let table = Table::new(rows.iter().map(|(row, _)| row), &total, !self.no_time, room);
         let mut show = |text: &str| -> Result<(), Error> {
             if self.json {
                 return Ok(());

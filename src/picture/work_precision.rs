@@ -1,5 +1,5 @@
-//! The work–precision diagram: error across, time upwards, both logarithmic. Each way to compute is a line, the Pareto front lies behind
-//! the lines, the legend is beside, and a sentence below.
+//! The work–precision diagram: error across, time upwards, both logarithmic. The best variant of each method is a line in a colour of its own, all
+//! others are grey; the Pareto front lies behind the lines, the legend is beside, and a sentence below.
 
 use bryant_picture::text::wrap;
 use bryant_picture::{Anchor, Drawing};
@@ -13,7 +13,7 @@ pub struct Diagram {
     pub error: String,
     /// Names of the methods; each has a colour.
     pub methods: Vec<String>,
-    /// Names of the variants; each has a kind of line.
+    /// Names of the variants, the usual one first.
     pub variants: Vec<String>,
     /// The lines, each from coarse to fine.
     pub lines: Vec<Line>,
@@ -40,11 +40,8 @@ pub struct Line {
 
 /// Colours that remain distinct in print and for the colour-blind (Okabe and Ito, and three more), in the order of methods.
 const COLOURS: [&str; 8] = [
-    "#999999", "#8c6d1f", "#e69f00", "#cc79a7", "#0072b2", "#009e73", "#d55e00", "#7a5195",
+    "#56b4e9", "#8c6d1f", "#e69f00", "#cc79a7", "#0072b2", "#009e73", "#d55e00", "#7a5195",
 ];
-
-/// Dashes of the variants, the usual one first.
-const DASHES: [&str; 6] = ["none", "6 3", "2 2.5", "7 2 2 2", "1 4", "10 3 2 3"];
 
 const STYLE: &str = "\
 text{font-family:'DejaVu Sans',Verdana,sans-serif;font-size:12px;fill:#222}
@@ -56,10 +53,10 @@ text{font-family:'DejaVu Sans',Verdana,sans-serif;font-size:12px;fill:#222}
 .unknown{fill:#f3f3f3}
 .front{fill:none;stroke:#222;stroke-opacity:.22;stroke-width:9;stroke-linejoin:round;stroke-linecap:round}
 .ring{fill:none;stroke:#222;stroke-width:1.3}
-.line{fill:none;stroke-width:1;stroke-opacity:.45}
-.usual{stroke-width:1.9;stroke-opacity:1}
+.line{fill:none;stroke-width:1.9}
+.other{fill:none;stroke:#c4c4c4;stroke-width:1}
 .mark{stroke:none}
-.faint{fill-opacity:.6}
+.grey{fill:#c4c4c4}
 ";
 
 /// The frame: left, top, width, height.
@@ -72,6 +69,8 @@ const CHARACTERS: usize = 120;
 
 /// Larger errors are no accuracy at all and are not drawn.
 const LARGEST_ERROR: f64 = 1.0;
+/// Half decades of error down to rounding.
+const FINEST: i32 = 34;
 
 impl Diagram {
     /// The picture.
@@ -104,18 +103,21 @@ impl Diagram {
         if front.len() > 1 {
             drawing.polyline("front", &front);
         }
-        // usual variants are drawn above the others
-        let mut order: Vec<&Line> = self.lines.iter().collect();
-        order.sort_by_key(|line| std::cmp::Reverse(line.variant));
-        for line in order {
-            self.line(line, &axes, &mut drawing);
+        // the best are drawn above the others
+        let best = self.best();
+        for others in [true, false] {
+            for (index, line) in self.lines.iter().enumerate() {
+                if best.contains(&Some(index)) != others {
+                    self.line(line, !others, &axes, &mut drawing);
+                }
+            }
         }
         for place in &front {
             drawing.circle("ring", *place, 6.0);
         }
         drawing.close();
         drawing.rectangle("panel", FRAME);
-        self.legend(&mut drawing);
+        self.legend(&best, &mut drawing);
         for (i, text) in sentence.iter().enumerate() {
             let y = below + LINE_HEIGHT * i as f64;
             drawing.label("", [left, y], Anchor::Start, text);
@@ -135,10 +137,6 @@ impl Diagram {
         for index in 0..self.methods.len() {
             let colour = COLOURS[index % COLOURS.len()];
             style += &format!(".m{index}{{stroke:{colour}}}.f{index}{{fill:{colour}}}\n");
-        }
-        for index in 0..self.variants.len() {
-            let dash = DASHES[index % DASHES.len()];
-            style += &format!(".v{index}{{stroke-dasharray:{dash}}}\n");
         }
         style
     }
@@ -164,27 +162,61 @@ impl Diagram {
         drawing.lines("grid", &grid);
     }
 
-    fn line(&self, line: &Line, axes: &Axes, drawing: &mut Drawing) {
-        let places: Vec<[f64; 2]> = self.visible(&line.points).map(|p| axes.place(p)).collect();
-        let usual = if line.variant == 0 { " usual" } else { "" };
-        let (method, variant) = (line.method, line.variant);
-        if places.len() > 1 {
-            drawing.polyline(&format!("line{usual} m{method} v{variant}"), &places);
-        }
-        let (size, class) = match line.variant {
-            0 => (3.2, format!("mark f{method}")),
-            _ => (2.0, format!("mark faint f{method}")),
+    /// The best line of each method: the one that is fastest for most errors, among half decades that any line of the method reaches.
+    fn best(&self) -> Vec<Option<usize>> {
+        let of_method = |method: usize| {
+            let lines = self.lines.iter().enumerate();
+            let lines: Vec<(usize, &Line)> = lines.filter(|(_, l)| l.method == method).collect();
+            let mut wins = vec![0; lines.len()];
+            for half in 0..FINEST {
+                let wanted = libm::pow(10.0, -0.5 * f64::from(half));
+                let time = |(_, line): &(usize, &Line)| {
+                    let enough = self.visible(&line.points).filter(|p| p[0] <= wanted);
+                    enough.map(|p| p[1]).fold(f64::INFINITY, f64::min)
+                };
+                let times: Vec<f64> = lines.iter().map(time).collect();
+                let least = times.iter().copied().fold(f64::INFINITY, f64::min);
+                for (wins, time) in wins.iter_mut().zip(&times) {
+                    *wins += i32::from(time.is_finite() && *time == least);
+                }
+            }
+            // of equals the most usual one
+            let best = (0..lines.len()).max_by_key(|&i| (wins[i], std::cmp::Reverse(i)));
+            best.filter(|&i| wins[i] > 0).map(|i| lines[i].0)
         };
+        (0..self.methods.len()).map(of_method).collect()
+    }
+
+    fn line(&self, line: &Line, best: bool, axes: &Axes, drawing: &mut Drawing) {
+        let places: Vec<[f64; 2]> = self.visible(&line.points).map(|p| axes.place(p)).collect();
+        let method = line.method;
+        let (stroke, fill, size) = match best {
+            true => (format!("line m{method}"), format!("mark f{method}"), 3.2),
+            false => ("other".to_owned(), "mark grey".to_owned(), 1.6),
+        };
+        if places.len() > 1 {
+            drawing.polyline(&stroke, &places);
+        }
         for place in places {
-            mark(drawing, &class, line.fixed, place, size);
+            mark(drawing, &fill, line.fixed, place, size);
+        }
+    }
+
+    /// The name of a method, and the variant in which it is best.
+    fn name(&self, method: usize, best: &[Option<usize>]) -> String {
+        let name = &self.methods[method];
+        let variant = best[method].map(|line| &self.variants[self.lines[line].variant]);
+        match variant.filter(|_| self.variants.len() > 1) {
+            Some(variant) => format!("{name}, {variant}"),
+            None => name.clone(),
         }
     }
 
     fn legend_lines(&self) -> usize {
-        self.methods.len() + self.variants.len() + 8
+        self.methods.len() + 9
     }
 
-    fn legend(&self, drawing: &mut Drawing) {
+    fn legend(&self, best: &[Option<usize>], drawing: &mut Drawing) {
         let mut y = FRAME[1] + 6.0;
         let mut next = |lines: f64| {
             let now = y;
@@ -195,22 +227,20 @@ impl Diagram {
             drawing.label("", [LEGEND + 40.0, y + 4.0], Anchor::Start, text);
         };
         let sample = |y: f64| [[LEGEND, y], [LEGEND + 32.0, y]];
-        for (index, name) in self.methods.iter().enumerate() {
+        for method in 0..self.methods.len() {
             let y = next(1.0);
-            drawing.polyline(&format!("line usual m{index}"), &sample(y));
-            label(drawing, y, name);
+            drawing.polyline(&format!("line m{method}"), &sample(y));
+            label(drawing, y, &self.name(method, best));
         }
-        next(0.5);
-        for (index, name) in self.variants.iter().enumerate() {
+        if self.lines.len() > best.iter().flatten().count() {
             let y = next(1.0);
-            let usual = if index == 0 { " usual" } else { "" };
-            drawing.polyline(&format!("line{usual} m0 v{index}"), &sample(y));
-            label(drawing, y, name);
+            drawing.polyline("other", &sample(y));
+            label(drawing, y, "their other variants");
         }
         next(0.5);
         for (fixed, name) in [(false, "error controlled"), (true, "fixed steps")] {
             let y = next(1.0);
-            mark(drawing, "mark f0", fixed, [LEGEND + 16.0, y], 3.2);
+            mark(drawing, "mark grey", fixed, [LEGEND + 16.0, y], 3.2);
             label(drawing, y, name);
         }
         let y = next(1.0);
@@ -359,22 +389,26 @@ pub(super) mod tests {
     fn lines_points_legend_and_sentence_are_there() {
         let svg = diagram().drawing().svg();
         let count = |text: &str| svg.matches(text).count();
-        // two lines of more than one point, four samples in the legend
-        assert_eq!(count("<polyline class=\"line"), 2 + 4, "{svg}");
+        // two lines of more than one point, a sample of each in the legend
+        assert_eq!(count("<polyline class=\"line"), 2 + 2, "{svg}");
         assert_eq!(count("<polyline class=\"front\""), 2);
         // rings around the front, and one in the legend
         assert_eq!(count("<circle class=\"ring\""), 2 + 1);
+        // f32 is a little faster at one error, f64 reaches all
+        assert_eq!(diagram().best(), [Some(0), Some(1)]);
         assert_eq!(
-            (count("class=\"mark f1\""), count("class=\"mark faint f1\"")),
-            (2, 1)
+            (count("class=\"mark f1\""), count("class=\"mark grey\"")),
+            (2, 1 + 2)
         );
+        assert_eq!(count("class=\"other\""), 1);
         for text in [
             "pendulum &lt;10 s&gt;",
             "10⁻⁹",
             "100 µs",
             "for 1 %",
             "rk4",
-            "f32",
+            "dop853, f64",
+            "their other variants",
         ] {
             assert!(svg.contains(text), "{text}: {svg}");
         }

@@ -4,6 +4,7 @@ use crate::timing::{Measured, Method};
 use bryant_generator::effect::{Entry, Reason};
 use bryant_generator::expression::count::Count;
 use bryant_generator::model::Model;
+use bryant_picture::text::wrap;
 use serde_json::{Value, json};
 
 /// An effect with its cost.
@@ -71,18 +72,30 @@ const TIMES: std::ops::Range<usize> = 3..6;
 pub struct Table {
     widths: [usize; 7],
     timed: bool,
+    /// Characters of a line; `None`: no limit.
+    room: Option<usize>,
 }
 
+/// The last column has at least so many characters, or stands below the others \[characters\].
+const NARROWEST: usize = 24;
+/// The last column begins here where it stands below the others.
+const INDENT: usize = 4;
+
 impl Table {
-    /// A table for these rows; `timed` says whether times will follow.
-    pub fn new<'a>(rows: impl Iterator<Item = &'a Row<'a>>, total: &Total, timed: bool) -> Self {
+    /// A table for these rows in lines of this `room`; `timed` says whether times will follow.
+    pub fn new<'a>(
+        rows: impl Iterator<Item = &'a Row<'a>>,
+        total: &Total,
+        timed: bool,
+        room: Option<usize>,
+    ) -> Self {
         let mut lines = heading().to_vec();
         lines.extend(rows.map(cells));
         lines.extend(totals(total));
-        Self::of(&lines, timed)
+        Self::of(&lines, timed, room)
     }
 
-    fn of(lines: &[Cells], timed: bool) -> Self {
+    fn of(lines: &[Cells], timed: bool, room: Option<usize>) -> Self {
         let mut widths = [0; 7];
         for line in lines {
             for (width, cell) in widths.iter_mut().zip(line) {
@@ -95,7 +108,11 @@ impl Table {
                 widths[column] = widths[column].max(LIKELY);
             }
         }
-        Table { widths, timed }
+        Table {
+            widths,
+            timed,
+            room,
+        }
     }
 
     /// Names of the columns and their units.
@@ -126,13 +143,36 @@ impl Table {
     fn line(&self, line: &Cells) -> String {
         let shown = |column: usize| self.timed || !TIMES.contains(&column);
         let mut text = String::new();
-        for (column, cell) in line.iter().enumerate().filter(|(column, _)| shown(*column)) {
+        let [before @ .., last] = line;
+        for (column, cell) in before
+            .iter()
+            .enumerate()
+            .filter(|(column, _)| shown(*column))
+        {
             let width = self.widths[column];
             text += &match column {
                 0 => format!("{cell:width$}"),
                 2..6 => format!("  {cell:>width$}"),
                 _ => format!("  {cell:width$}"),
             };
+        }
+        let begin = text.chars().count() + 2;
+        let room = self.room.unwrap_or(usize::MAX);
+        let (parts, begin) = match room.saturating_sub(begin) {
+            beside if beside >= last.chars().count() => (vec![last.clone()], begin),
+            beside if beside >= NARROWEST => (wrap(last, beside), begin),
+            // below, after an empty part
+            _ => {
+                let below = wrap(last, room.saturating_sub(INDENT));
+                ([vec![String::new()], below].concat(), INDENT)
+            }
+        };
+        for (index, part) in parts.iter().enumerate() {
+            match index {
+                0 => text += &format!("  {part}"),
+                _ => text += &format!("\n{:begin$}{part}", ""),
+            }
+            text.truncate(text.trim_end().len());
         }
         text.truncate(text.trim_end().len());
         text + "\n"
@@ -304,7 +344,7 @@ mod tests {
             ["a long one", "in", "7", "1.5", "1.0", "8", "here"].map(str::to_owned),
         ];
         let text = |timed| {
-            let table = Table::of(&lines, timed);
+            let table = Table::of(&lines, timed, None);
             lines
                 .iter()
                 .map(|line| table.line(line))
@@ -318,6 +358,25 @@ mod tests {
         assert_eq!(
             text(false),
             "effect          operations  why\na long one  in           7  here\n"
+        );
+    }
+
+    #[test]
+    fn reasons_fit_the_line() {
+        let reason = "all seven elements share the field, so that it enters once";
+        let line = ["field", "out", "", "", "", "", reason].map(str::to_owned);
+        let text = |room| Table::of(&[line.clone()], false, Some(room)).line(&line);
+        assert_eq!(
+            text(46),
+            "field  out    all seven elements share the\n\
+             \x20             field, so that it enters once\n"
+        );
+        assert_eq!(
+            text(30),
+            "field  out\n\
+             \x20   all seven elements share\n\
+             \x20   the field, so that it\n\
+             \x20   enters once\n"
         );
     }
 }
