@@ -246,6 +246,12 @@ impl Arguments {
 
 /// Reads a recording.
 pub(super) fn recording(path: &Path) -> Result<Recording, Error> {
+    if !path.exists() {
+        return Err(Error::Input(format!(
+            "there is no file {}\n  help: name a table of `bryant run`, or a test in ISO-MME: its folder or its .mme file",
+            path.display()
+        )));
+    }
     Recording::read(path).map_err(|error| match error {
         bryant_signal::ReadError::Io { .. } => Error::system(error),
         bryant_signal::ReadError::Content { .. } => Error::input(error),

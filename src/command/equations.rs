@@ -1,6 +1,7 @@
 //! `bryant equations`: S, r_s and r_k as text, as source code, or as numbers at one state.
 
 use super::Error;
+use super::gradient::table::number;
 use super::model_argument::find;
 use super::outputs::{Outputs, Replacing};
 use super::parameters::{parse_parameters, values_of};
@@ -22,6 +23,7 @@ use bryant_generator::expression::print::{Names, latex, text};
 use bryant_generator::expression::{NodeId, Symbol};
 use bryant_generator::model::{Coordinates, Curve, Dimension, Extrapolate, Interpolate, Model};
 use bryant_generator::target::c::Source;
+use bryant_picture::text::typeset;
 use clap::{Args, ValueEnum};
 use std::fmt::Write as _;
 use std::io::Read;
@@ -381,8 +383,10 @@ fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
     let _ = writeln!(text, "{:first$}  {:>14}", "coordinate", "q");
     for (variable, value) in equations.coordinates.iter().zip(&state.q) {
         let line = format!(
-            "{:first$}  {value:>14.7e}  {}",
-            variable.name, variable.unit
+            "{:first$}  {:>14}  {}",
+            variable.name,
+            number(*value),
+            typeset(&variable.unit)
         );
         let _ = writeln!(text, "{}", line.trim_end());
     }
@@ -400,16 +404,16 @@ fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
             values.r_k[i],
             values.acceleration[i],
         ];
-        let numbers = numbers.map(|n| format!("{n:>14.7e}")).join("  ");
-        let force = if unit == "m/s" { "N" } else { "N*m" };
+        let numbers = numbers.map(|n| format!("{:>14}", number(n))).join("  ");
+        let force = if unit == "m/s" { "N" } else { "N·m" };
         let _ = writeln!(
             text,
-            "{name:first$}  {numbers}  {unit}, {force}, {force}, {unit}^2"
+            "{name:first$}  {numbers}  {unit}, {force}, {force}, {unit}²"
         );
     }
-    text.push_str("\nS [kg between translations, kg*m between translation and rotation, kg*m^2 between rotations]\n");
+    text.push_str("\nS [kg between translations, kg·m between translation and rotation, kg·m² between rotations]\n");
     for row in &values.mass_matrix {
-        let row: Vec<String> = row.iter().map(|n| format!("{n:>14.7e}")).collect();
+        let row: Vec<String> = row.iter().map(|n| format!("{:>14}", number(*n))).collect();
         let _ = writeln!(text, "{}", row.join(" "));
     }
     text

@@ -1,7 +1,7 @@
 //! `bryant gradient`: exact derivatives of responses with respect to parameters.
 
 mod slopes;
-mod table;
+pub(super) mod table;
 
 use super::Error;
 use super::model_argument::{find, nearest};

@@ -160,7 +160,9 @@ impl Arguments {
                 let mut outputs = Outputs::of([], self.replacing);
                 outputs.take("--out", path, Kind::Model)?;
                 files::replace(path, |out| out.write_all(own::signed(&text).as_bytes()))
-                    .map_err(Error::system)
+                    .map_err(Error::system)?;
+                terminal.note(&format!("wrote {}", path.display()));
+                Ok(())
             }
             _ => terminal.print(&text),
         }

@@ -108,6 +108,9 @@ impl Arguments {
         for note in imported.notes() {
             terminal.note(note);
         }
+        if let Some(path) = &self.out {
+            terminal.note(&format!("wrote {}", path.display()));
+        }
         Ok(())
     }
 }

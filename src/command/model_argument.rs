@@ -25,6 +25,11 @@ pub fn find(argument: &str) -> Result<Found, Error> {
         return Ok(Found::of(scene, Vec::new()));
     }
     let path = path_of(argument)?;
+    if let Some(bundled) = meant(path) {
+        return Err(Error::Input(format!(
+            "there is no file {argument}\n  help: a model {bundled} is bundled: give its name without an ending; `bryant models {bundled} --copy .` writes its file here"
+        )));
+    }
     let scene = scene::read(path).map_err(Error::Model)?;
     let files = scene.read.clone();
     Ok(Found::of(scene, files))
@@ -98,9 +103,26 @@ fn path_of(argument: &str) -> Result<&Path, Error> {
     Ok(path)
 }
 
+/// The bundled model whose name a file that is not there would have.
+fn meant(path: &Path) -> Option<&'static str> {
+    let name = path.file_stem()?.to_str()?;
+    let bundled = bundled::find(name).filter(|_| !path.exists())?;
+    Some(bundled.name)
+}
+
 /// The bundled model of this name, or an error that lists the bundled models.
 pub fn find_bundled(name: &str) -> Result<&'static Bundled, Error> {
-    bundled::find(name).ok_or_else(|| Error::Input(unknown(name)))
+    bundled::find(name).ok_or_else(|| {
+        let names: Vec<&str> = bundled::all().iter().map(|b| b.name).collect();
+        let help = match nearest(name, &names) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None => "`bryant models` lists them".to_owned(),
+        };
+        Error::Input(format!(
+            "no bundled model is called \"{}\"\n  help: {help}",
+            name.escape_debug()
+        ))
+    })
 }
 
 fn looks_like_path(argument: &str) -> bool {

@@ -299,6 +299,9 @@ const RUSTC: &str = "rustc";
 /// A table has at most this many rows, as in a model: all of them are kept until the end.
 const MOST_ROWS: f64 = 1e6;
 
+/// So many times the model's duration is perhaps in the wrong unit.
+const UNUSUAL: f64 = 100.0;
+
 /// Time that the computation of a run may take if the user gives none \[s\].
 pub(super) const TIME_LIMIT: f64 = 300.0;
 /// Time that the search for the cause of a slow run may take \[s\].
@@ -316,6 +319,9 @@ impl Arguments {
         let mut job = self.job(&found.scene)?;
         let files = Files::of(&self, &found)?;
         let mut responses = Responses::of(&self, &found, 0.0)?;
+        if let Some(note) = self.long(&found.model) {
+            terminal.note(&note);
+        }
         for note in super::caution::thinned(&found.model) {
             terminal.note(&note);
         }
@@ -467,6 +473,18 @@ impl Arguments {
                 ..error.clone()
             })),
         }
+    }
+
+    /// The note about a duration that was perhaps meant in milliseconds.
+    fn long(&self, model: &Model) -> Option<String> {
+        let times = self.duration? / model.run.duration;
+        (times >= UNUSUAL).then(|| {
+            format!(
+                "--duration is {:.0} times the {} of the model; a bare number is in seconds",
+                times,
+                crate::accuracy::setting::time(model.run.duration)
+            )
+        })
     }
 
     fn job(&self, scene: &Scene) -> Result<Job, Error> {

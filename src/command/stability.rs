@@ -59,6 +59,12 @@ impl Arguments {
                 self.words.join("\" or \"")
             )));
         }
+        if self.list && self.json {
+            let listed = cases
+                .iter()
+                .map(|case| serde_json::json!({ "group": case.group.title(), "case": case.name }));
+            return terminal.print_json(&listed.collect::<Vec<_>>());
+        }
         if self.list {
             for case in cases {
                 terminal.print(&format!("{}: {}\n", case.group.title(), case.name))?;

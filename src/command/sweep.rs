@@ -384,8 +384,10 @@ fn plan(study: &Study, found: &Found, terminal: &mut Terminal) -> Result<(), Err
     let sampler = Sampler::new(study).map_err(Error::input)?;
     let duration = study.run.duration.unwrap_or(found.model.run.duration);
     terminal.print(&format!(
-        "{} runs of {}, {} s each\n",
-        study.rows, found.model.name, duration
+        "{} runs of {}, each of {} of its motion\n",
+        study.rows,
+        found.model.name,
+        crate::accuracy::setting::time(duration)
     ))?;
     let mut lines = vec![{
         let heading = |p: &bryant_study::study::Varied| match p.unit.as_str() {

@@ -132,7 +132,13 @@ pub enum Dimension {
 
 impl Shape for Dimension {
     fn check(at: At<'_>, problems: &Problems) {
-        super::shape::check_word(at, &["2", "3"], problems);
+        match &at.node.kind {
+            Kind::Scalar { text, .. } if ["2", "3"].contains(&text.as_str()) => {}
+            _ => problems.add(at.problem(
+                "a model moves in the plane or in space",
+                "write `2` for the x–z plane, or `3` for space",
+            )),
+        }
     }
 
     fn read(value: &Value) -> Result<Self, Misfit> {

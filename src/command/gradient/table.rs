@@ -154,7 +154,7 @@ impl Table<'_> {
 }
 
 /// A number with seven digits.
-fn number(value: f64) -> String {
+pub(in crate::command) fn number(value: f64) -> String {
     let size = value.abs();
     match size {
         0.0 => "0".into(),
