@@ -21,40 +21,6 @@ function extent(values) {
   return [low - margin, high + margin];
 }
 
-// A canvas with axes: drawing functions get a function from numbers to positions.
-function draw(canvas, [a, b], [low, high], titles, paint) {
-  const made = blank(canvas);
-  if (!made) return;
-  const { c, width, height } = made;
-  const [left, right, top, bottom] = [66, width - 14, 20, height - 36];
-  const [px, py] = [(x) => left + ((x - a) / (b - a || 1)) * (right - left), (y) => bottom - ((y - low) / (high - low || 1)) * (bottom - top)];
-  c.font = "11px system-ui, sans-serif";
-  c.strokeStyle = style("--line");
-  c.fillStyle = style("--soft");
-  c.lineWidth = 1;
-  const text = (v, digits) => (Math.abs(v) >= 1e6 ? v.toExponential(1) : v.toFixed(Math.min(8, digits))).replace("-", "−");
-  const [up, along] = [ticks(low, high, 6), ticks(a, b, Math.max(3, Math.floor(width / 110)))];
-  c.textAlign = "right";
-  for (const v of up.found) {
-    c.beginPath(); c.moveTo(left, py(v)); c.lineTo(right, py(v)); c.stroke();
-    c.fillText(text(v, up.digits), left - 5, py(v) + 4);
-  }
-  c.textAlign = "center";
-  for (const v of along.found) {
-    c.beginPath(); c.moveTo(px(v), top); c.lineTo(px(v), bottom); c.stroke();
-    c.fillText(text(v, along.digits), px(v), height - 21);
-  }
-  c.fillText(titles[0], (left + right) / 2, height - 6);
-  c.textAlign = "left";
-  c.fillText(titles[1], 6, 12);
-  c.save();
-  c.beginPath();
-  c.rect(left, top, right - left, bottom - top);
-  c.clip();
-  paint(c, px, py, { left, right, top, bottom });
-  c.restore();
-  canvas.places = { left, right, top, bottom, a, b, low, high };
-}
 function mark(c, from, to) {
   c.strokeStyle = style("--bad");
   c.lineWidth = 1.5;
@@ -80,7 +46,7 @@ function histogram(response) {
     return found;
   };
   const whole = counts(runs), most = 1.08 * Math.max(1, ...whole);
-  return () => draw(canvas, [low, high], [0, most], [label(about), "runs"], (c, px, py, { top, bottom }) => {
+  return () => chart(canvas, [low, high], [0, most], [label(about), "runs"], (c, px, py, { top, bottom }) => {
     const bars = (of, colour, alpha) => of.forEach((count, k) => {
       const [x, y] = [px(low + (k / bins) * (high - low)), py(count)];
       c.globalAlpha = alpha;
@@ -98,7 +64,7 @@ function scatter() {
   const canvas = byId("scatter"), [across, up] = [Number(byId("across").value), Number(byId("up").value)];
   const columns = [across, up].map((column) => runs.map((run) => run.values[column]));
   const [x, y] = columns.map(extent), picked = new Set(chosen());
-  draw(canvas, x, y, [label(names[across]), label(names[up])], (c, px, py, { left, right, top, bottom }) => {
+  chart(canvas, x, y, [label(names[across]), label(names[up])], (c, px, py, { left, right, top, bottom }) => {
     const size = runs.length > 1500 ? 2 : 3.2;
     for (const [inside, colour, alpha] of [[false, "--soft", 0.3], [true, "--accent", 0.7]]) {
       c.fillStyle = style(colour);
@@ -222,7 +188,7 @@ function startStudy() {
   canvas.addEventListener("dblclick", () => { brush = null; changed(); });
   tornado();
   new ResizeObserver(all).observe(byId("curves"));
-  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", all);
+  onPaper(all);
   changed();
   const command = element("p"), digest = element("p");
   command.append("Command: ", element("code", data.made));

@@ -140,8 +140,8 @@ class Page:
             if method == "Runtime.exceptionThrown":
                 found.append(about["exceptionDetails"]["exception"].get("description", "an exception"))
             elif method == "Log.entryAdded" and about["entry"]["level"] in ["error", "warning"]:
-                # a driver in software is told of by the browser
-                if "GPU stall" not in about["entry"]["text"] and "GL Driver Message" not in about["entry"]["text"]:
+                # the browser tells of a graphics driver in software, and of canvases that are looked at from here
+                if not any(word in about["entry"]["text"] for word in ["GPU stall", "GL Driver Message", "willReadFrequently"]):
                     found.append(about["entry"]["text"])
             elif method == "Runtime.consoleAPICalled" and about["type"] in ["error", "warning"]:
                 found.append(str([one.get("value", one.get("description")) for one in about["args"]]))

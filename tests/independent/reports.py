@@ -5,12 +5,13 @@
 Other reports are only opened.
 """
 
+import json
 import re
 import subprocess
 import sys
 from pathlib import Path
 
-from chromium import Browser, Page
+from chromium import Browser, Failure, Page
 
 PHONE = {"size": (390, 844), "touch": True}
 STUDY = """\
@@ -44,38 +45,282 @@ def ground(page):
     return sum(page.js("getComputedStyle(document.body).backgroundColor.match(/[0-9]+/g).map(Number)"))
 
 
+def number(text):
+    """A number as the page writes it, and half a unit of its last digit."""
+    text = text.replace("−", "-")
+    mantissa, _, power = text.partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    return float(text), 0.5 * 10.0 ** (int(power or 0) - decimals)
+
+
+def same(text, value, what):
+    """A text of four digits or more is this value, of which the page has six."""
+    read, half = number(text)
+    if abs(value) < 1e-12:
+        value = 0
+    # trailing zeros are not written, so that the last digit may stand further to the right than it seems
+    half = min(half, 0.5e-3 * abs(value)) if value else half
+    expect(abs(read - value) <= 1.01 * half + 1e-5 * abs(value), f"{what}: the page says {text}, the run {value}")
+
+
+def people(unit):
+    """A unit as people write it."""
+    return unit.replace("^2", "²").replace("^3", "³").replace("*", "·")
+
+
 def looks(browser, url):
     """On a screen, on a phone, and in the dark."""
     with Page(browser, url) as page:
         whole(page)
         expect(ground(page) > 600, "the page is dark without being asked")
+        order = page.js("[...document.querySelectorAll('main h2')].map((e) => e.textContent)")
+        expect(order[0] == "Result" and order[-1] == "To make it again", order)
     with Page(browser, url, dark=True) as page:
         whole(page)
         expect(ground(page) < 150, "the page is bright in the dark")
+        paper = page.js("paper(true); [getComputedStyle(document.body).backgroundColor, getComputedStyle(document.querySelector('canvas')).width]")
+        expect(paper[0] == "rgb(255, 255, 255)", f"paper is {paper[0]}")
     with Page(browser, url, **PHONE) as page:
+        whole(page)
+        fingers(page)
+
+
+def fingers(page):
+    """Whatever can be pressed is as large as a finger: 40 px, which a label around it may have."""
+    small = page.js("""[...document.querySelectorAll('button, select, summary, input, a')].filter((e) => e.offsetParent !== null).map((e) => {
+        const r = (e.closest('label') || e).getBoundingClientRect(); return [e.id || e.textContent || e.ariaLabel, r.width, r.height];
+    }).filter(([, width, height]) => Math.min(width, height) < 40)""")
+    expect(not small, f"too small for a finger: {small[:5]}")
+
+
+def scrolls(browser, url):
+    """A thumb that begins on the motion or on a plot goes on down the page."""
+    with Page(browser, url, **PHONE) as page:
+        for canvas in ["byId('scene')", "plots[0].canvas"]:
+            left, top, width, height = page.box(canvas)
+            before = page.js("scrollY")
+            page.swipe(left + width / 2, top + height / 2, 0, -200)
+            page.wait(f"scrollY > {before} + 100")
+        # and one that goes across turns the view, or moves it
+        left, top, width, height = page.box("byId('scene')")
+        view = "JSON.stringify([camera.yaw, camera.center])"
+        before = page.js(view)
+        page.swipe(left + 50, top + height / 2, 150, 0)
+        expect(page.js(view) != before, "a finger does not turn the view")
+
+
+def keys(browser, url):
+    """Every control is reached by the key Tab, and is seen to be."""
+    with Page(browser, url) as page:
+        wanted = page.js("""(window.seen = new Set(), [...document.querySelectorAll('button, select, summary, input, canvas[tabindex], a')].filter((e) => e.checkVisibility()).length)""")
+        for _ in range(wanted + 5):
+            page.key("Tab")
+            faint = page.js("""(() => { const e = document.activeElement; if (e === document.body) return null; seen.add(e);
+                return parseFloat(getComputedStyle(e).outlineWidth) >= 1 && getComputedStyle(e).outlineStyle !== 'none' ? null : e.outerHTML; })()""")
+            expect(faint is None, f"nobody sees that this has the focus: {faint}")
+        reached = page.js("seen.size")
+        expect(reached == wanted, f"{reached} of {wanted} controls are reached")
+        # the motion by keys
+        page.js("byId('scene').focus()")
+        page.key("End")
+        expect(page.js("now === times[times.length - 1]"), "the key End does not lead to the end")
+        page.key("ArrowLeft")
+        expect(page.js("Math.abs(now - times[times.length - 2]) < 1e-9"), "an arrow does not lead to the row before")
+
+
+def readings(browser, url, run):
+    """Rows and peaks under the mouse are those of the run, with their units."""
+    names = [column["name"] for column in run["columns"]]
+    with Page(browser, url) as page:
+        count = page.js("plots.length")
+        expect(count > 1 and page.js("Math.max(...plots.map((plot) => plot.members.length))") <= 6, "a plot has more than six curves")
+        shown = [name for plot in range(count) for name in page.js(f"plots[{plot}].members.map((m) => m.name)")]
+        expect(sorted(shown) == sorted(names[1:]), f"the plots show {shown}")
+
+        def under(plot, t):
+            left, top, _, height = page.box(f"plots[{plot}].canvas")
+            page.hover(left + page.js(f"plots[{plot}].canvas.places.x({t})"), top + 0.4 * height)
+            time, *rest = page.js(f"[...plots[{plot}].reading.querySelectorAll('b, span, output')].map((e) => e.textContent)")
+            return float(time.split()[0]), {name: (value, unit) for name, value, unit in zip(rest[::3], rest[1::3], rest[2::3])}
+
+        for plot in range(count):
+            for row in run["rows"][3 :: len(run["rows"]) // 3]:
+                time, found = under(plot, row[0])
+                expect(abs(time - 1e3 * row[0]) < 1e-6, f"{time} ms under the mouse, where the row is at {row[0]} s")
+                expect(found, "nothing is read")
+                for name, (value, unit) in found.items():
+                    index = names.index(name)
+                    same(value, row[index], f"{name} at {time} ms")
+                    expect(unit == people(run["columns"][index]["unit"]), f"{name} is in {unit}")
+        expect(run["peaks"], "the run has no peaks")
+        for peak in run["peaks"]:
+            plot = next(plot for plot in range(count) if peak["output"] in page.js(f"plots[{plot}].members.map((m) => m.name)"))
+            time, found = under(plot, peak["time_s"])
+            # samples of peaks are a fifth of a row apart
+            expect(abs(time - 1e3 * peak["time_s"]) < 1e3 * run["rows"][1][0] / 4, f"the peak of {peak['output']} is read at {time} ms")
+            same(found[peak["output"]][0], peak["value"], f"the peak of {peak['output']}")
         whole(page)
 
 
+def colour(page, plot, member):
+    """How many points of a plot have the colour of a curve."""
+    return page.js(f"""(() => {{
+        const {{ canvas, members }} = plots[{plot}], c = members[{member}].colour, [r, g, b] = [1, 3, 5].map((k) => parseInt(c.slice(k, k + 2), 16));
+        const points = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+        let count = 0;
+        for (let k = 0; k < points.length; k += 4) count += Math.abs(points[k] - r) + Math.abs(points[k + 1] - g) + Math.abs(points[k + 2] - b) < 12;
+        return count;
+    }})()""")
+
+
+def legend(browser, url):
+    """A name hides its curve, and shows it again; names, values and units are apart."""
+    with Page(browser, url) as page:
+        before = colour(page, 0, 1)
+        expect(before > 50, f"the second curve has {before} points")
+        key = "plots[0].box.querySelectorAll('.keys button')[1]"
+        page.press(key)
+        expect(colour(page, 0, 1) == 0, "a hidden curve is seen")
+        expect(page.js(f"{key}.getAttribute('aria-pressed')") == "false", "a hidden curve is told as shown")
+        page.press(key)
+        expect(colour(page, 0, 1) == before, "a curve does not come back")
+        places = page.js(f"[...{key}.children].map((e) => {{ const r = e.getBoundingClientRect(); return [r.left, r.right]; }})")
+        expect(all(a[1] + 3 < b[0] for a, b in zip(places, places[1:])), f"name and value run together: {places}")
+        # a part of the time, and all of it again
+        left, top, width, height = page.box("plots[0].canvas")
+        page.mouse("mouseMoved", left + 0.4 * width, top + 0.5 * height)
+        page.mouse("mousePressed", left + 0.4 * width, top + 0.5 * height, button="left", buttons=1, clickCount=1)
+        page.mouse("mouseMoved", left + 0.7 * width, top + 0.5 * height, button="left", buttons=1)
+        page.mouse("mouseReleased", left + 0.7 * width, top + 0.5 * height, button="left", clickCount=1)
+        page.settle()
+        share = page.js("(zoomed[1] - zoomed[0]) / (clock[clock.length - 1] - clock[0])")
+        expect(0.2 < share < 0.5, f"{share} of the time is shown")
+        page.press("byId('whole')")
+        expect(page.js("zoomed === null"), "all of the time is not shown again")
+        whole(page)
+
+
+def parts(browser, url, run):
+    """The tree hides parts, and a click on a body tells its outputs."""
+    row = run["rows"][37]
+    names = [column["name"] for column in run["columns"]]
+    with Page(browser, f"{url}#t={1e3 * row[0]}") as page:
+        picture = "(render(), byId('scene').toDataURL())"
+        head = page.js("scene.bodies.findIndex((body) => body.name === 'child/head')")
+        box = f"document.querySelector('[data-part=\"{head}\"]').parentElement.querySelector('input')"
+        page.press("byId('show-forces')")
+        before = page.js(picture)
+        page.press(box)
+        without = page.js(picture)
+        expect(without != before, "a hidden part is still drawn")
+        page.press(box)
+        expect(page.js(picture) == before, "a part does not come back")
+        # where the middle of the head is
+        left, top, width, height = page.box("byId('scene')")
+        x, y = page.js(f"""(() => {{
+            const {{ frames }} = framesAt(now), e = scene.ellipsoids.find((one) => one.body === {head}), [x, y] = camera.seen(pointOf(frames, e.body, e.at));
+            return [{width} / 2 + x * {height} / 2, {height} / 2 - y * {height} / 2];
+        }})()""")
+        page.click(left + x, top + y)
+        told = page.js("[...byId('about').querySelectorAll('h3, td')].map((e) => e.textContent)")
+        expect(told and told[0] == "child/head", f"a click on the head says {told}")
+        for name in ["res. head acceleration", "head excursion", "head accelerometer"]:
+            at = told.index(name)
+            same(told[at + 1], row[names.index(name)], name)
+            expect(told[at + 2] == people(run["columns"][names.index(name)]["unit"]), f"{name} is in {told[at + 2]}")
+        expect(page.js(picture) != before, "the chosen part is not marked")
+        page.click(left + x, top + y)
+        expect(page.js("chosenPart") is None, "a second click does not let go")
+        # a hidden part is not found, and what is behind it is
+        page.press(box)
+        page.box("byId('scene')")
+        page.click(left + x, top + y)
+        expect(page.js("chosenPart") != head, "a hidden part is chosen")
+        # numbers beside arrows
+        page.press("byId('show-forces')")
+        count = "(() => { const c = byId('labels'); return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((n, v) => n + (v > 0), 0); })()"
+        numbers = page.js(f"(render(), {count})")
+        page.press("byId('show-numbers')")
+        expect(page.js(f"(render(), {count})") < numbers, "forces have no numbers")
+        whole(page)
+
+
+def others(browser, url, second, row):
+    """A second run and a test lie over the curves, and are read with them."""
+    with Page(browser, url) as page:
+        plot = page.js("plots.findIndex((plot) => plot.members.some((m) => m.name === 'res. head acceleration'))")
+        left, top, _, height = page.box(f"plots[{plot}].canvas")
+        page.hover(left + page.js(f"plots[{plot}].canvas.places.x({row[0]})"), top + 0.4 * height)
+        told = page.js(f"[...plots[{plot}].reading.querySelectorAll('span, output')].map((e) => e.textContent)")
+        for name, value in [("measured", row[3]), ("lap_slack=0 mm", second["rows"][37][3])]:
+            full = f"res. head acceleration, {name}"
+            expect(full in told, f"{full} is not in {told}")
+            read, half = number(told[told.index(full) + 1])
+            expect(abs(read - value) < max(half, 1e-3 * abs(value)), f"{full}: {read} for {value}")
+        expect(page.js("!byId('beside').hidden"), "the second run cannot be hidden")
+        picture = "(render(), byId('scene').toDataURL())"
+        before = page.js(picture)
+        page.press("byId('show-beside')")
+        expect(page.js(picture) != before, "the second run is not drawn")
+        whole(page)
+
+
+def printed(browser, url, most):
+    """A report fits on this many pages of A4 and of letter paper, in the dark, too."""
+    for dark in [False, True]:
+        with Page(browser, url, dark=dark) as page:
+            for paper in [(8.27, 11.69), (8.5, 11)]:
+                count = pages(page.pdf(paper))
+                expect(1 <= count <= most, f"{count} pages of {paper} inches")
+            expect(page.js("!printing && !document.documentElement.classList.contains('print')"), "the page stays as on paper")
+            whole(page)
+
+
 def main():
-    program, bryant, folder, *others = sys.argv[1:]
-    folder = Path(folder)
+    program, bryant, folder, *opened = sys.argv[1:]
+    bryant, folder = Path(bryant).resolve(), Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
 
     def run(*words):
         subprocess.run([bryant, *words], check=True, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         return f"file://{(folder / words[-1]).resolve()}"
 
+    def table(*words):
+        return json.loads(subprocess.run([bryant, "run", *words, "--no-files", "--json"], check=True, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout)
+
     (folder / "study.yaml").write_text(STUDY)
     seat = run("run", "child-seat", "--no-files", "--report", "child-seat.html")
     frontal = run("run", "frontal", "--no-files", "--no-verify", "--report", "frontal.html")
     study = run("sweep", "study.yaml", "--out", "rows", "--report", "study.html")
+    rows, second = table("child-seat"), table("child-seat", "--set", "lap_slack=0 mm")
+    # a test in other units, as often as it is read here
+    head = [f"{row[0]},{row[3] / 9.80665}" for row in rows["rows"]]
+    (folder / "test.csv").write_text("\n".join(["time [s],head [g]", *head]))
+    laid = run("run", "child-seat", "--no-files", "--beside", "lap_slack=0 mm", "--measured", "test.csv", "--channel", "res. head acceleration=head", "--report", "laid.html")
+    checks = [
+        *[(looks, url) for url in [seat, frontal, laid, study]],
+        *[(printed, url, 2) for url in [seat, frontal]],
+        *[(keys, url) for url in [seat, study]],
+        (scrolls, seat),
+        (readings, seat, rows),
+        (legend, seat),
+        (parts, seat, rows),
+        (others, laid, second, rows["rows"][37]),
+    ]
+    failed = []
     with Browser(program) as browser:
-        for url in [seat, frontal, study]:
-            looks(browser, url)
-            print(f"{Path(url).name}: whole on a screen, on a phone and in the dark")
-        for other in others:
+        for check, url, *more in checks:
+            what = f"{check.__name__} of {Path(url).name}"
+            try:
+                check(browser, url, *more)
+                print(what)
+            except (AssertionError, Failure) as error:
+                failed.append(f"{what}: {error}")
+                print(f"FAILED {failed[-1]}")
+        for other in opened:
             with Page(browser, f"file://{Path(other).resolve()}") as page:
                 whole(page)
+    sys.exit(bool(failed))
 
 
 main()
