@@ -21,6 +21,8 @@ function readable(value, most = 0) {
   const text = size >= 1e7 || size < 1e-4 ? value.toExponential(3) : String(Number(value.toPrecision(Math.max(4, Math.floor(Math.log10(size)) + 1))));
   return text.replace("-", "−");
 }
+// A limit as the regulation prints it: all digits, but not those that only a conversion of units adds.
+const limitText = (limit) => String(Number(limit.toPrecision(12)));
 const milliseconds = (t) => String(Number((1000 * t).toPrecision(6)));
 
 // Colours of systems and curves, also for the colour-blind (Okabe and Ito 2008).

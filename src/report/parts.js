@@ -157,6 +157,8 @@ function startParts() {
   tree().forEach((node) => list.append(branch(node, 0, boxes)));
   boxes.forEach((update) => update());
   byId("parts").append(list);
+  // below the motion, a long tree stays folded
+  byId("parts").parentElement.open = window.innerWidth > 900;
   const canvas = byId("scene");
   let down = null;
   canvas.addEventListener("pointerdown", (e) => { down = [e.clientX, e.clientY]; });

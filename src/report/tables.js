@@ -24,9 +24,8 @@ function criteria() {
   return made;
 }
 
-// A limit as the regulation prints it: all digits, but not those that only a conversion of units adds.
 function limit(one) {
-  return one.limit === null ? "–" : String(Number(one.limit.toPrecision(12)));
+  return one.limit === null ? "–" : limitText(one.limit);
 }
 
 function met(one) {

@@ -15,11 +15,12 @@ from chromium import Browser, Failure, Page
 
 PHONE = {"size": (390, 844), "touch": True}
 STUDY = """\
-model: child-seat
+model: child-restraint
 design: latin hypercube
 runs: 40
-parameters: { lap_slack: { from: 0 mm, to: 40 mm }, friction: { from: 0.1, to: 0.6 } }
-responses: [{ of: lap belt force, what: peak }]
+parameters: { harness_slack: { from: 0 mm, to: 60 mm }, padding: { normal: { mean: 1, deviation: 0.2 }, min: 0.3, max: 2 } }
+responses: [{ criterion: all }]
+tables: [csv]
 """
 
 
@@ -120,6 +121,8 @@ def keys(browser, url):
             expect(faint is None, f"nobody sees that this has the focus: {faint}")
         reached = page.js("seen.size")
         expect(reached == wanted, f"{reached} of {wanted} controls are reached")
+        if not page.js("byId('scene') !== null"):
+            return
         # the motion by keys
         page.js("byId('scene').focus()")
         page.key("End")
@@ -265,6 +268,45 @@ def others(browser, url, second, row):
         whole(page)
 
 
+def study(browser, url, results):
+    """What a study gave stands at the top, without empty columns and in the units of its text; a run is read under the mouse, and its command is shown."""
+    with Page(browser, url) as page:
+        empty = page.js("""[...document.querySelectorAll('#result-heading ~ * table')].flatMap((table) => [...table.tHead.rows[0].cells]
+            .filter((head, k) => head.textContent !== 'unit' && [...table.tBodies[0].rows].every((row) => !row.cells[k].textContent)).map((head) => head.textContent))""")
+        expect(not empty, f"empty columns: {empty}")
+        varied = page.js("[...byId('run').querySelectorAll('td')].map((e) => e.textContent)")
+        expect(varied[:3] == ["harness_slack", "0 to 60", "mm"], f"what was varied is {varied}")
+        lines = results.read_text().splitlines()
+        heads = [head.strip('"').partition(" [")[0] for head in lines[0].split(",")]
+        rows = [dict(zip(heads, line.split(","))) for line in lines[1:]]
+        limit = page.js("data.responses.find((one) => one.name === 'head excursion').limit")
+        expect(limit == 550, f"the limit of the excursion is {limit}")
+        keep = sum(float(row["head excursion"]) <= 0.55 and float(row["chest 3 ms"]) <= 55 * 9.80665 for row in rows)
+        verdict = page.js("byId('verdict').textContent")
+        expect(verdict.startswith(f"{keep} of {len(rows)} runs "), f"{keep} runs keep the limits; the page says {verdict}")
+        table, again = [page.js(f"document.getElementById('{heading}').getBoundingClientRect().top") for heading in ["rows-heading", "again-heading"]]
+        expect(again - table < 150, f"the table is {again - table} px long")
+        # a run under the mouse
+        left, top, _, _ = page.box("byId('scatter')")
+        x, y = page.js("[byId('scatter').places.x(runs[7].values[0]), byId('scatter').places.y(runs[7].values[Number(byId('up').value)])]")
+        page.hover(left + x, top + y)
+        told = page.js("[...byId('reading').querySelectorAll('b, span, output')].map((e) => e.textContent)")
+        index = int(told[0].split()[1])
+        expect(index == 7, f"run {index} is read where run 7 is")
+        for name, scale, unit in [("harness_slack", 1e-3, "mm"), ("padding", 1, ""), ("HIC15", 1, ""), ("head excursion", 1e-3, "mm"), ("head 3 ms", 9.80665, "g")]:
+            at = told.index(name)
+            same(told[at + 1], float(rows[index][name]) / scale, name)
+            expect(told[at + 2] == unit, f"{name} is in {told[at + 2]}")
+        page.click(left + x, top + y)
+        command = page.js("byId('command').textContent")
+        # commands take SI
+        expect(f"--set harness_slack={float(rows[index]['harness_slack'])}" in command, command)
+        # the table, unfolded, has all runs
+        page.press("byId('rows-title')")
+        expect(page.js("document.querySelectorAll('#rows tbody tr').length") == len(rows), "the table has not all runs")
+        whole(page)
+
+
 def printed(browser, url, most):
     """A report fits on this many pages of A4 and of letter paper, in the dark, too."""
     for dark in [False, True]:
@@ -291,20 +333,21 @@ def main():
     (folder / "study.yaml").write_text(STUDY)
     seat = run("run", "child-seat", "--no-files", "--report", "child-seat.html")
     frontal = run("run", "frontal", "--no-files", "--no-verify", "--report", "frontal.html")
-    study = run("sweep", "study.yaml", "--out", "rows", "--report", "study.html")
+    many = run("sweep", "study.yaml", "--out", "rows", "--report", "study.html")
     rows, second = table("child-seat"), table("child-seat", "--set", "lap_slack=0 mm")
     # a test in other units, as often as it is read here
     head = [f"{row[0]},{row[3] / 9.80665}" for row in rows["rows"]]
     (folder / "test.csv").write_text("\n".join(["time [s],head [g]", *head]))
     laid = run("run", "child-seat", "--no-files", "--beside", "lap_slack=0 mm", "--measured", "test.csv", "--channel", "res. head acceleration=head", "--report", "laid.html")
     checks = [
-        *[(looks, url) for url in [seat, frontal, laid, study]],
-        *[(printed, url, 2) for url in [seat, frontal]],
-        *[(keys, url) for url in [seat, study]],
+        *[(looks, url) for url in [seat, frontal, laid, many]],
+        *[(printed, url, 2) for url in [seat, frontal, many]],
+        *[(keys, url) for url in [seat, many]],
         (scrolls, seat),
         (readings, seat, rows),
         (legend, seat),
         (parts, seat, rows),
+        (study, many, folder / "rows/results.csv"),
         (others, laid, second, rows["rows"][37]),
     ]
     failed = []
