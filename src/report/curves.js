@@ -69,7 +69,8 @@ class Plot {
     this.box.append(head, stage, keys);
     byId("curves").append(this.box);
     this.hands();
-    new ResizeObserver(() => this.draw()).observe(this.canvas);
+    new ResizeObserver(() => { if (this.seen) this.draw(); }).observe(this.canvas);
+    watching.observe(this.box);
   }
   add(member) {
     const size = member.points.values.reduce((most, v) => Math.max(most, Math.abs(v || 0)), 0);
@@ -214,12 +215,18 @@ class Plot {
   }
 }
 
-// Draws all plots before the next picture of the screen.
+// Only plots in the window, and a little around it, are drawn: of others there may be a hundred.
+const watching = new IntersectionObserver((entries) => entries.forEach(({ target, isIntersecting }) => {
+  const plot = plots.find((one) => one.box === target);
+  plot.seen = isIntersecting;
+  if (plot.seen) plot.draw();
+}), { rootMargin: "300px" });
+// Draws the plots before the next picture of the screen.
 let waiting = false;
 function drawPlots() {
   if (waiting) return;
   waiting = true;
-  requestAnimationFrame(() => { waiting = false; plots.forEach((plot) => plot.draw()); });
+  requestAnimationFrame(() => { waiting = false; plots.filter((plot) => plot.seen).forEach((plot) => plot.draw()); });
 }
 // Shows a part of the time in all plots, or all of it.
 function zoom(part) {

@@ -205,7 +205,7 @@ function startStudy() {
   const limited = data.responses.filter((one) => one.limit !== null);
   if (limited.length) {
     const all = data.kept === data.runs, what = limited.length === 1 ? `the limit of ${limited[0].name}` : `all ${limited.length} limits`;
-    byId("verdict").append(element("span", `${data.kept} of ${data.runs} runs (${readable((100 * data.kept) / data.runs)} %) keep ${what}.`, { class: all ? "met" : "missed" }));
+    byId("kept").append(element("span", `${data.kept} of ${data.runs} runs (${readable((100 * data.kept) / data.runs)} %) keep ${what}.`, { class: all ? "met" : "missed" }));
   }
   // a column that would be empty is not there
   const heads = ["response", "unit", "mean", "deviation", "smallest", "5 %", "median", "95 %", "largest", ...(limited.length ? ["limit", "runs within"] : [])];

@@ -151,7 +151,9 @@ class Page:
 
     def box(self, element):
         """Left, top, width and height of an element, which is scrolled into the window."""
-        script = f"(() => {{ const e = {element}; e.scrollIntoView({{ block: 'center' }}); const r = e.getBoundingClientRect(); return [r.left, r.top, r.width, r.height]; }})()"
+        self.js(f"{element}.scrollIntoView({{ block: 'center' }})")
+        self.settle()
+        script = f"(() => {{ const e = {element}; const r = e.getBoundingClientRect(); return [r.left, r.top, r.width, r.height]; }})()"
         return self.js(script)
 
     def mouse(self, kind, x, y, **more):

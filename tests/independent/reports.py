@@ -179,6 +179,7 @@ def colour(page, plot, member):
 def legend(browser, url):
     """A name hides its curve, and shows it again; names, values and units are apart."""
     with Page(browser, url) as page:
+        page.box("plots[0].canvas")
         before = colour(page, 0, 1)
         expect(before > 50, f"the second curve has {before} points")
         key = "plots[0].box.querySelectorAll('.keys button')[1]"
@@ -282,7 +283,7 @@ def study(browser, url, results):
         limit = page.js("data.responses.find((one) => one.name === 'head excursion').limit")
         expect(limit == 550, f"the limit of the excursion is {limit}")
         keep = sum(float(row["head excursion"]) <= 0.55 and float(row["chest 3 ms"]) <= 55 * 9.80665 for row in rows)
-        verdict = page.js("byId('verdict').textContent")
+        verdict = page.js("byId('kept').textContent")
         expect(verdict.startswith(f"{keep} of {len(rows)} runs "), f"{keep} runs keep the limits; the page says {verdict}")
         table, again = [page.js(f"document.getElementById('{heading}').getBoundingClientRect().top") for heading in ["rows-heading", "again-heading"]]
         expect(again - table < 150, f"the table is {again - table} px long")
