@@ -23,7 +23,9 @@ function readable(value, most = 0) {
 }
 // A limit as the regulation prints it: all digits, but not those that only a conversion of units adds.
 const limitText = (limit) => String(Number(limit.toPrecision(12)));
-const milliseconds = (t) => String(Number((1000 * t).toPrecision(6)));
+// Times are in milliseconds, those of a long run in seconds, as in the terminal.
+const TIME = data.times && data.times[data.times.length - 1] >= 10 ? { unit: "s", scale: 1, digits: 3 } : { unit: "ms", scale: 1000, digits: 1 };
+const timeText = (t) => (TIME.scale * t).toFixed(TIME.digits);
 
 // Colours of systems and curves, also for the colour-blind (Okabe and Ito 2008).
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a7a00", "#6b6b6b"];

@@ -143,7 +143,7 @@ class Plot {
     // the curve next to the pointer is in bold
     const away = ({ v }) => Math.abs(this.canvas.places.y(v) - (e.clientY - top));
     const nearest = lines.reduce((best, line) => (!best || away(line) < away(best) ? line : best), null);
-    this.reading.replaceChildren(element("b", `${milliseconds(t)} ms`), ...lines.map((line) => {
+    this.reading.replaceChildren(element("b", `${Number((TIME.scale * t).toPrecision(6))} ${TIME.unit}`), ...lines.map((line) => {
       const row = element("div", null, line === nearest ? { class: "near" } : {}), mark = element("i");
       mark.style.background = line.m.colour;
       row.append(mark, element("span", line.m.name), element("output", readable(line.v, line.m.size)), element("span", line.m.unit, { class: "unit" }));
@@ -172,7 +172,7 @@ class Plot {
     if (high < 0 && high > 0.5 * low) high = 0;
     const margin = 0.06 * (high - low || Math.abs(high) || 1);
     [low, high] = [low === 0 ? 0 : low - margin, high === 0 ? 0 : high + margin];
-    chart(this.canvas, [a, b], [low, high], ["time [ms]", this.axis], (c, px, py, { top, bottom }) => {
+    chart(this.canvas, [a, b], [low, high], [`time [${TIME.unit}]`, this.axis], (c, px, py, { top, bottom }) => {
       for (const { points, colour, dash } of shown) {
         c.strokeStyle = colour;
         c.lineWidth = 1.8;
@@ -210,7 +210,7 @@ class Plot {
         c.fillStyle = colour;
         c.beginPath(); c.arc(px(pointed), py(v), 3.5, 0, 2 * Math.PI); c.fill();
       }
-    }, 1000);
+    }, TIME.scale);
     for (const { value, points, size } of this.members) value.textContent = readable(valueAt(points, now), size);
   }
 }

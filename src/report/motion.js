@@ -190,7 +190,7 @@ function render() {
   renderer.draw(camera, shapes);
   labels(shapes.texts);
   camera.half = half;
-  byId("clock").textContent = `${(1000 * now).toFixed(1)} ms`;
+  byId("clock").textContent = `${timeText(now)} ${TIME.unit}`;
 }
 // A bar of a round length, and the axes.
 function labels(texts) {

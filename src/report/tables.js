@@ -8,10 +8,10 @@ function extremes() {
     });
     const [largest, smallest] = column.between ? [column.largest, column.smallest] : found;
     const most = Math.max(...[largest, smallest].map((one) => (one ? Math.abs(one[0]) : 0)));
-    const cells = (one) => (one && Number.isFinite(one[0]) ? [readable(one[0], most), (1000 * one[1]).toFixed(1)] : ["–", "–"]);
+    const cells = (one) => (one && Number.isFinite(one[0]) ? [readable(one[0], most), timeText(one[1])] : ["–", "–"]);
     return [column.name, column.unit, ...cells(largest), ...cells(smallest)];
   });
-  return table([["output", false], ["unit", false], ["largest", true], ["at [ms]", true], ["smallest", true], ["at [ms]", true]], rows);
+  return table([["output", false], ["unit", false], ["largest", true], [`at [${TIME.unit}]`, true], ["smallest", true], [`at [${TIME.unit}]`, true]], rows);
 }
 
 function criteria() {
@@ -38,7 +38,7 @@ function result(parent) {
   const { peaks, more, energy, trust } = data.result;
   const left = element("div"), right = element("div");
   if (peaks.length) {
-    left.append(table([["peak of", false], ["value", true], ["unit", false], ["at [ms]", true]], peaks.map((p) => [p.output, readable(p.value), p.unit, (1000 * p.time_s).toFixed(1)])));
+    left.append(table([["peak of", false], ["value", true], ["unit", false], [`at [${TIME.unit}]`, true]], peaks.map((p) => [p.output, readable(p.value), p.unit, timeText(p.time_s)])));
     if (more) left.append(element("p", `${more} more below.`, { class: "hint" }));
   }
   if (data.criteria) {
@@ -105,7 +105,7 @@ class EnergyPlot {
   }
   draw() {
     const { times } = this;
-    chart(this.canvas, [times[0], times[times.length - 1]], [0, 1.05 * this.most], ["time [ms]", "energy [J]"], (c, px, py) => {
+    chart(this.canvas, [times[0], times[times.length - 1]], [0, 1.05 * this.most], [`time [${TIME.unit}]`, "energy [J]"], (c, px, py) => {
       const below = times.map(() => 0);
       this.layers.forEach((layer, k) => {
         const above = below.map((v, i) => v + layer.values[i]);
@@ -119,7 +119,7 @@ class EnergyPlot {
         above.forEach((v, i) => { below[i] = v; });
       });
       c.globalAlpha = 1;
-    }, 1000);
+    }, TIME.scale);
   }
 }
 

@@ -19,7 +19,7 @@ class Failure(Exception):
 class Browser:
     """A browser with a profile of its own."""
 
-    def __init__(self, program):
+    def __init__(self, program, *options):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         their_in, our_out = os.pipe()
         our_in, their_out = os.pipe()
@@ -32,7 +32,7 @@ class Browser:
             os.dup2(high[1], 4)
 
         words = [program, "--headless=new", "--no-sandbox", "--enable-unsafe-swiftshader", "--remote-debugging-pipe", "--no-first-run",
-                 "--hide-scrollbars", f"--user-data-dir={self.profile.name}", "about:blank"]
+                 "--hide-scrollbars", f"--user-data-dir={self.profile.name}", *options, "about:blank"]
         self.process = subprocess.Popen(words, preexec_fn=ends, close_fds=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                         stderr=subprocess.DEVNULL)
         os.close(their_in)

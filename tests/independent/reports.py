@@ -14,6 +14,14 @@ from pathlib import Path
 from chromium import Browser, Failure, Page
 
 PHONE = {"size": (390, 844), "touch": True}
+FALL = """\
+model: fall
+dimension: 3
+systems:
+  - { name: one, elements: [{ name: rod, mass: 2 kg, cg: [0, 0, 0], inertia: [0.1, 0.2, 0.3] }], start: { rates: { rod: [1, 2, 3] } } }
+forces: [{ field: earth, acceleration: [0, 0, -1e-3] }]
+run: { duration: 20 s, every: 100 ms }
+"""
 STUDY = """\
 model: child-restraint
 design: latin hypercube
@@ -210,21 +218,37 @@ def parts(browser, url, run):
     names = [column["name"] for column in run["columns"]]
     with Page(browser, f"{url}#t={1e3 * row[0]}") as page:
         picture = "(render(), byId('scene').toDataURL())"
-        head = page.js("scene.bodies.findIndex((body) => body.name === 'child/head')")
+        index = "scene.bodies.findIndex((body) => body.name === 'child/{}')"
+        head, torso = page.js(index.format("head")), page.js(index.format("torso"))
         box = f"document.querySelector('[data-part=\"{head}\"]').parentElement.querySelector('input')"
         page.press("byId('show-forces')")
-        before = page.js(picture)
-        page.press(box)
-        without = page.js(picture)
-        expect(without != before, "a hidden part is still drawn")
-        page.press(box)
-        expect(page.js(picture) == before, "a part does not come back")
-        # where the middle of the head is
         left, top, width, height = page.box("byId('scene')")
-        x, y = page.js(f"""(() => {{
-            const {{ frames }} = framesAt(now), e = scene.ellipsoids.find((one) => one.body === {head}), [x, y] = camera.seen(pointOf(frames, e.body, e.at));
-            return [{width} / 2 + x * {height} / 2, {height} / 2 - y * {height} / 2];
-        }})()""")
+
+        def middle(body):
+            """Where the middle of a body's first ellipsoid is on the canvas."""
+            return page.js(f"""(() => {{
+                const {{ frames }} = framesAt(now), e = scene.ellipsoids.find((one) => one.body === {body}), [x, y] = camera.seen(pointOf(frames, e.body, e.at));
+                return [{width} / 2 + x * {height} / 2, {height} / 2 - y * {height} / 2];
+            }})()""")
+
+        x, y = middle(head)
+        # beside the bones, which are drawn over ellipsoids
+        dot = f"""(() => {{
+            render();
+            const c = document.createElement('canvas').getContext('2d');
+            c.drawImage(byId('scene'), -{x} + 12, -{y} - 12);
+            return [...c.getImageData(0, 0, 1, 1).data].join();
+        }})()"""
+        before, solid = page.js(picture), page.js(dot)
+        page.press(box)
+        expect(page.js(picture) != before and page.js(dot) != solid, "a hidden part is still drawn")
+        page.press(box)
+        expect(page.js(picture) == before and page.js(dot) == solid, "a part does not come back")
+        left, top, width, height = page.box("byId('scene')")
+        for part, place in [(torso, middle(torso)), (None, [width - 8, 8])]:
+            page.click(left + place[0], top + place[1])
+            found = page.js("chosenPart")
+            expect(found == part, f"a click on {part} chooses {found}")
         page.click(left + x, top + y)
         told = page.js("[...byId('about').querySelectorAll('h3, td')].map((e) => e.textContent)")
         expect(told and told[0] == "child/head", f"a click on the head says {told}")
@@ -247,6 +271,39 @@ def parts(browser, url, run):
         page.press("byId('show-numbers')")
         expect(page.js(f"(render(), {count})") < numbers, "forces have no numbers")
         whole(page)
+
+
+def opened(browser, url):
+    """A report that is only looked at."""
+    with Page(browser, url) as page:
+        whole(page)
+
+
+def failed(browser, url):
+    """A run that broke off is told so, and its rows are shown."""
+    with Page(browser, url) as page:
+        whole(page)
+        expect("failed" in page.js("byId('state').textContent"), "nothing is said of the failure")
+        expect(page.js("plots.length") > 1 and "rows" in page.js("byId('verdict').textContent"), "there are no rows")
+        page.press("plots[0].canvas")
+        expect(not page.js("plots[0].reading.hidden"), "a row is not read")
+
+
+def long(browser, url):
+    """Times of a long run are in seconds, and a run without outputs has no plots."""
+    with Page(browser, f"{url}#t=15000") as page:
+        whole(page)
+        expect(page.js("byId('clock').textContent") == "15.000 s", page.js("byId('clock').textContent"))
+        expect(page.js("document.querySelector('.curves').hidden"), "there are curves of nothing")
+
+
+def plain(program, url):
+    """Where there is no WebGL, the motion is drawn, and parts are found."""
+    with Browser(program, "--disable-3d-apis") as browser, Page(browser, url) as page:
+        whole(page)
+        expect(page.js("renderer instanceof Plain"), "there is WebGL")
+        coloured = page.js("(() => { const c = byId('scene'); return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.filter((v, k) => k % 4 === 3 && v > 0).length; })()")
+        expect(coloured > 1000, "nothing is drawn")
 
 
 def others(browser, url, second, row):
@@ -315,17 +372,22 @@ def printed(browser, url, most):
             for paper in [(8.27, 11.69), (8.5, 11)]:
                 count = pages(page.pdf(paper))
                 expect(1 <= count <= most, f"{count} pages of {paper} inches")
+            page.js("paper(true)")
+            drawn = [colour(page, plot, 0) for plot in range(page.js("typeof plots === 'undefined' ? 0 : plots.length"))]
+            expect(min(drawn, default=100) > 20, f"curves are not drawn on paper: {drawn}")
+            page.js("paper(false)")
             expect(page.js("!printing && !document.documentElement.classList.contains('print')"), "the page stays as on paper")
             whole(page)
 
 
 def main():
-    program, bryant, folder, *opened = sys.argv[1:]
+    program, bryant, folder, *more = sys.argv[1:]
     bryant, folder = Path(bryant).resolve(), Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
 
-    def run(*words):
-        subprocess.run([bryant, *words], check=True, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    def run(*words, code=0):
+        done = subprocess.run([bryant, *words], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        expect(done.returncode == code, f"{words}: exit code {done.returncode}: {done.stderr}")
         return f"file://{(folder / words[-1]).resolve()}"
 
     def table(*words):
@@ -340,7 +402,12 @@ def main():
     head = [f"{row[0]},{row[3] / 9.80665}" for row in rows["rows"]]
     (folder / "test.csv").write_text("\n".join(["time [s],head [g]", *head]))
     laid = run("run", "child-seat", "--no-files", "--beside", "lap_slack=0 mm", "--measured", "test.csv", "--channel", "res. head acceleration=head", "--report", "laid.html")
+    (folder / "fall.yaml").write_text(FALL)
+    fall = run("run", "fall.yaml", "--no-files", "--report", "fall.html")
+    broken = run("run", "child-seat", "--no-files", "--max-steps", "200", "--report", "broken.html", code=3)
     checks = [
+        (failed, broken),
+        (long, fall),
         *[(looks, url) for url in [seat, frontal, laid, many]],
         *[(printed, url, 2) for url in [seat, frontal, many]],
         *[(keys, url) for url in [seat, many]],
@@ -350,21 +417,20 @@ def main():
         (parts, seat, rows),
         (study, many, folder / "rows/results.csv"),
         (others, laid, second, rows["rows"][37]),
+        *[(opened, f"file://{Path(other).resolve()}") for other in more],
     ]
-    failed = []
+    wrong = []
     with Browser(program) as browser:
-        for check, url, *more in checks:
+        for check, url, *about in checks:
             what = f"{check.__name__} of {Path(url).name}"
             try:
-                check(browser, url, *more)
+                check(browser, url, *about)
                 print(what)
             except (AssertionError, Failure) as error:
-                failed.append(f"{what}: {error}")
-                print(f"FAILED {failed[-1]}")
-        for other in opened:
-            with Page(browser, f"file://{Path(other).resolve()}") as page:
-                whole(page)
-    sys.exit(bool(failed))
+                wrong.append(f"{what}: {error}")
+                print(f"FAILED {wrong[-1]}")
+    plain(program, seat)
+    sys.exit(bool(wrong))
 
 
 main()
