@@ -11,7 +11,7 @@ use super::terminal::Terminal;
 use crate::interrupt;
 use crate::own::Kind;
 use crate::picture::Format;
-use crate::report::study::{About, quoted};
+use crate::report::study::{About, Judged, quoted};
 use crate::sweep::{self, KeptError, Lanes};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::{read_file, shown, unreadable};
@@ -184,7 +184,7 @@ impl Arguments {
             study: self.study.display().to_string(),
             model: model_path(&file, directory),
             digest: found.model.digest.clone(),
-            limits: limits(&facts)?,
+            criteria: criteria(&facts)?,
             command: format!("bryant {}", words.collect::<Vec<_>>().join(" ")),
         };
         let how = merge::Finish {
@@ -197,17 +197,19 @@ impl Arguments {
     }
 }
 
-/// The limits of the criteria of a model, in SI, by the names of the criteria.
-fn limits(facts: &ModelFacts) -> Result<Vec<(String, f64)>, Error> {
+/// The criteria of a model.
+fn criteria(facts: &ModelFacts) -> Result<Vec<Judged>, Error> {
     let Some(asked) = &facts.criteria else {
         return Ok(Vec::new());
     };
     let (_, judged) = judge(facts, asked).map_err(Error::Input)?;
-    let limits = judged.iter().filter_map(|one| {
-        let limit = one.limit? * one.criterion.scale;
-        Some((one.criterion.name.to_owned(), limit))
+    let judged = judged.iter().map(|one| Judged {
+        name: one.criterion.name.to_owned(),
+        unit: one.criterion.unit,
+        scale: one.criterion.scale,
+        limit: one.limit,
     });
-    Ok(limits.collect())
+    Ok(judged.collect())
 }
 
 /// Runs the missing rows; returns a line about it.

@@ -12,14 +12,20 @@ function element(name, text, attributes) {
   return made;
 }
 
-// A number with four digits, as people write it. A number that is only rounding beside numbers of size `most` is 0.
+// A number with four digits or more, as people write it: no digit before the point is rounded away. A number that is only rounding beside numbers of size
+// `most` is 0.
 function readable(value, most = 0) {
-  if (value === null || !Number.isFinite(value)) return "–";
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (Math.abs(value) <= 1e-12 * most || value === 0) return "0";
   const size = Math.abs(value);
-  const text = size >= 1e6 || size < 1e-4 ? value.toExponential(3) : String(Number(value.toPrecision(4)));
+  const text = size >= 1e7 || size < 1e-4 ? value.toExponential(3) : String(Number(value.toPrecision(Math.max(4, Math.floor(Math.log10(size)) + 1))));
   return text.replace("-", "−");
 }
+// A limit as the regulation prints it: all digits, but not those that only a conversion of units adds.
+const limitText = (limit) => String(Number(limit.toPrecision(12)));
+// Times are in milliseconds, those of a long run in seconds, as in the terminal.
+const TIME = data.times && data.times[data.times.length - 1] >= 10 ? { unit: "s", scale: 1, digits: 3 } : { unit: "ms", scale: 1000, digits: 1 };
+const timeText = (t) => (TIME.scale * t).toFixed(TIME.digits);
 
 // Colours of systems and curves, also for the colour-blind (Okabe and Ito 2008).
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a7a00", "#6b6b6b"];
@@ -48,6 +54,56 @@ function ticks(low, high, count) {
   return { found, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
 }
 
+// A canvas with axes, their titles and numbers; x may be in other units than its numbers are printed in. `paint` gets functions from numbers to places.
+function chart(canvas, [a, b], [low, high], titles, paint, scale = 1) {
+  const made = blank(canvas);
+  if (!made) return;
+  const { c, width, height } = made;
+  c.font = "11px system-ui, sans-serif";
+  const text = (v, digits) => (Math.abs(v) >= 1e7 ? v.toExponential(1) : v.toFixed(Math.min(8, digits))).replace("-", "−");
+  const [up, along] = [ticks(low, high, Math.max(2, Math.floor(height / 38))), ticks(scale * a, scale * b, Math.max(2, Math.floor(width / 90)))];
+  const numbers = Math.max(...up.found.map((v) => c.measureText(text(v, up.digits)).width));
+  const [left, right, top, bottom] = [Math.max(28, numbers + 12), width - 14, 22, height - 34];
+  const [px, py] = [(x) => left + ((x - a) / (b - a || 1)) * (right - left), (y) => bottom - ((y - low) / (high - low || 1)) * (bottom - top)];
+  c.strokeStyle = style("--line");
+  c.fillStyle = style("--soft");
+  c.lineWidth = 1;
+  c.textAlign = "right";
+  for (const v of up.found) {
+    c.beginPath(); c.moveTo(left, py(v)); c.lineTo(right, py(v)); c.stroke();
+    c.fillText(text(v, up.digits), left - 5, py(v) + 4);
+  }
+  c.textAlign = "center";
+  for (const v of along.found) {
+    c.beginPath(); c.moveTo(px(v / scale), top); c.lineTo(px(v / scale), bottom); c.stroke();
+    c.fillText(text(v, along.digits), px(v / scale), bottom + 14);
+  }
+  c.fillText(titles[0], (left + right) / 2, height - 5);
+  c.textAlign = "left";
+  c.fillText(titles[1], 4, 12);
+  c.save();
+  c.beginPath();
+  c.rect(left, top - 2, right - left, bottom - top + 4);
+  c.clip();
+  paint(c, px, py, { left, right, top, bottom });
+  c.restore();
+  canvas.places = { left, right, top, bottom, a, b, low, high, x: px, y: py };
+}
+
+// What is drawn is drawn again where its colours or its size change at once: in the dark, and on paper.
+let printing = false;
+const drawn = [];
+const onPaper = (draw) => drawn.push(draw);
+function repaint() { drawn.forEach((draw) => draw()); }
+function paper(on) {
+  printing = on;
+  document.documentElement.classList.toggle("print", on);
+  repaint();
+}
+window.addEventListener("beforeprint", () => paper(true));
+window.addEventListener("afterprint", () => paper(false));
+window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
+
 function table(heads, rows) {
   const made = element("table"), head = element("tr"), box = element("div", null, { class: "wide" });
   heads.forEach(([text, number]) => head.append(element("th", text, number ? { class: "number" } : {})));
@@ -68,6 +124,12 @@ function table(heads, rows) {
 function block(parent, title, ...content) {
   const box = element("div");
   box.append(element("h3", title), ...content);
+  parent.append(box);
+}
+// The same, folded: only its title is seen until it is opened.
+function folded(parent, title, ...content) {
+  const box = element("details");
+  box.append(element("summary", title), ...content);
   parent.append(box);
 }
 function lines(texts) {

@@ -4,18 +4,24 @@
 //! | file | what |
 //! |---|---|
 //! | `scene` | bodies, shapes and forces at every sample, as data |
+//! | `curves` | outputs over time, with samples between rows |
+//! | `plots` | which outputs share a plot |
 //! | `common.js`, `style.css` | what both pages share |
 //! | `page.html` | the page of a run |
 //! | `camera.js`, `draw.js`, `motion.js` | the motion: the direction of the view, WebGL or canvas, playback |
-//! | `curves.js` | outputs over time |
+//! | `curves.js` | outputs over time: plots, readings, zoom |
+//! | `parts.js` | the tree of parts, and what is known of a part that was clicked |
 //! | `tables.js` | the messages and numbers of the run |
 //! | `study`, `study.html`, `study.js` | the page of a study |
 //!
 //! All data from a model is JSON, which the page puts into the document as text, never as HTML.
 
+mod curves;
+pub mod plots;
 mod scene;
 pub mod study;
 
+pub use curves::{Curve, Samples, curves};
 pub use scene::{Scene, short, with_forces};
 
 use serde_json::Value;
@@ -28,6 +34,7 @@ pub fn page(title: &str, data: &Value) -> String {
         include_str!("draw.js"),
         include_str!("motion.js"),
         include_str!("curves.js"),
+        include_str!("parts.js"),
         include_str!("tables.js"),
     ];
     filled(include_str!("page.html"), title, data, &scripts)

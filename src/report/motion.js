@@ -35,7 +35,7 @@ const pointOf = (frames, body, local) => {
 const colourOf = (body) => {
   const system = body < 0 ? -1 : scene.bodies[body].system;
   // neighbouring quaternions differ little
-  return system < 0 ? rgb("#8a929c") : mixed(rgb(COLOURS[system % COLOURS.length]), [1, 1, 1], 0.14 * (body % 3));
+  return lightOr(body, system < 0 ? rgb("#8a929c") : mixed(rgb(COLOURS[system % COLOURS.length]), [1, 1, 1], 0.14 * (body % 3)));
 };
 // Slack is grey; otherwise the colour goes from orange to dark red as the force grows.
 const tensionColour = (force, most) => (force > 0 && most > 0 ? mixed(rgb("#e69f00"), rgb("#b00020"), Math.min(1, force / most)) : rgb("#9aa4b0"));
@@ -46,7 +46,7 @@ function ghost(t, shapes) {
   const { frames } = framesAt(Math.min(t, scene.times[scene.times.length - 1]), scene);
   if (byId("show-shapes").checked) {
     for (const e of scene.ellipsoids) {
-      if (e.body < 0) continue;
+      if (e.body < 0 || !isShown(e.body)) continue;
       const axes = [0, 1, 2].map((i) => turned(frameOf(frames, e.body).turn, turned(e.turn, [0, 1, 2].map((j) => (i === j ? e.semi[i] : 0)))));
       shapes.ellipsoids.push({ place: pointOf(frames, e.body, e.at), axes, colour: mixed(grey, [1, 1, 1], 0.35), degree: e.degree });
     }
@@ -71,11 +71,12 @@ const traceable = scene ? [...scene.bodies.map((body, index) => ({ name: body.na
 
 function shapesAt(t) {
   const { frames, k } = framesAt(t);
-  const shapes = { ellipsoids: [], faces: [], strokes: [] };
+  const shapes = { ellipsoids: [], faces: [], strokes: [], texts: [] };
   if (data.beside && byId("show-beside").checked) ghost(t, shapes);
   const ink = rgb(style("--ink").length === 7 ? style("--ink") : "#1a1d21");
   if (byId("show-shapes").checked) {
     for (const e of scene.ellipsoids) {
+      if (!isShown(e.body)) continue;
       const frame = frameOf(frames, e.body);
       const axes = [0, 1, 2].map((i) => {
         const axis = [0, 0, 0];
@@ -86,6 +87,7 @@ function shapesAt(t) {
     }
   }
   for (const p of scene.planes) {
+    if (!isShown(p.body)) continue;
     const corners = p.corners.map((corner) => pointOf(frames, p.body, corner));
     shapes.faces.push({ corners, colour: rgb("#8a929c"), alpha: 0.3 });
     if (scene.planar) shapes.strokes.push({ from: corners[0], to: corners[1], colour: rgb("#6f7883"), width: 3 });
@@ -93,25 +95,31 @@ function shapesAt(t) {
   }
   const bare = !byId("show-shapes").checked;
   for (const [a, p, b, q] of scene.bones) {
+    if (!isShown(a)) continue;
     const colour = mixed(colourOf(a), ink, scene.planar && !bare ? 0.45 : 0.1);
     shapes.strokes.push({ from: pointOf(frames, a, p), to: pointOf(frames, b, q), colour, width: bare ? 6 : 4, above: scene.planar || bare });
   }
   const pulling = scene.lines.filter((line) => line.kind !== "bushing");
   const most = Math.max(0, ...pulling.flatMap((line) => line.force));
   for (const line of scene.lines) {
+    if (!isShown(lawOf(line))) continue;
     if (line.kind === "bushing") { shapes.strokes.push(...bushingMark(frames, line)); continue; }
     const force = line.force[k] || 0;
-    const colour = line.kind === "belt" ? tensionColour(force, most) : rgb("#7a5195");
+    const colour = lightOr(lawOf(line), line.kind === "belt" ? tensionColour(force, most) : rgb("#7a5195"));
     const [from, to] = [pointOf(frames, ...line.from), pointOf(frames, ...line.to)];
     shapes.strokes.push({ from, to, colour, width: 3.5 + (most > 0 ? 3 * Math.max(0, force / most) : 0), above: scene.planar });
+    if (Math.abs(force) > 0.02 * most && byId("show-forces").checked) shapes.texts.push({ at: scale(add(from, to), 0.5), force: Math.abs(force) });
   }
   if (byId("show-forces").checked) {
     const strongest = Math.max(0, ...scene.pushes.flatMap((list) => list.map((p) => Math.hypot(p[4], p[5], p[6]))));
-    for (const [, x, y, z, fx, fy, fz] of scene.pushes[k] || []) {
+    for (const [index, x, y, z, fx, fy, fz] of scene.pushes[k] || []) {
+      if (!data.forces[index].bodies.some(isShown)) continue;
       const force = [fx, fy, fz], size = norm(force);
       const length = 0.9 * home.half * Math.sqrt(size / strongest) * 0.5;
       const tip = [x, y, z];
-      shapes.strokes.push({ from: sub(tip, scale(force, length / size)), to: tip, colour: rgb("#d55e00"), width: 3, head: true, above: true });
+      const tail = sub(tip, scale(force, length / size));
+      shapes.strokes.push({ from: tail, to: tip, colour: rgb("#d55e00"), width: 3, head: true, above: true });
+      if (size > 0.02 * strongest) shapes.texts.push({ at: tail, force: size });
     }
   }
   const traced = Number(byId("trace").value);
@@ -155,6 +163,7 @@ function fit() {
 }
 
 let renderer = null;
+let seenAspect = 1;
 function resize() {
   const ratio = Math.min(3, window.devicePixelRatio || 1);
   for (const canvas of [byId("scene"), byId("labels")]) {
@@ -175,15 +184,22 @@ function render() {
   const { shapes, frames } = shapesAt(now);
   const followed = Number(byId("follow").value);
   if (followed >= 0) camera.center = add(frames[followed].at, camera.offset || [0, 0, 0]);
+  const canvas = byId("scene"), aspect = canvas.clientWidth / canvas.clientHeight, { half } = camera;
+  // a flatter picture on paper shows the same width
+  if (printing) camera.half *= Math.max(1, seenAspect / aspect); else seenAspect = aspect;
   renderer.draw(camera, shapes);
-  labels();
-  byId("clock").textContent = `${(1000 * now).toFixed(1)} ms`;
+  labels(shapes.texts);
+  camera.half = half;
+  byId("clock").textContent = `${timeText(now)} ${TIME.unit}`;
 }
 // A bar of a round length, and the axes.
-function labels() {
+function labels(texts) {
   const canvas = byId("labels"), c = canvas.getContext("2d"), ratio = canvas.height / canvas.clientHeight;
   c.setTransform(ratio, 0, 0, ratio, 0, 0);
   c.clearRect(0, 0, canvas.width, canvas.height);
+  // what WebGL has drawn is not printed
+  if (printing) c.drawImage(byId("scene"), 0, 0, canvas.clientWidth, canvas.clientHeight);
+  forceTexts(c, texts);
   const pixels = canvas.clientHeight / 2 / camera.half, power = 10 ** Math.floor(Math.log10(120 / pixels));
   const length = [5, 2, 1].map((f) => f * power).find((l) => l * pixels <= 120) || power;
   const [x, y] = [canvas.clientWidth - 20 - length * pixels, canvas.clientHeight - 16];
@@ -264,10 +280,15 @@ function hands() {
   canvas.addEventListener("contextmenu", (e) => e.preventDefault());
   canvas.addEventListener("wheel", (e) => { e.preventDefault(); camera.half *= Math.exp(0.0012 * e.deltaY); redraw(); }, { passive: false });
   document.addEventListener("keydown", (e) => {
-    if (["INPUT", "SELECT", "BUTTON"].includes(e.target.tagName) && e.target.id !== "time") return;
+    if (["INPUT", "SELECT", "BUTTON", "SUMMARY"].includes(e.target.tagName) && e.target.id !== "time") return;
     const step = times.length > 1 ? (times[times.length - 1] - times[0]) / (times.length - 1) : 0;
     const keys = { " ": () => play(!playing), ArrowRight: () => setTime(now + step), ArrowLeft: () => setTime(now - step), Home: () => setTime(times[0]), End: () => setTime(times[times.length - 1]) };
-    if (keys[e.key]) { e.preventDefault(); keys[e.key](); }
+    const nearer = (factor) => { camera.half *= factor; redraw(); };
+    const turn = (yaw, pitch) => { camera.look(camera.yaw + yaw, camera.pitch + pitch); redraw(); };
+    const turns = scene.planar ? {} : { ArrowRight: () => turn(-0.1, 0), ArrowLeft: () => turn(0.1, 0), ArrowUp: () => turn(0, 0.1), ArrowDown: () => turn(0, -0.1) };
+    const zooms = { "+": () => nearer(0.8), "-": () => nearer(1.25) };
+    const does = (e.target.id === "scene" && (zooms[e.key] || (e.shiftKey && turns[e.key]))) || keys[e.key];
+    if (does) { e.preventDefault(); does(); }
   });
 }
 
@@ -314,13 +335,13 @@ function startMotion() {
     });
   }
   byId("beside").hidden = !data.beside;
-  for (const id of ["show-forces", "show-shapes", "show-beside"]) byId(id).addEventListener("change", redraw);
+  for (const id of ["show-forces", "show-numbers", "show-shapes", "show-beside"]) byId(id).addEventListener("change", redraw);
   byId("picture").addEventListener("click", () => { render(); save(byId("scene"), `${data.model}.png`); });
   const strongest = Math.max(0, ...scene.pushes.flatMap((list) => list.map((p) => Math.hypot(p[4], p[5], p[6]))));
   const tightest = Math.max(0, ...scene.lines.filter((l) => l.kind === "belt").flatMap((l) => l.force));
   const words = [];
-  if (scene.lines.some((l) => l.kind === "belt")) words.push(`Belts: grey while slack, from orange to dark red up to ${readable(tightest)} N.`);
-  if (strongest > 0) words.push(`Arrows: forces of contacts on bodies; their length is proportional to the square root of the force, the longest is ${readable(strongest)} N.`);
+  if (scene.lines.some((l) => l.kind === "belt")) words.push(`Belts: grey while slack, from orange to dark red up to ${newtons(tightest)}.`);
+  if (strongest > 0) words.push(`Arrows: forces of contacts on bodies; their length is proportional to the square root of the force, the longest is ${newtons(strongest)}.`);
   if (data.beside) words.push(`Grey: the run with ${data.beside.label}.`);
   byId("legend").textContent = words.join(" ");
   frameAll();
@@ -330,7 +351,7 @@ function startMotion() {
   const from = asked.get("view");
   view(!scene.planar && from in VIEWS ? from : scene.planar ? "side" : "oblique");
   new ResizeObserver(redraw).observe(byId("stage"));
-  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  onPaper(render);
   const t = Number(asked.get("t"));
   setTime(asked.has("t") && Number.isFinite(t) ? t / 1000 : times[0]);
 }

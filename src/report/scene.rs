@@ -149,7 +149,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The index of a body: −1 is the frame.
-    fn index(&self, body: Body) -> i64 {
+    pub fn index(&self, body: Body) -> i64 {
         let elements: usize = self.model.systems.iter().map(|s| s.elements.len()).sum();
         match body {
             Body::Frame => -1,
@@ -168,8 +168,10 @@ impl<'a> Scene<'a> {
     fn bodies(&self) -> Value {
         let elements = self.ids().map(|id| {
             let system = &self.model.systems[id.system];
-            let name = format!("{}/{}", system.name, system.elements[id.element].name);
-            json!({ "name": name, "system": id.system })
+            let element = &system.elements[id.element];
+            let name = format!("{}/{}", system.name, element.name);
+            let parent = element.parent.map(|parent| self.first[id.system] + parent);
+            json!({ "name": name, "system": id.system, "parent": parent })
         });
         let vehicles = self.model.vehicles.iter();
         let vehicles = vehicles.map(|vehicle| json!({ "name": vehicle.name, "system": -1 }));

@@ -1,6 +1,7 @@
 // A study: distributions, sensitivities, points of runs that can be selected, and the runs as rows.
 const names = [...data.parameters, ...data.responses];
-const runs = data.rows.map(([index, status, error, ...values]) => ({ index, status, error, values }));
+// Numbers are shown in the units that are told of them; commands take them as they are, in SI.
+const runs = data.rows.map(([index, status, error, ...given]) => ({ index, status, error, given, values: given.map((v, k) => (v === null ? v : v / names[k].factor)) }));
 const SHOWN = 200;
 let brush = null;
 let sorted = { column: -1, down: false };
@@ -21,40 +22,6 @@ function extent(values) {
   return [low - margin, high + margin];
 }
 
-// A canvas with axes: drawing functions get a function from numbers to positions.
-function draw(canvas, [a, b], [low, high], titles, paint) {
-  const made = blank(canvas);
-  if (!made) return;
-  const { c, width, height } = made;
-  const [left, right, top, bottom] = [66, width - 14, 20, height - 36];
-  const [px, py] = [(x) => left + ((x - a) / (b - a || 1)) * (right - left), (y) => bottom - ((y - low) / (high - low || 1)) * (bottom - top)];
-  c.font = "11px system-ui, sans-serif";
-  c.strokeStyle = style("--line");
-  c.fillStyle = style("--soft");
-  c.lineWidth = 1;
-  const text = (v, digits) => (Math.abs(v) >= 1e6 ? v.toExponential(1) : v.toFixed(Math.min(8, digits))).replace("-", "−");
-  const [up, along] = [ticks(low, high, 6), ticks(a, b, Math.max(3, Math.floor(width / 110)))];
-  c.textAlign = "right";
-  for (const v of up.found) {
-    c.beginPath(); c.moveTo(left, py(v)); c.lineTo(right, py(v)); c.stroke();
-    c.fillText(text(v, up.digits), left - 5, py(v) + 4);
-  }
-  c.textAlign = "center";
-  for (const v of along.found) {
-    c.beginPath(); c.moveTo(px(v), top); c.lineTo(px(v), bottom); c.stroke();
-    c.fillText(text(v, along.digits), px(v), height - 21);
-  }
-  c.fillText(titles[0], (left + right) / 2, height - 6);
-  c.textAlign = "left";
-  c.fillText(titles[1], 6, 12);
-  c.save();
-  c.beginPath();
-  c.rect(left, top, right - left, bottom - top);
-  c.clip();
-  paint(c, px, py, { left, right, top, bottom });
-  c.restore();
-  canvas.places = { left, right, top, bottom, a, b, low, high };
-}
 function mark(c, from, to) {
   c.strokeStyle = style("--bad");
   c.lineWidth = 1.5;
@@ -80,7 +47,7 @@ function histogram(response) {
     return found;
   };
   const whole = counts(runs), most = 1.08 * Math.max(1, ...whole);
-  return () => draw(canvas, [low, high], [0, most], [label(about), "runs"], (c, px, py, { top, bottom }) => {
+  return () => chart(canvas, [low, high], [0, most], [label(about), "runs"], (c, px, py, { top, bottom }) => {
     const bars = (of, colour, alpha) => of.forEach((count, k) => {
       const [x, y] = [px(low + (k / bins) * (high - low)), py(count)];
       c.globalAlpha = alpha;
@@ -98,7 +65,7 @@ function scatter() {
   const canvas = byId("scatter"), [across, up] = [Number(byId("across").value), Number(byId("up").value)];
   const columns = [across, up].map((column) => runs.map((run) => run.values[column]));
   const [x, y] = columns.map(extent), picked = new Set(chosen());
-  draw(canvas, x, y, [label(names[across]), label(names[up])], (c, px, py, { left, right, top, bottom }) => {
+  chart(canvas, x, y, [label(names[across]), label(names[up])], (c, px, py, { left, right, top, bottom }) => {
     const size = runs.length > 1500 ? 2 : 3.2;
     for (const [inside, colour, alpha] of [[false, "--soft", 0.3], [true, "--accent", 0.7]]) {
       c.fillStyle = style(colour);
@@ -122,21 +89,46 @@ function scatter() {
   });
 }
 
+// The mean of a response where a parameter is low and where it is high: in the lowest and the highest fifth of the runs that have it.
+function lowAndHigh(parameter, column) {
+  const of = runs.filter((run) => run.values[parameter] !== null && run.values[column] !== null).sort((p, q) => p.values[parameter] - q.values[parameter]);
+  const count = Math.floor(of.length / 5);
+  const mean = (part) => part.reduce((sum, run) => sum + run.values[column], 0) / part.length;
+  return count < 2 ? null : [mean(of.slice(0, count)), mean(of.slice(-count))];
+}
+
 function tornado() {
   data.responses.forEach((about, response) => {
-    const box = element("div"), { shares, correlations } = about;
-    const all = data.parameters.map((p, k) => ({ name: p.name, main: shares ? shares[k].main.value : Math.abs(correlations[k]), total: shares ? shares[k].total.value : Math.abs(correlations[k]) }));
+    const { shares, correlations } = about, column = data.parameters.length + response;
+    const all = data.parameters.map((p, k) => ({ name: p.name, main: shares ? shares[k].main.value : Math.abs(correlations[k]), total: shares ? shares[k].total.value : Math.abs(correlations[k]), ends: lowAndHigh(k, column) }));
     all.sort((a, b) => b.total - a.total);
-    const bar = (share, kind) => element("span", "", { class: kind, style: `width:${Math.round(160 * Math.max(0, Math.min(1, share || 0)))}px` });
-    const rows = all.map((one) => {
-      const bars = element("span");
-      bars.append(bar(one.main, "bar"), bar(Math.max(0, one.total - one.main), "bar loss"));
-      return [one.name, readable(one.main), readable(one.total), bars];
+    const bar = (share, kind) => element("span", "", { class: kind, style: `width:${Math.round(100 * Math.max(0, Math.min(1, share || 0)))}px` });
+    const furthest = Math.max(1e-300, ...all.flatMap(({ ends }) => (ends || []).map((v) => Math.abs(v - about.mean))));
+    // low to the left or right of the mean, high to the other side
+    const swing = (ends) => {
+      const box = element("span", null, { class: "swing", "aria-hidden": "true" });
+      ends.forEach((v, k) => {
+        const length = (v - about.mean) / furthest / 2;
+        box.append(element("i", null, { class: k ? "high" : "low", style: `left:${50 + 100 * Math.min(0, length)}%;width:${100 * Math.abs(length)}%` }));
+      });
+      return box;
+    };
+    const rows = all.map(({ name, main, total, ends }) => {
+      const bars = element("span", null, { class: "bars" });
+      bars.append(bar(main, "bar"), bar(Math.max(0, total - main), "bar loss"));
+      const share = (x) => (Number.isFinite(x) ? x.toFixed(3).replace("-", "−") : "–");
+      return [name, share(main), ...(shares ? [share(total)] : []), bars, ...(ends ? [readable(ends[0]), readable(ends[1]), swing(ends)] : ["", "", ""])];
     });
-    const heads = shares ? ["alone", "with others"] : ["|correlation|", ""];
-    box.append(table([["parameter", false], [heads[0], true], [heads[1], true], ["", false]], shares ? rows : rows.map(([a, b, , d]) => [a, b, "", d])));
-    block(byId("tornado"), shares ? `${about.name}: shares of the variance` : `${about.name}: correlation`, box);
+    const heads = ["parameter", ...(shares ? ["alone", "with others"] : ["|correlation|"]), "", "low", "high", ""];
+    const number = ["alone", "with others", "|correlation|", "low", "high"];
+    block(byId("tornado"), label(about), table(heads.map((head) => [head, number.includes(head)]), rows));
   });
+}
+
+// The command that makes the motion of a run.
+function tell(run) {
+  const set = data.parameters.map((p, k) => `--set ${p.name}=${run.given[k]}`);
+  byId("command").replaceChildren(`Run ${run.index}: `, element("code", `${data.command} ${[...set, ...data.fixed].join(" ")} --report run-${run.index}.html`));
 }
 
 function rows() {
@@ -165,12 +157,8 @@ function rows() {
       line.append(element("td", readable(v), { class: missed ? "number missed" : "number" }));
     });
     line.append(element("td", run.status));
-    const tell = () => {
-      const set = data.parameters.map((p, k) => `--set ${p.name}=${run.values[k]}`);
-      byId("command").replaceChildren(`Run ${run.index}: `, element("code", `${data.command} ${[...set, ...data.fixed].join(" ")} --report run-${run.index}.html`));
-    };
-    line.addEventListener("click", tell);
-    line.addEventListener("keydown", (e) => { if (e.key === "Enter") tell(); });
+    line.addEventListener("click", () => tell(run));
+    line.addEventListener("keydown", (e) => { if (e.key === "Enter") tell(run); });
     body.append(line);
   }
   made.append(top, body);
@@ -178,7 +166,34 @@ function rows() {
   box.append(made);
   if (of.length > SHOWN) box.append(element("p", `${SHOWN} of ${of.length} runs are shown; sort, or choose fewer.`));
   byId("rows").replaceChildren(box);
+  byId("rows-title").textContent = `${of.length === runs.length ? "All" : "The chosen"} ${of.length} runs`;
   byId("chosen").textContent = brush ? `${of.length} of ${runs.length} runs chosen` : `${runs.length} runs`;
+}
+
+// The run whose point is near the pointer, or none.
+function nearest(canvas, e) {
+  const { left, top } = canvas.getBoundingClientRect(), [across, up] = [Number(byId("across").value), Number(byId("up").value)];
+  let [best, near] = [null, 10];
+  for (const run of runs) {
+    const [x, y] = [run.values[across], run.values[up]];
+    if (x === null || y === null) continue;
+    const away = Math.hypot(canvas.places.x(x) - (e.clientX - left), canvas.places.y(y) - (e.clientY - top));
+    if (away < near) [best, near] = [run, away];
+  }
+  return best;
+}
+// Shows the numbers of a run beside its point.
+function read(canvas, run) {
+  const box = byId("reading");
+  box.hidden = !run;
+  if (!run) return;
+  box.replaceChildren(element("b", `run ${run.index}`), ...names.map((one, k) => {
+    const line = element("div");
+    line.append(element("span", one.name), element("output", readable(run.values[k])), element("span", one.unit || "", { class: "unit" }));
+    return line;
+  }));
+  const x = canvas.places.x(run.values[Number(byId("across").value)]);
+  box.style.left = `${x + 14 + box.offsetWidth > canvas.clientWidth ? Math.max(0, x - 14 - box.offsetWidth) : x + 14}px`;
 }
 
 function startStudy() {
@@ -187,14 +202,28 @@ function startStudy() {
   const missed = data.ends.filter(([word]) => word !== "done");
   byId("state").textContent = missed.length ? `${missed.map(([word, count]) => `${count} ${word}`).join(", ")} of ${data.runs} runs` : "";
   if (missed.length) byId("state").classList.add("bad");
-  const kept = (about) => (about.limit === null ? "" : `${readable(100 * about.within)} %`);
-  const unit = (about) => about.unit || "";
-  const rows_of = data.responses.map((one) => [one.name, unit(one), readable(one.mean), readable(one.deviation), readable(one.minimum), ...one.quantiles.map((q) => readable(q)), readable(one.maximum), one.limit === null ? "" : readable(one.limit), kept(one)]);
-  const heads = ["response", "unit", "mean", "deviation", "smallest", "5 %", "median", "95 %", "largest", "limit", "runs within"];
-  byId("summary").append(table(heads.map((head, k) => [head, k > 1]), rows_of));
-  if (data.errors) byId("summary").append(element("p", data.errors));
+  const limited = data.responses.filter((one) => one.limit !== null);
+  if (limited.length) {
+    const all = data.kept === data.runs, what = limited.length === 1 ? `the limit of ${limited[0].name}` : `all ${limited.length} limits`;
+    byId("kept").append(element("span", `${data.kept} of ${data.runs} runs (${readable((100 * data.kept) / data.runs)} %) keep ${what}.`, { class: all ? "met" : "missed" }));
+  }
+  // a column that would be empty is not there
+  const heads = ["response", "unit", "mean", "deviation", "smallest", "5 %", "median", "95 %", "largest", ...(limited.length ? ["limit", "runs within"] : [])];
+  const ofLimit = (one) => (one.limit === null ? ["–", "–"] : [limitText(one.limit), `${readable(100 * one.within)} %`]);
+  const spread = data.responses.map((one) => [one.name, one.unit, readable(one.mean), readable(one.deviation), readable(one.minimum), ...one.quantiles.map((q) => readable(q)), readable(one.maximum), ...(limited.length ? ofLimit(one) : [])]);
+  byId("summary").append(table(heads.map((head, k) => [head, k > 1]), spread));
   if (data.thinned) byId("summary").append(element("p", `Below, ${runs.length} of ${data.runs} runs are shown, evenly taken; the numbers above are of all.`));
-  if (data.reasons.length) byId("summary").append(lines(data.reasons.map(([why, count]) => `${count}: ${why}`)));
+  const varied = element("div"), trust = element("div");
+  const units = data.parameters.some((p) => p.unit);
+  varied.append(element("p", `${data.runs} runs of ${data.model} on ${data.design}:`), table([["parameter", false], ["values", false], ...(units ? [["unit", false]] : [])], data.parameters.map((p) => [p.name, p.values, ...(units ? [p.unit] : [])])));
+  trust.append(element("p", data.ends.map(([word, count]) => `${count} ${word}`).join(", ")));
+  if (data.errors) {
+    const said = element("p");
+    said.append(element("b", "Trust: "), data.errors);
+    trust.append(said);
+  }
+  if (data.reasons.length) trust.append(lines(data.reasons.map(([why, count]) => `${count}: ${why}`)));
+  byId("run").append(varied, trust);
   names.forEach((one, k) => ["across", "up"].forEach((id) => byId(id).append(element("option", label(one), { value: k }))));
   byId("across").value = 0;
   byId("up").value = data.parameters.length;
@@ -210,19 +239,26 @@ function startStudy() {
   };
   let from = null;
   canvas.addEventListener("pointerdown", (e) => { from = at(e); canvas.setPointerCapture(e.pointerId); });
-  canvas.addEventListener("pointermove", (e) => { if (from) { canvas.band = [from, at(e)]; scatter(); } });
+  canvas.addEventListener("pointermove", (e) => {
+    if (from && Math.hypot(e.movementX, e.movementY) > 0) { canvas.band = [from, at(e)]; scatter(); }
+    read(canvas, nearest(canvas, e));
+  });
   canvas.addEventListener("pointerup", (e) => {
     if (!from) return;
     const to = at(e), order = (a, b) => [Math.min(a, b), Math.max(a, b)];
     const large = canvas.band && Math.abs(to[0] - from[0]) > 0.01 * (canvas.places.b - canvas.places.a);
     if (large) brush = { across: Number(byId("across").value), up: Number(byId("up").value), x: order(from[0], to[0]), y: order(from[1], to[1]) };
+    const run = large ? null : nearest(canvas, e);
     from = canvas.band = null;
+    if (run) { tell(run); read(canvas, run); }
     changed();
   });
+  canvas.addEventListener("pointercancel", () => { from = canvas.band = null; read(canvas, null); changed(); });
+  canvas.addEventListener("pointerleave", () => read(canvas, null));
   canvas.addEventListener("dblclick", () => { brush = null; changed(); });
   tornado();
   new ResizeObserver(all).observe(byId("curves"));
-  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", all);
+  onPaper(all);
   changed();
   const command = element("p"), digest = element("p");
   command.append("Command: ", element("code", data.made));

@@ -1,7 +1,11 @@
 //! A study as one page of HTML: distributions, sensitivities, points of runs that can be selected, and the runs as rows.
 
-use super::filled;
+use super::{filled, short};
+use bryant_signal::unit;
+use bryant_study::distribution::Distribution;
+use bryant_study::quantity::strict;
 use bryant_study::results::{Results, ResultsError};
+use bryant_study::study::{Levels, Plan, RandomDesign};
 use bryant_study::summary::Summary;
 use serde_json::{Value, json};
 
@@ -16,10 +20,22 @@ pub struct About {
     pub model: String,
     /// Digest of the model.
     pub digest: String,
-    /// Limits of responses \[SI\], by their names.
-    pub limits: Vec<(String, f64)>,
+    /// Responses that are injury criteria.
+    pub criteria: Vec<Judged>,
     /// The command line that makes this page.
     pub command: String,
+}
+
+/// A response that is an injury criterion.
+pub struct Judged {
+    /// Its name.
+    pub name: String,
+    /// The unit in which it is shown.
+    pub unit: &'static str,
+    /// SI value of that unit.
+    pub scale: f64,
+    /// In that unit, as the regulation prints it; `None` if there is none.
+    pub limit: Option<f64>,
 }
 
 /// The page of results.
@@ -34,22 +50,31 @@ pub fn page(
     let study = results.study;
     let d = study.varied.len();
     let stride = study.rows.div_ceil(MOST_RUNS).max(1);
-    let limit = |name: &str| {
-        let found = about.limits.iter().find(|(limited, _)| limited == name);
-        found.map(|(_, limit)| *limit)
-    };
+    let judged = |name: &str| about.criteria.iter().find(|one| one.name == name);
+    // the unit of a criterion in that of the results
+    let factor = |one: &Judged, unit: &str| unit::factor(one.unit, unit).unwrap_or(one.scale);
+    let limits = study.responses.iter().map(|response| {
+        let one = judged(&response.name)?;
+        Some(one.limit? * factor(one, &response.unit))
+    });
+    let limits: Vec<Option<f64>> = limits.collect();
     let mut rows: Vec<Value> = Vec::new();
     let mut within = vec![0u64; study.responses.len()];
+    let mut kept = 0u64;
     for batch in results.batches() {
         let batch = batch?;
         for (k, run) in batch.outcomes.runs.iter().enumerate() {
             let row = batch.first + k as u64;
             let responses = batch.outcomes.of(k);
-            for (count, (response, value)) in
-                within.iter_mut().zip(study.responses.iter().zip(responses))
-            {
-                *count += u64::from(limit(&response.name).is_some_and(|limit| *value <= limit));
+            let mut all = true;
+            for (count, (limit, value)) in within.iter_mut().zip(limits.iter().zip(responses)) {
+                if let Some(limit) = limit {
+                    *count += u64::from(value <= limit);
+                    // a value that is not known keeps no limit
+                    all &= value <= limit;
+                }
             }
+            kept += u64::from(all);
             if !row.is_multiple_of(stride) {
                 continue;
             }
@@ -60,20 +85,32 @@ pub fn page(
             rows.push(cells.into());
         }
     }
-    let parameters = study.varied.iter();
-    let parameters = parameters.map(|p| json!({ "name": p.name, "unit": p.unit }));
+    let parameters = study.varied.iter().enumerate().map(|(index, p)| {
+        // the rows are in SI, as a command takes them
+        let factor = strict(&format!("1 {}", p.shown), &p.unit).unwrap_or(1.0);
+        json!({
+            "name": p.name,
+            "unit": p.shown,
+            "factor": factor,
+            "values": values(&study.plan, index, factor),
+        })
+    });
     let responses = summary.responses.iter().zip(&within).map(|(one, within)| {
+        let judged = judged(&one.name);
+        let factor = judged.map_or(1.0, |judged| factor(judged, &one.unit));
+        let shown = |value: f64| value / factor;
         json!({
             "name": one.name,
-            "unit": one.unit,
-            "mean": one.mean,
-            "deviation": one.deviation,
-            "minimum": one.minimum,
-            "maximum": one.maximum,
-            "quantiles": one.quantiles,
+            "unit": judged.map_or(one.unit.as_str(), |judged| judged.unit),
+            "factor": factor,
+            "mean": shown(one.mean),
+            "deviation": shown(one.deviation),
+            "minimum": shown(one.minimum),
+            "maximum": shown(one.maximum),
+            "quantiles": one.quantiles.map(shown),
             "correlations": one.correlations,
             "shares": one.sensitivity.as_ref().map(|of| &of.parameters),
-            "limit": limit(&one.name),
+            "limit": judged.and_then(|judged| judged.limit),
             "within": *within as f64 / one.count.max(1) as f64,
         })
     });
@@ -90,6 +127,8 @@ pub fn page(
         "identity": summary.identity,
         "runs": study.rows,
         "thinned": stride > 1,
+        "design": design(&study.plan),
+        "kept": kept,
         "ends": summary.ends,
         "reasons": summary.reasons,
         "errors": summary.errors.text().trim(),
@@ -103,6 +142,78 @@ pub fn page(
     let title = format!("{} runs of {}", study.rows, study.model);
     let scripts = [include_str!("common.js"), include_str!("study.js")];
     Ok(filled(include_str!("study.html"), &title, &data, &scripts))
+}
+
+/// The design in words.
+fn design(plan: &Plan) -> &'static str {
+    match plan {
+        Plan::Grid(_) => "a grid",
+        Plan::List(_) => "a list",
+        Plan::Random { design, .. } => match design {
+            RandomDesign::LatinHypercube => "a latin hypercube",
+            RandomDesign::Sobol => "Sobol' points",
+            RandomDesign::MonteCarlo => "random points",
+            RandomDesign::Saltelli => "Saltelli's groups of points",
+        },
+    }
+}
+
+/// The values that a parameter takes, in words, in a unit of this size \[SI\].
+fn values(plan: &Plan, index: usize, factor: f64) -> String {
+    let number = |value: f64| short(value / factor).as_f64().unwrap_or(value).to_string();
+    let list = |values: &[f64]| match values {
+        few if few.len() <= 6 => {
+            let few: Vec<String> = few.iter().map(|value| number(*value)).collect();
+            few.join(", ")
+        }
+        many => format!("{} values", many.len()),
+    };
+    let ends = |[min, max]: [Option<f64>; 2]| match (min, max) {
+        (None, None) => String::new(),
+        (Some(min), None) => format!(", at least {}", number(min)),
+        (None, Some(max)) => format!(", at most {}", number(max)),
+        (Some(min), Some(max)) => format!(", {} to {}", number(min), number(max)),
+    };
+    match plan {
+        Plan::List(_) => "as listed".to_owned(),
+        Plan::Grid(all) => match &all[index] {
+            Levels::Steps { from, to, count } => {
+                format!("{} to {} in {count} values", number(*from), number(*to))
+            }
+            Levels::Values(values) => list(values),
+        },
+        Plan::Random { distributions, .. } => match &distributions[index] {
+            Distribution::Uniform { from, to } => format!("{} to {}", number(*from), number(*to)),
+            Distribution::Normal {
+                mean,
+                deviation,
+                min,
+                max,
+            } => {
+                let ends = ends([*min, *max]);
+                format!("normal, {} ± {}{ends}", number(*mean), number(*deviation))
+            }
+            Distribution::Lognormal {
+                median,
+                deviation,
+                min,
+                max,
+            } => {
+                let ends = ends([*min, *max]);
+                format!(
+                    "lognormal, median {}, deviation {deviation} of the logarithm{ends}",
+                    number(*median)
+                )
+            }
+            Distribution::Triangular { from, mode, to } => format!(
+                "{} to {}, most often {}",
+                number(*from),
+                number(*to),
+                number(*mode)
+            ),
+            Distribution::Discrete { values, .. } => list(values),
+        },
+    }
 }
 
 /// A word quoted for a command line.

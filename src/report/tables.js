@@ -1,16 +1,17 @@
 // The messages and numbers of the run.
-function peaks() {
-  return columns.slice(1).map((column) => {
-    let [low, high] = [0, 0];
-    column.values.forEach((v, k) => {
-      if (v === null) return;
-      if (!(column.values[low] <= v)) low = k;
-      if (!(column.values[high] >= v)) high = k;
+function extremes() {
+  const rows = columns.map((column) => {
+    // of a run that did not reach its end there are only rows
+    const found = [Math.max, Math.min].map((best) => {
+      const value = best(...column.values.filter((v) => v !== null));
+      return [value, clock[column.values.indexOf(value)]];
     });
-    const at = (k) => `${Number((1000 * clock[k]).toPrecision(5))}`;
-    const most = Math.max(Math.abs(column.values[high]), Math.abs(column.values[low]));
-    return [column.name, column.unit, readable(column.values[high], most), at(high), readable(column.values[low], most), at(low)];
+    const [largest, smallest] = column.between ? [column.largest, column.smallest] : found;
+    const most = Math.max(...[largest, smallest].map((one) => (one ? Math.abs(one[0]) : 0)));
+    const cells = (one) => (one && Number.isFinite(one[0]) ? [readable(one[0], most), timeText(one[1])] : ["–", "–"]);
+    return [column.name, column.unit, ...cells(largest), ...cells(smallest)];
   });
+  return table([["output", false], ["unit", false], ["largest", true], [`at [${TIME.unit}]`, true], ["smallest", true], [`at [${TIME.unit}]`, true]], rows);
 }
 
 function criteria() {
@@ -23,9 +24,8 @@ function criteria() {
   return made;
 }
 
-// A limit as the regulation prints it.
 function limit(one) {
-  return one.limit === null ? "–" : String(one.limit);
+  return one.limit === null ? "–" : limitText(one.limit);
 }
 
 function met(one) {
@@ -38,12 +38,12 @@ function result(parent) {
   const { peaks, more, energy, trust } = data.result;
   const left = element("div"), right = element("div");
   if (peaks.length) {
-    left.append(table([["peak of", false], ["value", true], ["unit", false], ["at [ms]", true]], peaks.map((p) => [p.output, readable(p.value), p.unit, (1000 * p.time_s).toFixed(1)])));
+    left.append(table([["peak of", false], ["value", true], ["unit", false], [`at [${TIME.unit}]`, true]], peaks.map((p) => [p.output, readable(p.value), p.unit, timeText(p.time_s)])));
     if (more) left.append(element("p", `${more} more below.`, { class: "hint" }));
   }
   if (data.criteria) {
     const judged = data.criteria.criteria.filter((one) => one.value !== null);
-    right.append(element("p", `${data.criteria.standard}, ${data.criteria.dummy}`));
+    right.append(element("p", `${data.criteria.standard}, ${data.criteria.dummy}`, { class: "hint" }));
     right.append(table([["criterion", false], ["value", true], ["limit", true], ["unit", false], ["verdict", false]], judged.map((one) => [one.criterion, readable(one.value), limit(one), one.unit, met(one)])));
   }
   if (data.responses && data.responses.length) {
@@ -87,7 +87,7 @@ class EnergyPlot {
     this.layers = [{ name: "kinetic energy", values: kinetic }, ...large];
     if (rest.length) this.layers.push({ name: `${rest.length} smaller`, values: times.map((_, k) => rest.reduce((sum, e) => sum + e.values[k], 0)) });
     this.most = most;
-    this.canvas = element("canvas", null, { "aria-label": "energy over time, stacked" });
+    this.canvas = element("canvas", null, { role: "img", "aria-label": "energy over time, stacked" });
     const keys = element("div", null, { class: "keys" });
     this.layers.forEach((layer, k) => {
       const mark = element("i");
@@ -97,44 +97,29 @@ class EnergyPlot {
       key.append(mark, element("span", layer.name));
       keys.append(key);
     });
-    const box = element("div", null, { class: "plot" }), head = element("header");
-    head.append(element("span", "[J] over time [ms]: kinetic energy, and what each effect has taken; the top is what was given"));
-    box.append(head, this.canvas, keys);
+    const box = element("figure", null, { class: "plot" });
+    box.append(element("figcaption", "Kinetic energy, and what each effect has taken; the top is what was given"), this.canvas, keys);
     parent.append(box);
     new ResizeObserver(() => this.draw()).observe(this.canvas);
-    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
+    onPaper(() => this.draw());
   }
   draw() {
-    const made = blank(this.canvas);
-    if (!made) return;
-    const { c, width, height } = made;
-    const [left, right, top, bottom] = [58, width - 16, 8, height - 22];
-    const [a, b] = [this.times[0], this.times[this.times.length - 1]];
-    const [px, py] = [(t) => left + ((t - a) / (b - a || 1)) * (right - left), (v) => bottom - (v / (1.05 * this.most)) * (bottom - top)];
-    const below = this.times.map(() => 0);
-    this.layers.forEach((layer, k) => {
-      const above = below.map((v, i) => v + layer.values[i]);
-      c.fillStyle = COLOURS[k % COLOURS.length];
-      c.globalAlpha = 0.75;
-      c.beginPath();
-      this.times.forEach((t, i) => c.lineTo(px(t), py(below[i])));
-      for (let i = this.times.length - 1; i >= 0; i--) c.lineTo(px(this.times[i]), py(above[i]));
-      c.closePath();
-      c.fill();
-      above.forEach((v, i) => { below[i] = v; });
-    });
-    c.globalAlpha = 1;
-    c.font = "11px system-ui, sans-serif";
-    c.strokeStyle = style("--line");
-    c.fillStyle = style("--soft");
-    c.textAlign = "right";
-    const up = ticks(0, 1.05 * this.most, 6), along = ticks(1000 * a, 1000 * b, Math.max(3, Math.floor(width / 80)));
-    for (const v of up.found) {
-      c.beginPath(); c.moveTo(left, py(v)); c.lineTo(right, py(v)); c.stroke();
-      c.fillText(v.toFixed(Math.min(8, up.digits)), left - 5, py(v) + 4);
-    }
-    c.textAlign = "center";
-    for (const t of along.found) c.fillText(t.toFixed(along.digits), px(t / 1000), height - 7);
+    const { times } = this;
+    chart(this.canvas, [times[0], times[times.length - 1]], [0, 1.05 * this.most], [`time [${TIME.unit}]`, "energy [J]"], (c, px, py) => {
+      const below = times.map(() => 0);
+      this.layers.forEach((layer, k) => {
+        const above = below.map((v, i) => v + layer.values[i]);
+        c.fillStyle = COLOURS[k % COLOURS.length];
+        c.globalAlpha = 0.75;
+        c.beginPath();
+        times.forEach((t, i) => c.lineTo(px(t), py(below[i])));
+        for (let i = times.length - 1; i >= 0; i--) c.lineTo(px(times[i]), py(above[i]));
+        c.closePath();
+        c.fill();
+        above.forEach((v, i) => { below[i] = v; });
+      });
+      c.globalAlpha = 1;
+    }, TIME.scale);
   }
 }
 
@@ -146,42 +131,40 @@ function startTables() {
   state.classList.add(bad ? "bad" : "good");
   result(byId("result"));
   const verdict = byId("verdict"), two = element("div", null, { class: "columns" });
-  if (data.criteria) block(verdict, `Injury criteria: ${data.criteria.standard}, ${data.criteria.dummy}`, ...criteria());
-  if (data.responses && data.responses.length) {
-    block(verdict, "Responses", table([["response", false], ["value", true], ["unit", false]], data.responses.map((r) => [r.name, readable(r.value), r.unit || ""])));
-  }
-  if (columns.length > 1) {
-    block(verdict, "Largest and smallest values of the rows", table([["output", false], ["unit", false], ["largest", true], ["at [ms]", true], ["smallest", true], ["at [ms]", true]], peaks()));
-  }
   if (data.doubts && data.doubts.length) block(verdict, "Why it cannot be trusted", lines(data.doubts));
   if (data.notes && data.notes.length) block(verdict, "To be known", lines(data.notes));
+  if (data.criteria) folded(verdict, `How the criteria were read: ${data.criteria.standard}, ${data.criteria.dummy}`, ...criteria());
+  verdict.append(two);
+  if (columns.length) block(two, columns.every((c) => c.between) ? "Largest and smallest values" : "Largest and smallest values of the rows", extremes());
+  const right = element("div");
+  two.append(right);
   if (data.energy && data.works && data.works.times.length > 1) {
     const box = element("div");
-    block(verdict, "Energy over time", box);
+    block(right, "Energy over time", box);
     new EnergyPlot(box);
   }
-  verdict.append(two);
-  if (data.energy) block(two, "Balance of energy", energy());
-  block(two, "Accuracy", lines(data.accuracy && data.accuracy.length ? data.accuracy : ["not checked"]), element("p", data.report || ""));
+  block(right, "Accuracy", lines(data.accuracy && data.accuracy.length ? data.accuracy : ["not checked"]), element("p", data.report || ""));
+  if (data.energy) folded(right, "Balance of energy", energy());
   const again = byId("again"), parameters = Object.entries(data.parameters || {});
   const command = element("p");
   command.append("Command: ", element("code", data.command));
   const digest = element("p");
   digest.append("Digest of the model: ", element("code", data.digest));
   again.append(command, digest);
-  if (parameters.length) block(again, "Parameters", table([["parameter", false], ["value", true], ["unit", false]], parameters.map(([name, p]) => [name, readable(p.value), p.unit])));
+  if (parameters.length) folded(again, `Parameters (${parameters.length})`, table([["parameter", false], ["value", true], ["unit", false]], parameters.map(([name, p]) => [name, readable(p.value), p.unit])));
   const [ins, outs] = [[], []];
   let list = ins;
   for (const line of data.effects || []) {
     if (line.startsWith(" ")) list.push(line.trim());
     else if (!line.startsWith("In")) list = outs;
   }
-  if (ins.length) block(again, "In the equations", lines(ins));
-  if (outs.length) block(again, "Not in the equations", lines(outs));
+  if (ins.length) folded(again, `In the equations (${ins.length})`, lines(ins));
+  if (outs.length) folded(again, `Not in the equations (${outs.length})`, lines(outs));
 }
 
 startTables();
-startMotion();
 startCurves();
+startMotion();
+startParts();
 // for programs that open the page: all of it was made
 document.documentElement.dataset.made = "yes";

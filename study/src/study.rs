@@ -53,6 +53,9 @@ pub struct Varied {
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
+    /// The unit that people read its values in: that of the study's text, or the SI unit where it has none.
+    #[serde(skip)]
+    pub shown: String,
 }
 
 /// A parameter with one value for all runs.

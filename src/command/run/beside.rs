@@ -6,14 +6,14 @@ use super::super::error_report::ErrorReport;
 use super::super::model_argument::Found;
 use super::super::terminal::Terminal;
 use super::Arguments;
-use super::report::kept;
+use super::report::{kept, output_curves, seconds};
+use super::responses::Responses;
 use crate::accuracy::setting::Setting;
 use crate::command::parameters::parse_parameters;
 use crate::command::prepare::prepare;
 use crate::report::{Scene, short};
 use crate::simulation::{self, Recording};
 use crate::table::Table;
-use crate::units::Units;
 use bryant_generator::model::Model;
 use bryant_runtime::program::Job;
 use bryant_signal::{Channel, NoChannel, unit};
@@ -84,7 +84,8 @@ pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<V
         let shown = || (0..signal.values.len()).step_by(stride);
         let unit = model.unit_of(output);
         Ok(json!({
-            "name": format!("{} measured", output.name),
+            "name": "measured",
+            "of": index,
             "unit": unit.name,
             "times": shown().map(|i| short(signal.time(i))).collect::<Vec<_>>(),
             "values": shown().map(|i| short(unit.of_si(factor * signal.values[i]))).collect::<Vec<_>>(),
@@ -102,6 +103,7 @@ pub fn run(
     found: &Found,
     job: &Job,
     (recording, errors): (&Recording, &ErrorReport),
+    responses: &Responses,
     terminal: &Terminal,
 ) -> Result<Value, Error> {
     if arguments.beside.is_empty() {
@@ -137,19 +139,7 @@ pub fn run(
     let instants = kept(&second);
     let scene = Scene::new(&found.model, &second.coordinates, &parameters, &instants);
     let scene = scene.map_err(Error::system)?.json(&[]);
-    let Some(times) = second.table.columns.first() else {
-        return Ok(Value::Null);
-    };
-    let times: Vec<Value> = times.values.iter().map(|t| short(*t)).collect();
-    let table = Units::of(&found.model).table(&second.table);
-    let curves = table.columns.iter().skip(1).map(|column| {
-        let values = column.values.iter().map(|value| short(*value));
-        json!({
-            "name": format!("{} with {label}", column.name),
-            "unit": column.unit,
-            "times": times,
-            "values": values.collect::<Vec<_>>(),
-        })
-    });
-    Ok(json!({ "label": label, "scene": scene, "curves": curves.collect::<Vec<_>>() }))
+    let times: Vec<Value> = seconds(&second).into_iter().map(short).collect();
+    let curves = output_curves(&second, responses);
+    Ok(json!({ "label": label, "scene": scene, "times": times, "curves": curves }))
 }

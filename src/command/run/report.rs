@@ -12,11 +12,12 @@ use crate::accuracy::setting::Setting;
 use crate::balance;
 use crate::picture::Instant;
 use crate::report::study::quoted;
-use crate::report::{Scene, page, short, with_forces};
+use crate::report::{Curve, Scene, curves, page, plots, short, with_forces};
 use crate::simulation::{self, Recording};
 use crate::table::Table;
 use bryant_generator::effect;
 use bryant_runtime::program::{Header, History, Job};
+use bryant_signal::unit;
 use serde_json::{Value, json};
 
 /// A report has at most this many poses: more than one for each picture of a screen in ten seconds.
@@ -48,13 +49,28 @@ pub fn html(
         );
     }
     let scene = Scene::new(model, &recording.coordinates, &parameters, &instants);
-    let scene = scene.map_err(Error::system)?.json(&forces);
-    // the page says times in s or ms as it needs
-    let times = recording.table.columns.iter().take(1);
-    let columns = times.chain(table.columns.iter().skip(1)).map(|column| {
-        let values: Vec<Value> = column.values.iter().map(|value| short(*value)).collect();
-        json!({ "name": column.name, "unit": column.unit, "values": values })
+    let scene = scene.map_err(Error::system)?;
+    let [_, outputs @ ..] = table.columns.as_slice() else {
+        return Err(Error::system("a run has no time"));
+    };
+    let mut columns = output_curves(recording, responses);
+    for (curve, output) in columns.iter_mut().zip(&model.outputs) {
+        let bodies = plots::bodies(model, &output.quantity);
+        curve["bodies"] = bodies.iter().map(|body| scene.index(*body)).collect();
+        curve["laws"] = json!(plots::laws(&output.quantity));
+    }
+    let units: Vec<&str> = outputs.iter().map(|column| column.unit.as_str()).collect();
+    let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    let sizes: Vec<f64> = outputs
+        .iter()
+        .map(|column| largest(&column.values))
+        .collect();
+    let laws = model.forces.iter().enumerate().map(|(index, force)| {
+        let bodies = plots::of_force(model, index);
+        let bodies: Vec<i64> = bodies.iter().map(|body| scene.index(*body)).collect();
+        json!({ "name": force.name, "kind": force.kind.key(), "bodies": bodies })
     });
+    let laws: Vec<Value> = laws.collect();
     let title = match model.title.as_str() {
         "" => model.name.clone(),
         title => title.to_owned(),
@@ -69,7 +85,14 @@ pub fn html(
         (parameter.name.clone(), number)
     });
     let overlays = beside::measured(arguments, model, &recording.table)?;
-    let beside = beside::run(arguments, found, job, (recording, errors), terminal)?;
+    let beside = beside::run(
+        arguments,
+        found,
+        job,
+        (recording, errors),
+        responses,
+        terminal,
+    )?;
     let data = json!({
         "overlays": overlays,
         "beside": beside,
@@ -80,8 +103,11 @@ pub fn html(
         "version": env!("CARGO_PKG_VERSION"),
         "digest": recording.header.digest,
         "command": command(arguments),
-        "columns": columns.collect::<Vec<_>>(),
-        "scene": scene,
+        "times": seconds(recording).into_iter().map(short).collect::<Vec<_>>(),
+        "columns": columns,
+        "plots": plots::json(model, &units, &sizes),
+        "scene": scene.json(&forces),
+        "forces": laws,
         "responses": told(&responses.json(recording, errors)),
         "criteria": criteria,
         "energy": recording.energy.as_ref().map(|energy| balance::json(&recording.header, energy)),
@@ -95,6 +121,26 @@ pub fn html(
         "parameters": values.collect::<serde_json::Map<_, _>>(),
     });
     Ok(page(&title, &data))
+}
+
+/// Times of the rows \[s\].
+pub(super) fn seconds(recording: &Recording) -> Vec<f64> {
+    let Some(time) = recording.table.columns.first() else {
+        return Vec::new();
+    };
+    let factor = unit::factor(&time.unit, "s").unwrap_or(1.0);
+    time.values.iter().map(|t| factor * t).collect()
+}
+
+/// The curves of all outputs, with samples between the rows.
+pub(super) fn output_curves(recording: &Recording, responses: &Responses) -> Vec<Value> {
+    let outputs = recording.table.columns.iter().skip(1).enumerate();
+    let outputs = outputs.map(|(index, column)| Curve {
+        column,
+        samples: responses.samples(recording, index),
+        unit: responses.units.output(index),
+    });
+    curves(&seconds(recording), &outputs.collect::<Vec<_>>())
 }
 
 /// Works of effects over time.

@@ -10,11 +10,12 @@ use crate::command::model_argument::Found;
 use crate::command::response::{self, Requested, intervals};
 use crate::command::sweep;
 use crate::criteria::Verdict;
+use crate::report::Samples;
 use crate::simulation::Recording;
 use crate::units::Units;
 use bryant_generator::model::Model;
 use bryant_picture::text::typeset;
-use bryant_runtime::program::{Kept, Reading};
+use bryant_runtime::program::{Kept, OutputHeader, Reading};
 use bryant_runtime::response::Channel;
 use bryant_runtime::response::filter::{Class, MEAN};
 use bryant_study::facts::ModelFacts;
@@ -31,10 +32,10 @@ pub struct Responses {
     criteria: Option<Criteria>,
     /// The index of the first signal that the criteria keep.
     kept: usize,
-    /// The outputs whose peaks are told, each with the index of its signal.
-    peaks: Vec<(usize, usize)>,
-    /// The units in which responses and peaks are shown.
-    units: Units,
+    /// The index of the kept signal of each output; those after the last one that is needed have none.
+    signals: Vec<usize>,
+    /// The units in which responses and outputs are shown.
+    pub units: Units,
     /// Time between the samples \[s\].
     every: f64,
     /// The responses as a request to the runtime.
@@ -47,6 +48,8 @@ pub struct Responses {
 const WORKS: f64 = 300.0;
 /// The peaks of at most so many outputs are told.
 const MOST_PEAKS: usize = 5;
+/// At most about so many samples of outputs are kept for a report: 160 MB.
+const MOST_KEPT: usize = 20_000_000;
 /// Samples for each row of the table that peaks are read off, if nothing else needs samples. Between them a peak is that of a parabola's.
 const BETWEEN_ROWS: f64 = 5.0;
 /// Differences below this share are rounding errors.
@@ -75,7 +78,6 @@ impl Responses {
         let mut kept = filtered(model);
         let columns = kept.len();
         kept.extend(criteria.iter().flat_map(Criteria::kept));
-        let peaks = told(model, &mut kept);
         let filters = kept.iter().filter_map(|kept| kept.channel.filter);
         let classes: Vec<Class> = filters.map(|filter| filter.class).collect();
         let sampling = sampling.unwrap_or_else(|| {
@@ -89,7 +91,8 @@ impl Responses {
         if let Some(class) = classes.iter().find(|class| !class.allows(sampling)) {
             return Err(response::too_coarse(*class, sampling));
         }
-        let intervals = match end > start && !(asked.is_empty() && kept.is_empty()) {
+        let silent = asked.is_empty() && kept.is_empty() && model.outputs.is_empty();
+        let intervals = match end > start && !silent {
             true => intervals(sampling, end - start, &asked, size_of::<f64>())?,
             // the run itself will report this
             false => 1,
@@ -97,6 +100,12 @@ impl Responses {
         if !classes.is_empty() && end > start && intervals < MEAN {
             return Err(response::too_short(end - start));
         }
+        // a report shows all outputs between rows, as far as memory allows
+        let shown = match arguments.report {
+            Some(_) => (MOST_KEPT / intervals).max(MOST_PEAKS),
+            None => MOST_PEAKS,
+        };
+        let signals = signals(model.outputs.len().min(shown), &mut kept);
         Ok(Responses {
             reading: Reading {
                 intervals: intervals as u64,
@@ -108,7 +117,7 @@ impl Responses {
             own,
             criteria,
             kept: columns,
-            peaks,
+            signals,
             units: Units::of(model),
             every: (end - start) / intervals as f64,
             otherwise,
@@ -120,20 +129,33 @@ impl Responses {
         self.asked.iter().filter_map(|one| one.caution.as_deref())
     }
 
+    /// The samples of an output; none if they are not kept, or the run did not reach its end.
+    pub fn samples<'a>(&self, recording: &'a Recording, output: usize) -> Option<Samples<'a>> {
+        let values = recording.kept.get(*self.signals.get(output)?)?;
+        (!values.is_empty()).then_some(Samples {
+            values,
+            start: recording.first_time(),
+            every: self.every,
+        })
+    }
+
     /// The peaks of the first outputs; none if the run did not reach its end.
     pub fn peaks(&self, recording: &Recording) -> Vec<Peak> {
-        let peak = |&(index, kept): &(usize, usize)| {
-            let output = recording.header.outputs.get(index)?;
-            let samples = recording.kept.get(kept)?;
-            let times = [recording.first_time(), self.every];
+        let first = recording.header.outputs.iter().enumerate().take(MOST_PEAKS);
+        let peak = |(index, output): (usize, &OutputHeader)| {
+            let Samples {
+                values,
+                start,
+                every,
+            } = self.samples(recording, index)?;
             let unit = self.units.output(index);
-            let peak = Peak::of((&output.name, &unit.name), samples, times)?;
+            let peak = Peak::of((&output.name, &unit.name), values, [start, every])?;
             Some(Peak {
                 value: unit.of_si(peak.value),
                 ..peak
             })
         };
-        self.peaks.iter().filter_map(peak).collect()
+        first.filter_map(peak).collect()
     }
 
     /// The verdict about the run. The outer value is `None` if no criteria are requested.
@@ -295,21 +317,19 @@ fn filtered(model: &Model) -> Vec<Kept> {
     kept.collect()
 }
 
-/// The outputs whose peaks are told, each with the index of its signal, which is kept for this if it is not yet.
-fn told(model: &Model, kept: &mut Vec<Kept>) -> Vec<(usize, usize)> {
-    let mut peaks = Vec::new();
-    for index in 0..model.outputs.len().min(MOST_PEAKS) {
-        let known = kept.iter().position(|one| one.in_place_of == Some(index));
-        let at = known.unwrap_or_else(|| {
+/// The index of the signal of each of the first outputs, which is kept for this if it is not yet.
+fn signals(outputs: usize, kept: &mut Vec<Kept>) -> Vec<usize> {
+    let mut index_of = |output: usize| {
+        let known = kept.iter().position(|one| one.in_place_of == Some(output));
+        known.unwrap_or_else(|| {
             kept.push(Kept {
-                channel: Channel::output(index),
+                channel: Channel::output(output),
                 in_place_of: None,
             });
             kept.len() - 1
-        });
-        peaks.push((index, at));
-    }
-    peaks
+        })
+    };
+    (0..outputs).map(&mut index_of).collect()
 }
 
 /// A number with four digits; a larger number is printed as an integer.

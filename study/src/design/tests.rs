@@ -7,6 +7,7 @@ fn study(rows: u64, parameters: usize, plan: Plan) -> Study {
     let varied = |p| Varied {
         name: format!("p{p}"),
         unit: String::new(),
+        shown: String::new(),
     };
     Study {
         model: String::new(),

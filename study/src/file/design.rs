@@ -1,7 +1,7 @@
 //! `design`, `runs`, `seed`, `parameters`: the rows of a study.
 
 use super::distribution;
-use super::reader::{Reader, optional};
+use super::reader::{self, Reader, optional};
 use super::rows;
 use crate::design::most_parameters;
 use crate::facts::{ModelFacts, ParameterFact};
@@ -112,10 +112,7 @@ fn parameters<'a, 'f>(
 
 fn varied(of: &[(At<'_>, &ParameterFact)]) -> Vec<Varied> {
     of.iter()
-        .map(|(_, fact)| Varied {
-            name: fact.name.clone(),
-            unit: fact.unit.clone(),
-        })
+        .map(|(at, fact)| reader::varied(fact, [at.node]))
         .collect()
 }
 

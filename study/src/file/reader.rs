@@ -1,6 +1,8 @@
 //! Reads values of a located tree and collects the problems in them.
 
+use crate::facts::ParameterFact;
 use crate::quantity::strict;
+use crate::study::Varied;
 use bryant_generator::description::place::At;
 use bryant_generator::description::tree::{Kind, Node};
 use bryant_generator::diagnostic::{quoted, suggestion};
@@ -213,4 +215,40 @@ impl Reader {
 pub fn optional<'a>(at: At<'a>, key: &str) -> Option<At<'a>> {
     at.node.get(key).filter(|node: &&Node| !node.is_null())?;
     Some(at.key(key))
+}
+
+/// A varied parameter whose values stand in these nodes: it is shown in the unit of the first number that has one.
+pub fn varied<'n>(fact: &ParameterFact, values: impl IntoIterator<Item = &'n Node>) -> Varied {
+    let stated = values.into_iter().find_map(|node| stated(node, &fact.unit));
+    shown_in(fact, stated)
+}
+
+/// A varied parameter that is shown in this unit.
+pub fn shown_in(fact: &ParameterFact, unit: Option<&str>) -> Varied {
+    let measures = |unit: &&str| {
+        !fact.unit.is_empty() && strict(&format!("1 {unit}"), &fact.unit).is_ok_and(|one| one > 0.0)
+    };
+    let shown = unit.filter(measures).unwrap_or(&fact.unit);
+    Varied {
+        name: fact.name.clone(),
+        unit: fact.unit.clone(),
+        shown: shown.to_owned(),
+    }
+}
+
+/// The unit behind the first number of a node that has one.
+fn stated<'n>(node: &'n Node, unit: &str) -> Option<&'n str> {
+    match &node.kind {
+        Kind::Scalar { text, .. } => {
+            let text = text.trim();
+            let end = text.find(|c: char| c.is_ascii_alphabetic() && !matches!(c, 'e' | 'E'))?;
+            let (number, stated) = text.split_at(end);
+            let plain = number.trim().parse::<f64>().is_ok();
+            (plain && strict(text, unit).is_ok()).then_some(stated)
+        }
+        Kind::List(items) => items.iter().find_map(|item| self::stated(item, unit)),
+        Kind::Map(entries) => entries
+            .iter()
+            .find_map(|entry| self::stated(&entry.value, unit)),
+    }
 }

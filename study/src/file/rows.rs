@@ -1,7 +1,7 @@
 //! `rows` of `design: list`: written in the study, or in a CSV file with a heading of names such as `slack` or `slack [mm]`.
 
 use super::design::{Planned, known, within};
-use super::reader::Reader;
+use super::reader::{self, Reader};
 use crate::facts::{ModelFacts, ParameterFact};
 use crate::quantity::strict;
 use crate::study::{Listed, Plan, Varied};
@@ -48,13 +48,6 @@ pub fn read(
     let rows = within(reader, root, "rows", rows as u128, || {
         "take fewer rows".into()
     })?;
-    let varied = varied
-        .iter()
-        .map(|fact| Varied {
-            name: fact.name.clone(),
-            unit: fact.unit.clone(),
-        })
-        .collect();
     Some(Planned {
         rows,
         varied,
@@ -63,10 +56,10 @@ pub fn read(
 }
 
 /// The varied parameters, and their values row by row.
-type Read<'f> = (Vec<&'f ParameterFact>, Vec<f64>);
+type Read = (Vec<Varied>, Vec<f64>);
 
 /// Rows in the study itself. A parameter that a row leaves out has its default value there.
-fn written<'f>(reader: &Reader, at: At<'_>, facts: &'f ModelFacts) -> Option<Read<'f>> {
+fn written(reader: &Reader, at: At<'_>, facts: &ModelFacts) -> Option<Read> {
     let items = reader.items(at, "`rows`");
     let mut sound = true;
     let mut varied: Vec<&ParameterFact> = Vec::new();
@@ -115,7 +108,11 @@ fn written<'f>(reader: &Reader, at: At<'_>, facts: &'f ModelFacts) -> Option<Rea
             values.push(value.unwrap_or(fact.default));
         }
     }
-    sound.then_some((varied, values))
+    let shown = varied.into_iter().map(|fact| {
+        let values = items.iter().filter_map(|item| item.node.get(&fact.name));
+        reader::varied(fact, values)
+    });
+    sound.then(|| (shown.collect(), values))
 }
 
 /// A CSV file with rows. Messages call it `name` and point to `at` in the study.
@@ -130,7 +127,7 @@ type Column<'f> = (&'f ParameterFact, String);
 
 impl Table<'_> {
     /// Reads the rows of the file at `path`.
-    fn read<'f>(&self, path: &Path, facts: &'f ModelFacts) -> Option<Read<'f>> {
+    fn read(&self, path: &Path, facts: &ModelFacts) -> Option<Read> {
         let file = open_file(path);
         let file = file.inspect_err(|error| self.unreadable(error)).ok()?;
         if file.metadata().is_ok_and(|about| about.len() > MOST_BYTES) {
@@ -143,7 +140,10 @@ impl Table<'_> {
         let headings = csv.headers().inspect_err(|error| self.unreadable(error));
         let columns = self.columns(headings.ok()?, facts)?;
         let values = self.values(&mut csv, &columns)?;
-        Some((columns.into_iter().map(|(fact, _)| fact).collect(), values))
+        let shown = columns.iter().map(|(fact, unit)| {
+            reader::shown_in(fact, Some(unit.as_str()).filter(|unit| !unit.is_empty()))
+        });
+        Some((shown.collect(), values))
     }
 
     /// The columns, by the names and units in the heading.

@@ -222,6 +222,50 @@ fn distributions_are_read_with_their_units() {
     );
 }
 
+/// People read the values of a parameter in the unit of the study, whatever they are computed in.
+#[test]
+fn parameters_are_shown_in_the_unit_that_the_study_states() {
+    let shown = |parameter: &str| {
+        let study = with("design: sobol\nruns: 8", parameter).unwrap();
+        (study.varied[0].unit.clone(), study.varied[0].shown.clone())
+    };
+    for (parameter, unit, expected) in [
+        ("lap_slack: { from: 0 mm, to: 60 mm }", "m", "mm"),
+        ("lap_slack: { from: 0, to: 0.6 dm }", "m", "dm"),
+        ("lap_slack: { values: [1e-2, 2e1 mm, 0.05 m] }", "m", "mm"),
+        ("lap_slack: { from: 0, to: 0.06 }", "m", "m"),
+        // an expression has no unit of its own
+        ("lap_slack: { from: 0, to: 2 * 30 mm }", "m", "m"),
+        ("friction: { from: 10 %, to: 50 % }", "", ""),
+        (
+            "gravity: { normal: { mean: 1 m/s^2, deviation: 0.1 m/s^2 } }",
+            "m/s^2",
+            "m/s^2",
+        ),
+    ] {
+        assert_eq!(
+            shown(parameter),
+            (unit.into(), expected.into()),
+            "{parameter}"
+        );
+    }
+    let rows = |rows: &str| {
+        let text = format!(
+            "model: seat\ndesign: list\nrows: {rows}\nresponses: [{{ of: head excursion, what: peak }}]\n"
+        );
+        let units = resolve(&text)
+            .unwrap()
+            .varied
+            .into_iter()
+            .map(|one| one.shown);
+        units.collect::<Vec<_>>()
+    };
+    assert_eq!(
+        rows("[{ friction: 0.2 }, { lap_slack: 3 mm, friction: 0.1 }]"),
+        ["", "mm"]
+    );
+}
+
 #[test]
 fn a_lognormal_tail_needs_no_lower_end_at_zero() {
     let found = distribution("pulse_scale: { lognormal: { median: 1, deviation: 0.1 } }");
@@ -296,6 +340,10 @@ fn lists_are_read_from_csv_with_units_in_headings() {
         panic!("a list")
     };
     assert_eq!(list.0, [0.2, 10.0 * 1e-3, 0.5, 2.0 * 1e-2]);
+    assert_eq!(
+        (&*study.varied[0].shown, &*study.varied[1].shown),
+        ("", "mm")
+    );
     let message = problem(read("friction,lap_slack\n0.2,0.01\n0.2,7\n"));
     assert!(
         message.starts_with("rows.csv:3:1") && message.contains("from 0 to 0.1 m"),
