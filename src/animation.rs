@@ -4,10 +4,12 @@
 //! meshes on nodes below it. A belt or a spring is a rod; keyframes rotate and stretch it from one end to the other. All nodes are below
 //! one node that rotates z up into y up, as glTF requires. Units are metres and seconds.
 
+use crate::pose::{Frame, Vec3, quaternion};
+use crate::scene::{Scene, from_to, length};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
-type Vec3 = [f64; 3];
+/// (x, y, z, w), as glTF has it.
 type Quaternion = [f64; 4];
 
 /// Number of circles of latitude and of longitude on a sphere.
@@ -30,45 +32,45 @@ const OF_VEHICLES: [f64; 4] = [0.45, 0.47, 0.5, 1.0];
 const OF_PLANES: [f64; 4] = [0.55, 0.57, 0.6, 0.35];
 const OF_LINES: [f64; 4] = [0.80, 0.37, 0.0, 1.0];
 
-/// The bytes of an animation. `scene` is the value of [`Scene::json`](crate::report::Scene::json).
+/// The bytes of an animation.
 ///
 /// # Errors
 /// There are fewer than two instants.
-pub fn glb(title: &str, scene: &Value) -> Result<Vec<u8>, String> {
-    let times = numbers(&scene["times"]);
-    if times.len() < 2 {
+pub fn glb(title: &str, scene: &Scene) -> Result<Vec<u8>, String> {
+    if scene.times.len() < 2 {
         return Err("an animation needs at least two instants of the run".into());
     }
-    let mut file = File::new(title, &times);
-    let bodies = file.bodies(scene);
-    file.ellipsoids(scene, &bodies);
-    file.bones(scene, &bodies);
-    file.planes(scene, &bodies);
-    file.lines(scene);
+    let mut file = File::new(title, scene);
+    file.bodies();
+    file.ellipsoids();
+    file.bones();
+    file.planes();
+    file.lines();
     Ok(file.finish())
 }
 
 /// By how much each body of a scene turns at least from each instant to the next, instant by instant \[rad\].
-pub fn turns(scene: &Value) -> Vec<Vec<f64>> {
-    let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
-    let between = |pair: &[Vec<f64>]| {
-        let bodies = pair[0].chunks_exact(7).zip(pair[1].chunks_exact(7));
-        let angle = |(a, b): (&[f64], &[f64])| {
-            let [a, b] = [a, b].map(|one| unit([one[4], one[5], one[6], one[3]]));
+pub fn turns(scene: &Scene) -> Vec<Vec<f64>> {
+    let between = |pair: &[Vec<Frame>]| {
+        let angle = |(a, b): (&Frame, &Frame)| {
+            let [a, b] = [a, b].map(|frame| quaternion(frame.rotation));
             let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
             2.0 * libm::acos(product.abs().min(1.0))
         };
-        bodies.map(angle).collect()
+        pair[0].iter().zip(&pair[1]).map(angle).collect()
     };
-    frames.windows(2).map(between).collect()
+    scene.frames.windows(2).map(between).collect()
 }
 
 /// A glTF file under construction.
-struct File {
+struct File<'a> {
+    scene: &'a Scene,
     json: Value,
     binary: Vec<u8>,
+    /// The accessor of the times.
     times: usize,
-    count: usize,
+    /// The node of each body.
+    bodies: Vec<usize>,
     /// Meshes of unit size with their colours: spheres and rods.
     meshes: Vec<(Shape, [f64; 4], usize)>,
     shapes: Vec<(Shape, [usize; 3])>,
@@ -82,10 +84,11 @@ enum Shape {
     Rod,
 }
 
-impl File {
-    fn new(title: &str, times: &[f64]) -> Self {
+impl<'a> File<'a> {
+    fn new(title: &str, scene: &'a Scene) -> Self {
         let half = f64::sqrt(0.5);
         let mut file = File {
+            scene,
             json: json!({
                 "asset": { "version": "2.0", "generator": format!("bryant {}", env!("CARGO_PKG_VERSION")) },
                 "scene": 0,
@@ -99,12 +102,13 @@ impl File {
             }),
             binary: Vec::new(),
             times: 0,
-            count: times.len(),
+            bodies: Vec::new(),
             meshes: Vec::new(),
             shapes: Vec::new(),
         };
         // players expect that times begin at 0
-        let relative: Vec<f64> = times.iter().map(|t| t - times[0]).collect();
+        let times = scene.times.iter();
+        let relative: Vec<f64> = times.map(|t| t - scene.times[0]).collect();
         file.times = file.floats(&relative, 1, None);
         file
     }
@@ -251,7 +255,7 @@ impl File {
 
     /// Adds keyframes of a node. The first is also where the node rests: what shows the file without playing it shows the start.
     fn key(&mut self, node: usize, path: &str, values: &[f64], width: usize) {
-        debug_assert_eq!(values.len(), width * self.count);
+        debug_assert_eq!(values.len(), width * self.scene.times.len());
         self.list("nodes")[node][path] = json!(values[..width]);
         let output = self.floats(values, width, None);
         let sampler = json!({ "input": self.times, "output": output, "interpolation": "LINEAR" });
@@ -269,89 +273,80 @@ impl File {
     }
 
     /// Adds a node for each body, with its keyframes.
-    fn bodies(&mut self, scene: &Value) -> Vec<usize> {
-        let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
-        let mut nodes = Vec::new();
-        for (index, body) in list(&scene["bodies"]).iter().enumerate() {
-            let node = self.node(0, json!({ "name": body["name"] }));
-            let at = |frame: &Vec<f64>| frame[7 * index..7 * index + 7].to_vec();
-            let all: Vec<Vec<f64>> = frames.iter().map(at).collect();
-            let places: Vec<f64> = all.iter().flat_map(|one| one[..3].to_vec()).collect();
-            let turns = all.iter().map(|one| [one[4], one[5], one[6], one[3]]);
-            let turns = continuous(turns.collect());
+    fn bodies(&mut self) {
+        let scene = self.scene;
+        for (index, body) in scene.bodies.iter().enumerate() {
+            let node = self.node(0, json!({ "name": body.name }));
+            let frames = scene.frames.iter().map(|all| &all[index]);
+            let places: Vec<f64> = frames.clone().flat_map(|frame| frame.origin).collect();
+            let turns = continuous(frames.map(|frame| turn(frame.rotation)));
             self.key(node, "translation", &places, 3);
             self.key(node, "rotation", &turns.concat(), 4);
-            nodes.push(node);
+            self.bodies.push(node);
         }
-        nodes
     }
 
-    fn colour(scene: &Value, body: &Value) -> [f64; 4] {
-        let system = body.as_i64().and_then(|index| usize::try_from(index).ok());
-        let system = system.and_then(|index| scene["bodies"][index]["system"].as_u64());
-        system.map_or(OF_VEHICLES, |system| {
-            COLOURS[system as usize % COLOURS.len()]
-        })
+    /// The node of a body: that of the frame is above all others.
+    fn node_of(&self, body: Option<usize>) -> usize {
+        body.map_or(0, |body| self.bodies[body])
     }
 
-    fn ellipsoids(&mut self, scene: &Value, bodies: &[usize]) {
-        for ellipsoid in list(&scene["ellipsoids"]) {
-            let colour = Self::colour(scene, &ellipsoid["body"]);
-            let mesh = self.shape(Shape::Sphere, colour);
-            let turn = numbers(&ellipsoid["turn"]);
+    fn colour(&self, body: Option<usize>) -> [f64; 4] {
+        let system = self.scene.system(body);
+        system.map_or(OF_VEHICLES, |system| COLOURS[system % COLOURS.len()])
+    }
+
+    fn ellipsoids(&mut self) {
+        for ellipsoid in &self.scene.ellipsoids {
+            let body = ellipsoid.center.body;
+            let mesh = self.shape(Shape::Sphere, self.colour(body));
             let node = json!({
                 "mesh": mesh,
-                "translation": ellipsoid["at"],
-                "rotation": unit([turn[1], turn[2], turn[3], turn[0]]),
-                "scale": ellipsoid["semi"],
+                "translation": ellipsoid.center.at,
+                "rotation": turn(ellipsoid.turn),
+                "scale": ellipsoid.semi,
             });
-            self.node(node_of(bodies, &ellipsoid["body"]), node);
+            self.node(self.node_of(body), node);
         }
     }
 
     /// Adds rods within bodies. Rods between two bodies, of sliding joints, are left out.
-    fn bones(&mut self, scene: &Value, bodies: &[usize]) {
-        for bone in list(&scene["bones"]) {
-            if bone[0] != bone[2] {
+    fn bones(&mut self) {
+        for [from, to] in &self.scene.bones {
+            let (turn, length) = along(from.at, to.at);
+            if from.body != to.body || length == 0.0 {
                 continue;
             }
-            let (from, to) = (vector(&bone[1]), vector(&bone[3]));
-            let colour = Self::colour(scene, &bone[0]);
-            let mesh = self.shape(Shape::Rod, colour);
-            let (turn, length) = along(from, to);
-            if length > 0.0 {
-                let scale = [RADII[0], RADII[0], length];
-                let node =
-                    json!({ "mesh": mesh, "translation": from, "rotation": turn, "scale": scale });
-                self.node(node_of(bodies, &bone[0]), node);
-            }
+            let mesh = self.shape(Shape::Rod, self.colour(from.body));
+            let scale = [RADII[0], RADII[0], length];
+            let node =
+                json!({ "mesh": mesh, "translation": from.at, "rotation": turn, "scale": scale });
+            self.node(self.node_of(from.body), node);
         }
     }
 
-    fn planes(&mut self, scene: &Value, bodies: &[usize]) {
-        for plane in list(&scene["planes"]) {
-            let corners: Vec<Vec3> = list(&plane["corners"]).iter().map(vector).collect();
-            let normal = vector(&plane["normal"]);
-            let accessors =
-                self.triangles(&corners, &vec![normal; corners.len()], &[0, 1, 2, 0, 2, 3]);
+    fn planes(&mut self) {
+        for plane in &self.scene.planes {
+            let normals = [plane.normal; 4];
+            let accessors = self.triangles(&plane.corners, &normals, &[0, 1, 2, 0, 2, 3]);
             let mesh = self.mesh(accessors, OF_PLANES);
             self.node(
-                node_of(bodies, &plane["body"]),
+                self.node_of(plane.body),
                 json!({ "name": "plane", "mesh": mesh }),
             );
         }
     }
 
     /// Adds belts, springs and bushings.
-    fn lines(&mut self, scene: &Value) {
-        let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
-        for line in list(&scene["lines"]) {
+    fn lines(&mut self) {
+        let scene = self.scene;
+        let segments = scene.lines.iter();
+        for (line, ends) in segments.flat_map(|l| l.points.windows(2).map(move |ends| (l, ends))) {
             let mesh = self.shape(Shape::Rod, OF_LINES);
-            let node = self.node(0, json!({ "name": line["name"], "mesh": mesh }));
-            let end = |frame: &[f64], end: &Value| place(frame, &end[0], vector(&end[1]));
+            let node = self.node(0, json!({ "name": line.name, "mesh": mesh }));
             let (mut places, mut turns, mut scales) = (Vec::new(), Vec::new(), Vec::new());
-            for frame in &frames {
-                let (from, to) = (end(frame, &line["from"]), end(frame, &line["to"]));
+            for k in 0..scene.times.len() {
+                let [from, to] = [0, 1].map(|end| scene.point(k, ends[end]));
                 let (turn, length) = along(from, to);
                 places.extend(from);
                 turns.push(turn);
@@ -391,48 +386,10 @@ impl File {
     }
 }
 
-fn list(value: &Value) -> &[Value] {
-    value.as_array().map_or(&[], Vec::as_slice)
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    list(value)
-        .iter()
-        .map(|number| number.as_f64().unwrap_or(0.0))
-        .collect()
-}
-
-fn vector(value: &Value) -> Vec3 {
-    let all = numbers(value);
-    std::array::from_fn(|i| all.get(i).copied().unwrap_or(0.0))
-}
-
-/// The node of a body: −1 is the frame, which is the node above all others.
-fn node_of(bodies: &[usize], body: &Value) -> usize {
-    let index = body.as_i64().and_then(|index| usize::try_from(index).ok());
-    index
-        .and_then(|index| bodies.get(index).copied())
-        .unwrap_or(0)
-}
-
-/// The position of a point of a body at an instant.
-fn place(frame: &[f64], body: &Value, at: Vec3) -> Vec3 {
-    let Some(index) = body.as_i64().and_then(|index| usize::try_from(index).ok()) else {
-        return at;
-    };
-    let [x, y, z, w, a, b, c] = std::array::from_fn(|i| frame[7 * index + i]);
-    let u = [a, b, c];
-    let t = cross(u, at).map(|x| 2.0 * x);
-    let v = cross(u, t);
-    std::array::from_fn(|i| [x, y, z][i] + at[i] + w * t[i] + v[i])
-}
-
-fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+/// The rotation of a frame.
+fn turn(rotation: [Vec3; 3]) -> Quaternion {
+    let [w, x, y, z] = quaternion(rotation);
+    [x, y, z, w]
 }
 
 fn unit(q: Quaternion) -> Quaternion {
@@ -442,8 +399,8 @@ fn unit(q: Quaternion) -> Quaternion {
 
 /// The rotation (x, y, z, w) of z into the direction from one point to another, and their distance.
 fn along(from: Vec3, to: Vec3) -> (Quaternion, f64) {
-    let d: Vec3 = std::array::from_fn(|i| to[i] - from[i]);
-    let length = d.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let d = from_to(from, to);
+    let length = length(d);
     if length == 0.0 {
         return ([0.0, 0.0, 0.0, 1.0], 0.0);
     }
@@ -456,8 +413,8 @@ fn along(from: Vec3, to: Vec3) -> (Quaternion, f64) {
 }
 
 /// Unit quaternions with the sign, q or −q, that is closer to the one before: players interpolate along the shorter way.
-fn continuous(turns: Vec<Quaternion>) -> Vec<Quaternion> {
-    let mut all: Vec<Quaternion> = Vec::with_capacity(turns.len());
+fn continuous(turns: impl IntoIterator<Item = Quaternion>) -> Vec<Quaternion> {
+    let mut all: Vec<Quaternion> = Vec::new();
     for turn in turns {
         let turn = unit(turn);
         let far = all.last().is_some_and(|before| {
@@ -510,8 +467,8 @@ fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
 
 #[cfg(test)]
 mod tests {
-    use super::{along, continuous, cross, place, rod, sphere};
-    use serde_json::json;
+    use super::{along, continuous, rod, sphere};
+    use crate::pose::{cross, rotation};
 
     #[test]
     fn a_rod_is_turned_from_one_end_to_the_other() {
@@ -522,8 +479,7 @@ mod tests {
             [0.0, 0.0, 3.0],
         ] {
             let ([a, b, c, w], length) = along([0.0; 3], to);
-            let frame = [0.0, 0.0, 0.0, w, a, b, c];
-            let tip = place(&frame, &json!(0), [0.0, 0.0, length]);
+            let tip = rotation(&[w, a, b, c]).map(|row| length * row[2]);
             assert!(
                 tip.iter().zip(to).all(|(x, y)| (x - y).abs() < 1e-12),
                 "{tip:?} {to:?}"

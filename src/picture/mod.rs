@@ -19,7 +19,8 @@ pub use figure::Figure;
 pub use sheet::{Arrangement, Sheet};
 pub use view::View;
 
-use crate::pose::{Layout, Mismatch, Pose};
+use crate::pose::Mismatch;
+use crate::scene::Scene;
 use bryant_generator::model::Model;
 
 /// Coordinates at one time.
@@ -43,17 +44,7 @@ pub fn draw(
     arrangement: Arrangement,
     view: View,
 ) -> Result<Drawing, Mismatch> {
-    let layout = Layout::new(model, coordinates)?;
-    let poses: Vec<(f64, Pose)> = instants
-        .iter()
-        .filter(|instant| instant.coordinates.iter().all(|q| q.is_finite()))
-        .filter_map(|instant| {
-            let q = &instant.coordinates;
-            let pose = Pose::new(model, &layout, parameters, instant.time, q)?;
-            Some((instant.time, pose))
-        })
-        .collect();
-    let figures = figure::figures(model, parameters, &poses, view);
+    let scene = Scene::new(model, coordinates, parameters, instants, &[])?;
     Ok(Sheet {
         title: match model.title.as_str() {
             "" => model.name.clone(),
@@ -62,7 +53,7 @@ pub fn draw(
         view: view.words(model.dimension),
         axes: view.names(),
         systems: model.systems.iter().map(|s| s.name.clone()).collect(),
-        figures,
+        figures: figure::figures(&scene, view),
         arrangement,
     }
     .drawing())

@@ -317,14 +317,8 @@ fn a_plane_is_drawn_as_far_as_it_extends() {
         });
         let mut instants = lurch(3);
         instants[2].coordinates[0] = 4.0;
-        let layout = crate::pose::Layout::new(&model, &names()).unwrap();
-        let pose = |instant: &Instant| {
-            let q = &instant.coordinates;
-            let pose = crate::pose::Pose::new(&model, &layout, &[], instant.time, q);
-            (instant.time, pose.unwrap())
-        };
-        let poses: Vec<_> = instants.iter().map(pose).collect();
-        let figures = super::figure::figures(&model, &[], &poses, View::Side);
+        let scene = crate::scene::Scene::new(&model, &names(), &[], &instants, &[]).unwrap();
+        let figures = super::figure::figures(&scene, View::Side);
         let width = |figure: &super::Figure| {
             let plane = figure.planes[0];
             assert!((plane.normal[1] - 1.0).abs() < 1e-12);

@@ -16,7 +16,7 @@
 mod scene;
 pub mod study;
 
-pub use scene::{Scene, short, with_forces};
+pub use scene::{json, short};
 
 use serde_json::Value;
 

@@ -8,10 +8,9 @@ use super::super::terminal::Terminal;
 use super::report::kept;
 use crate::accuracy::setting::Setting;
 use crate::animation::{glb, turns};
-use crate::report::Scene;
+use crate::scene::Scene;
 use crate::simulation::{self, Recording};
 use bryant_runtime::program::Job;
-use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, TAU};
 
 /// An animation has at most so many keyframes: 28 bytes for each body.
@@ -40,11 +39,17 @@ pub fn animation(
             false => recording.instants.clone(),
         };
         let parameters = recording.parameters(job);
-        let scene = Scene::new(&found.model, &recording.coordinates, &parameters, &instants);
-        scene.map_err(Error::system).map(|scene| scene.json(&[]))
+        Scene::new(
+            &found.model,
+            &recording.coordinates,
+            &parameters,
+            &instants,
+            &[],
+        )
+        .map_err(Error::system)
     };
     let mut shown = scene(recording, true)?;
-    let rows = shown["times"].as_array().map_or(0, Vec::len);
+    let rows = shown.times.len();
     let span = recording.last_time() - recording.first_time();
     let aimed = |turning: f64| (span * turning / WANTED).ceil() as usize;
     let wanted = aimed(recording.turning);
@@ -94,7 +99,7 @@ fn turns_by_itself(found: &Found) -> bool {
 }
 
 /// The largest angle from one keyframe to the next, as players turn \[rad\].
-fn widest(scene: &Value) -> f64 {
+fn widest(scene: &Scene) -> f64 {
     turns(scene)
         .iter()
         .flatten()
@@ -102,8 +107,8 @@ fn widest(scene: &Value) -> f64 {
 }
 
 /// Whether all bodies turn through the same angle in both scenes.
-fn alike(a: &Value, b: &Value) -> bool {
-    let sums = |scene: &Value| {
+fn alike(a: &Scene, b: &Scene) -> bool {
+    let sums = |scene: &Scene| {
         let mut sums: Vec<f64> = Vec::new();
         for angles in turns(scene) {
             sums.resize(angles.len(), 0.0);

@@ -10,7 +10,8 @@ use super::report::kept;
 use crate::accuracy::setting::Setting;
 use crate::command::parameters::parse_parameters;
 use crate::command::prepare::prepare;
-use crate::report::{Scene, short};
+use crate::report::{self, short};
+use crate::scene::Scene;
 use crate::simulation::{self, Recording};
 use crate::table::Table;
 use bryant_generator::model::Model;
@@ -133,8 +134,14 @@ pub fn run(
     }
     let parameters = second.parameters(&job);
     let instants = kept(&second);
-    let scene = Scene::new(&found.model, &second.coordinates, &parameters, &instants);
-    let scene = scene.map_err(Error::system)?.json(&[]);
+    let scene = Scene::new(
+        &found.model,
+        &second.coordinates,
+        &parameters,
+        &instants,
+        &[],
+    );
+    let scene = report::json(&scene.map_err(Error::system)?);
     let [times, columns @ ..] = second.table.columns.as_slice() else {
         return Ok(Value::Null);
     };

@@ -12,7 +12,8 @@ use crate::accuracy::setting::Setting;
 use crate::balance;
 use crate::picture::Instant;
 use crate::report::study::quoted;
-use crate::report::{Scene, page, short, with_forces};
+use crate::report::{self, page, short};
+use crate::scene::{Scene, with_forces};
 use crate::simulation::{self, Recording};
 use bryant_generator::effect;
 use bryant_runtime::program::{Header, History, Job};
@@ -46,8 +47,14 @@ pub fn html(
             "Forces of belts and contacts are not shown: the run did not come to its end.".into(),
         );
     }
-    let scene = Scene::new(model, &recording.coordinates, &parameters, &instants);
-    let scene = scene.map_err(Error::system)?.json(&forces);
+    let scene = Scene::new(
+        model,
+        &recording.coordinates,
+        &parameters,
+        &instants,
+        &forces,
+    );
+    let scene = report::json(&scene.map_err(Error::system)?);
     let columns = recording.table.columns.iter().map(|column| {
         let values: Vec<Value> = column.values.iter().map(|value| short(*value)).collect();
         json!({ "name": column.name, "unit": column.unit, "values": values })
