@@ -1,11 +1,12 @@
 //! A run as an animation in glTF 2.0: one binary file that Blender, game engines and viewers on the web open.
 //!
 //! Every body is a node with keyframes of its position and its rotation, with less than a quarter turn from one to the next; its ellipsoids, bones and planes are
-//! meshes on nodes below it. A belt or a spring is a rod; keyframes rotate and stretch it from one end to the other. All nodes are below
-//! one node that rotates z up into y up, as glTF requires. Units are metres and seconds.
+//! meshes on nodes below it. A belt or a spring is made of rods; keyframes rotate and stretch each from one end to the other. A belt has its rods in several colours
+//! and widths, by force, one of which is there at a time: the others have the scale 0, by which glTF 2.0 (3.7.3.1) hides nodes. A camera moves with the body that the
+//! view [stays with](Scene::followed). All nodes are below one node that rotates z up into y up, as glTF requires. Units are metres and seconds.
 
-use crate::pose::{Frame, Vec3, quaternion};
-use crate::scene::{Scene, from_to, length};
+use crate::pose::{Frame, Vec3, cross, quaternion};
+use crate::scene::{Kind, Scene, from_to, length};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
@@ -18,8 +19,10 @@ const AROUND: (usize, usize) = (16, 24);
 /// Number of sides of a rod.
 const SIDES: usize = 10;
 
-/// Radius of bones and of belts \[m\].
-const RADII: [f64; 2] = [0.008, 0.01];
+/// Radius of bones, of springs and slack belts, and what the largest force adds to that of a belt \[m\].
+const OF_BONES: f64 = 0.008;
+const THIN: f64 = 0.006;
+const THICK: f64 = 0.008;
 
 /// Colours, safe for the colour-blind: of systems, vehicles, planes, and belts, springs and bushings.
 const COLOURS: [[f64; 4]; 4] = [
@@ -30,7 +33,18 @@ const COLOURS: [[f64; 4]; 4] = [
 ];
 const OF_VEHICLES: [f64; 4] = [0.45, 0.47, 0.5, 1.0];
 const OF_PLANES: [f64; 4] = [0.55, 0.57, 0.6, 0.35];
-const OF_LINES: [f64; 4] = [0.80, 0.37, 0.0, 1.0];
+const OF_SPRINGS: [f64; 4] = [0.20, 0.08, 0.30, 1.0];
+const OF_BAGS: [f64; 4] = [0.11, 0.16, 0.22, 0.3];
+
+/// Colours of a slack belt and of one that pulls with the largest force, and the number of steps between nothing and that force.
+const SLACK: [f64; 4] = [0.32, 0.37, 0.42, 1.0];
+const LEAST: [f64; 4] = [0.79, 0.35, 0.0, 1.0];
+const MOST: [f64; 4] = [0.43, 0.0, 0.014, 1.0];
+const STEPS: usize = 6;
+
+/// The camera sees half this angle above and below its middle, and this many times what has to be seen \[rad\].
+const OPENING: f64 = 0.5;
+const ROOM: f64 = 1.1;
 
 /// The bytes of an animation.
 ///
@@ -46,6 +60,7 @@ pub fn glb(title: &str, scene: &Scene) -> Result<Vec<u8>, String> {
     file.bones();
     file.planes();
     file.lines();
+    file.camera();
     Ok(file.finish())
 }
 
@@ -60,6 +75,13 @@ pub fn turns(scene: &Scene) -> Vec<Vec<f64>> {
         pair[0].iter().zip(&pair[1]).map(angle).collect()
     };
     scene.frames.windows(2).map(between).collect()
+}
+
+/// The accessors of times and scales that show a node and hide it, and whether it is there at first.
+struct Shows {
+    input: usize,
+    output: usize,
+    at_first: bool,
 }
 
 /// A glTF file under construction.
@@ -78,8 +100,8 @@ struct File<'a> {
 
 #[derive(Clone, Copy, PartialEq)]
 enum Shape {
-    /// A sphere of radius 1.
-    Sphere,
+    /// A sphere of radius 1, or a cube with rounded edges: the degree of its equation.
+    Sphere(u32),
     /// A rod of radius 1 along z, from 0 to 1.
     Rod,
 }
@@ -96,6 +118,7 @@ impl<'a> File<'a> {
                 "nodes": [{ "name": title, "rotation": [-half, 0.0, 0.0, half], "children": [] }],
                 "meshes": [],
                 "materials": [],
+                "cameras": [],
                 "accessors": [],
                 "bufferViews": [],
                 "animations": [{ "name": "run", "channels": [], "samplers": [] }],
@@ -202,7 +225,12 @@ impl<'a> File<'a> {
         ]
     }
 
-    fn mesh(&mut self, [places, normals, indices]: [usize; 3], colour: [f64; 4]) -> usize {
+    fn mesh(
+        &mut self,
+        name: &str,
+        [places, normals, indices]: [usize; 3],
+        colour: [f64; 4],
+    ) -> usize {
         let mut material = json!({
             "pbrMetallicRoughness": { "baseColorFactor": colour, "metallicFactor": 0.0, "roughnessFactor": 0.8 },
             "doubleSided": true,
@@ -223,7 +251,7 @@ impl<'a> File<'a> {
             "indices": indices,
             "material": material,
         });
-        self.add("meshes", json!({ "primitives": [primitive] }))
+        self.add("meshes", json!({ "name": name, "primitives": [primitive] }))
     }
 
     /// The mesh of a shape in a colour; each is made once.
@@ -240,7 +268,7 @@ impl<'a> File<'a> {
             Some(accessors) => accessors,
             None => {
                 let (places, normals, indices) = match shape {
-                    Shape::Sphere => sphere(),
+                    Shape::Sphere(degree) => sphere(degree),
                     Shape::Rod => rod(),
                 };
                 let accessors = self.triangles(&places, &normals, &indices);
@@ -248,17 +276,26 @@ impl<'a> File<'a> {
                 accessors
             }
         };
-        let mesh = self.mesh(accessors, colour);
+        let name = match shape {
+            Shape::Sphere(2) => "ellipsoid",
+            Shape::Sphere(_) => "rounded box",
+            Shape::Rod => "rod",
+        };
+        let mesh = self.mesh(name, accessors, colour);
         self.meshes.push((shape, colour, mesh));
         mesh
     }
 
-    /// Adds keyframes of a node. The first is also where the node rests: what shows the file without playing it shows the start.
+    /// Adds keyframes of a node at all times. The first is also where the node rests: what shows the file without playing it shows the start.
     fn key(&mut self, node: usize, path: &str, values: &[f64], width: usize) {
         debug_assert_eq!(values.len(), width * self.scene.times.len());
         self.list("nodes")[node][path] = json!(values[..width]);
         let output = self.floats(values, width, None);
-        let sampler = json!({ "input": self.times, "output": output, "interpolation": "LINEAR" });
+        self.channel(node, path, (self.times, output, "LINEAR"));
+    }
+
+    fn channel(&mut self, node: usize, path: &str, (input, output, how): (usize, usize, &str)) {
+        let sampler = json!({ "input": input, "output": output, "interpolation": how });
         let channel = json!({ "node": node, "path": path });
         let animation = &mut self.json["animations"][0];
         let mut push = |key: &str, value: Value| match &mut animation[key] {
@@ -299,28 +336,47 @@ impl<'a> File<'a> {
     fn ellipsoids(&mut self) {
         for ellipsoid in &self.scene.ellipsoids {
             let body = ellipsoid.center.body;
-            let mesh = self.shape(Shape::Sphere, self.colour(body));
+            let (what, colour) = match ellipsoid.fill {
+                Some(_) => ("bag", OF_BAGS),
+                None => ("ellipsoid", self.colour(body)),
+            };
+            let mesh = self.shape(Shape::Sphere(ellipsoid.degree), colour);
             let node = json!({
+                "name": self.part(body, what),
                 "mesh": mesh,
                 "translation": ellipsoid.center.at,
                 "rotation": turn(ellipsoid.turn),
                 "scale": ellipsoid.semi,
             });
-            self.node(self.node_of(body), node);
+            let node = self.node(self.node_of(body), node);
+            if ellipsoid.fill.as_ref().is_some_and(|fill| !fill.is_empty()) {
+                let sizes = (0..self.scene.times.len()).flat_map(|k| {
+                    let size = ellipsoid.size(k);
+                    ellipsoid.semi.map(|semi| size * semi)
+                });
+                self.key(node, "scale", &sizes.collect::<Vec<_>>(), 3);
+            }
         }
     }
 
-    /// Adds rods within bodies. Rods between two bodies, of sliding joints, are left out.
+    /// Adds rods within bodies that have no ellipsoid. Rods between two bodies, of sliding joints, are left out.
     fn bones(&mut self) {
-        for [from, to] in &self.scene.bones {
+        let scene = self.scene;
+        let is_round = |body| scene.ellipsoids.iter().any(|e| e.center.body == body);
+        for [from, to] in &scene.bones {
             let (turn, length) = along(from.at, to.at);
-            if from.body != to.body || length == 0.0 {
+            if from.body != to.body || length == 0.0 || is_round(from.body) {
                 continue;
             }
             let mesh = self.shape(Shape::Rod, self.colour(from.body));
-            let scale = [RADII[0], RADII[0], length];
-            let node =
-                json!({ "mesh": mesh, "translation": from.at, "rotation": turn, "scale": scale });
+            let scale = [OF_BONES, OF_BONES, length];
+            let node = json!({
+                "name": self.part(from.body, "bone"),
+                "mesh": mesh,
+                "translation": from.at,
+                "rotation": turn,
+                "scale": scale,
+            });
             self.node(self.node_of(from.body), node);
         }
     }
@@ -329,32 +385,155 @@ impl<'a> File<'a> {
         for plane in &self.scene.planes {
             let normals = [plane.normal; 4];
             let accessors = self.triangles(&plane.corners, &normals, &[0, 1, 2, 0, 2, 3]);
-            let mesh = self.mesh(accessors, OF_PLANES);
-            self.node(
-                self.node_of(plane.body),
-                json!({ "name": "plane", "mesh": mesh }),
-            );
+            let name = format!("{} plane", plane.name);
+            let mesh = self.mesh(&name, accessors, OF_PLANES);
+            let node = json!({ "name": name, "mesh": mesh });
+            self.node(self.node_of(plane.body), node);
         }
     }
 
-    /// Adds belts, springs and bushings.
+    /// The name of a part of a body.
+    fn part(&self, body: Option<usize>, what: &str) -> String {
+        match body {
+            Some(body) => format!("{} {what}", self.scene.bodies[body].name),
+            None => format!("frame {what}"),
+        }
+    }
+
+    /// Adds belts, springs and bushings: a node for each segment, below it a node for each rod.
     fn lines(&mut self) {
         let scene = self.scene;
-        let segments = scene.lines.iter();
-        for (line, ends) in segments.flat_map(|l| l.points.windows(2).map(move |ends| (l, ends))) {
-            let mesh = self.shape(Shape::Rod, OF_LINES);
-            let node = self.node(0, json!({ "name": line.name, "mesh": mesh }));
-            let (mut places, mut turns, mut scales) = (Vec::new(), Vec::new(), Vec::new());
-            for k in 0..scene.times.len() {
-                let [from, to] = [0, 1].map(|end| scene.point(k, ends[end]));
-                let (turn, length) = along(from, to);
-                places.extend(from);
-                turns.push(turn);
-                scales.extend([RADII[1], RADII[1], length.max(1e-6)]);
+        let belts = scene.lines.iter().filter(|line| line.kind == Kind::Belt);
+        let pulls = belts.flat_map(|belt| belt.pulls.iter().flatten());
+        let largest = pulls.fold(0.0, |most: f64, pull| pull.max(most));
+        for line in &scene.lines {
+            for segment in 0..line.points.len() - 1 {
+                let name = match line.points.len() {
+                    2 => line.name.clone(),
+                    _ => format!("{}, segment {}", line.name, segment + 1),
+                };
+                let steps: Vec<usize> = match (line.kind, line.pulls.get(segment)) {
+                    (Kind::Belt, Some(pulls)) => {
+                        let step = |pull: &f64| (pull / largest * STEPS as f64).ceil() as usize;
+                        pulls.iter().map(step).collect()
+                    }
+                    _ => vec![0; scene.times.len()],
+                };
+                let looks = self.looks(line.kind, &steps);
+                let paths = (0..scene.times.len()).map(|k| scene.path(k, line, segment));
+                let paths: Vec<Vec<Vec3>> = paths.collect();
+                let node = self.node(0, json!({ "name": name }));
+                for piece in 0..paths[0].len() - 1 {
+                    let ends = paths.iter().map(|path| [path[piece], path[piece + 1]]);
+                    self.rod(node, &name, &ends.collect::<Vec<_>>(), &looks);
+                }
             }
-            self.key(node, "translation", &places, 3);
-            self.key(node, "rotation", &continuous(turns).concat(), 4);
-            self.key(node, "scale", &scales, 3);
+        }
+    }
+
+    /// The looks of a line that is at these steps of force: mesh and radius of each, and the times and scales by which it is there.
+    fn looks(&mut self, kind: Kind, steps: &[usize]) -> Vec<(usize, f64, Option<Shows>)> {
+        if kind != Kind::Belt {
+            return vec![(self.shape(Shape::Rod, OF_SPRINGS), THIN, None)];
+        }
+        let mut used = steps.to_vec();
+        used.sort_unstable();
+        used.dedup();
+        let look = |step: usize| {
+            let part = step as f64 / STEPS as f64;
+            let colour = match step {
+                0 => SLACK,
+                _ => std::array::from_fn(|i| LEAST[i] + part * (MOST[i] - LEAST[i])),
+            };
+            let mesh = self.shape(Shape::Rod, colour);
+            let shows = (used.len() > 1).then(|| self.shows(steps, step));
+            (mesh, THIN + part * THICK, shows)
+        };
+        used.iter().copied().map(look).collect()
+    }
+
+    /// When a step of force is there: keyframes where that changes.
+    fn shows(&mut self, steps: &[usize], step: usize) -> Shows {
+        let there = |k: usize| steps[k] == step;
+        let changes = (0..steps.len()).filter(|&k| k == 0 || there(k) != there(k - 1));
+        let (mut times, mut scales) = (Vec::new(), Vec::new());
+        for k in changes {
+            times.push(self.scene.times[k] - self.scene.times[0]);
+            scales.extend([f64::from(u8::from(there(k))); 3]);
+        }
+        Shows {
+            input: self.floats(&times, 1, None),
+            output: self.floats(&scales, 3, None),
+            at_first: there(0),
+        }
+    }
+
+    /// Adds a rod with its ends at all times, in all its looks.
+    fn rod(
+        &mut self,
+        parent: usize,
+        name: &str,
+        ends: &[[Vec3; 2]],
+        looks: &[(usize, f64, Option<Shows>)],
+    ) {
+        let rods: Vec<(Quaternion, f64)> = ends.iter().map(|[a, b]| along(*a, *b)).collect();
+        let places: Vec<f64> = ends.iter().flat_map(|[from, _]| *from).collect();
+        let scales = rods
+            .iter()
+            .flat_map(|(_, length)| [1.0, 1.0, length.max(1e-6)]);
+        let node = self.node(parent, json!({ "name": format!("{name} rod") }));
+        self.key(node, "translation", &places, 3);
+        let turns = continuous(rods.iter().map(|(turn, _)| *turn));
+        self.key(node, "rotation", &turns.concat(), 4);
+        self.key(node, "scale", &scales.collect::<Vec<_>>(), 3);
+        for (mesh, radius, shows) in looks {
+            let wide = json!({ "mesh": mesh, "scale": [radius, radius, 1.0] });
+            let Some(shows) = shows else {
+                self.node(node, wide);
+                continue;
+            };
+            let size = f64::from(u8::from(shows.at_first));
+            let switch = self.node(node, json!({ "scale": [size, size, size] }));
+            self.channel(switch, "scale", (shows.input, shows.output, "STEP"));
+            self.node(switch, wide);
+        }
+    }
+
+    /// Adds a camera that sees the whole motion, and stays with what the view stays with.
+    fn camera(&mut self) {
+        let scene = self.scene;
+        let followed = scene.followed();
+        let [low, high] = scene.around(followed);
+        let [right, up] = scene.view().axes();
+        let back = cross(right, up);
+        let extent = |axis: Vec3| {
+            (0..3)
+                .map(|i| axis[i].abs() * (high[i] - low[i]))
+                .sum::<f64>()
+        };
+        let seen = ROOM * 0.5 * extent(up).max(extent(right)).max(0.1);
+        let away = seen / libm::tan(OPENING / 2.0) + 0.5 * extent(back);
+        let middle: Vec3 = std::array::from_fn(|i| 0.5 * (low[i] + high[i]) + away * back[i]);
+        let camera = self.add(
+            "cameras",
+            json!({
+                "name": scene.view().name(),
+                "type": "perspective",
+                "perspective": { "yfov": OPENING, "znear": 0.01 * away, "zfar": 100.0 * away },
+            }),
+        );
+        // the camera looks along its −z, with y upwards
+        let rows = std::array::from_fn(|i| [right[i], up[i], back[i]]);
+        let node = json!({ "name": "camera", "camera": camera, "rotation": turn(rows) });
+        let node = self.node(0, node);
+        let places = (0..scene.times.len()).flat_map(|k| {
+            let travel = scene.travel(k, followed);
+            [0, 1, 2].map(|i| middle[i] + travel[i])
+        });
+        let places: Vec<f64> = places.collect();
+        match followed {
+            Some(_) => self.key(node, "translation", &places, 3),
+            None => self.list("nodes")[node]["translation"] = json!(places[..3]),
         }
     }
 
@@ -426,15 +605,26 @@ fn continuous(turns: impl IntoIterator<Item = Quaternion>) -> Vec<Quaternion> {
     all
 }
 
-/// Positions, normals and triangles of a sphere.
-fn sphere() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
+/// Positions, normals and triangles of Σ |x_i|ⁿ = 1, a sphere if n is 2.
+fn sphere(degree: u32) -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
     let (rings, sides) = AROUND;
-    let mut places = Vec::new();
+    let n = f64::from(degree);
+    let power = |x: f64, to: f64| libm::pow(x.abs(), to).copysign(x);
+    let (mut places, mut normals) = (Vec::new(), Vec::new());
     for i in 0..=rings {
         let (sine, cosine) = libm::sincos(PI * i as f64 / rings as f64);
         for j in 0..=sides {
             let (y, x) = libm::sincos(TAU * j as f64 / sides as f64);
-            places.push([sine * x, sine * y, cosine]);
+            let on_sphere = [sine * x, sine * y, cosine];
+            if degree == 2 {
+                places.push(on_sphere);
+                normals.push(on_sphere);
+                continue;
+            }
+            let place = on_sphere.map(|x| power(x, 2.0 / n));
+            let normal = place.map(|x| power(x, n - 1.0));
+            places.push(place);
+            normals.push(normal.map(|x| x / length(normal)));
         }
     }
     let mut indices = Vec::new();
@@ -445,7 +635,7 @@ fn sphere() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
             indices.extend([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
         }
     }
-    (places.clone(), places, indices)
+    (places, normals, indices)
 }
 
 /// Positions, normals and triangles of a rod, without its ends.
@@ -496,7 +686,7 @@ mod tests {
     /// Triangles are counter-clockwise about their normals.
     #[test]
     fn meshes_look_outward() {
-        for (places, normals, indices) in [sphere(), rod()] {
+        for (places, normals, indices) in [sphere(2), sphere(8), rod()] {
             for three in indices.chunks(3) {
                 let [a, b, c] = [0, 1, 2].map(|k| places[usize::from(three[k])]);
                 let sides = [b, c].map(|p| std::array::from_fn(|i| p[i] - a[i]));

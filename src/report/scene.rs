@@ -36,7 +36,9 @@ pub fn json(scene: &Scene) -> Value {
         }).collect::<Vec<_>>(),
         "ellipsoids": scene.ellipsoids.iter().map(ellipsoid).collect::<Vec<_>>(),
         "planes": scene.planes.iter().map(plane).collect::<Vec<_>>(),
-        "lines": scene.lines.iter().flat_map(segments).collect::<Vec<_>>(),
+        "lines": scene.lines.iter().flat_map(|line| segments(scene, line)).collect::<Vec<_>>(),
+        "follow": index(scene.followed()),
+        "view": scene.view().name(),
         "pushes": scene.pushes.iter().map(|all| all.iter().map(push).collect::<Value>()).collect::<Vec<_>>(),
     })
 }
@@ -59,6 +61,9 @@ fn ellipsoid(ellipsoid: &Ellipsoid) -> Value {
         "turn": quaternion(ellipsoid.turn).map(short),
         "semi": vector(ellipsoid.semi),
         "degree": ellipsoid.degree,
+        "size": ellipsoid.fill.as_ref().map(|fill| {
+            (0..fill.len()).map(|k| short(ellipsoid.size(k))).collect::<Vec<_>>()
+        }),
     })
 }
 
@@ -70,8 +75,8 @@ fn plane(plane: &Plane) -> Value {
     })
 }
 
-/// The segments of a line: both ends, and the force at each time, positive where it pulls.
-fn segments(line: &Line) -> Vec<Value> {
+/// The segments of a line: both ends, the force at each time, positive where it pulls, and at each time the points between the ends, if there are any.
+fn segments(scene: &Scene, line: &Line) -> Vec<Value> {
     let kind = match line.kind {
         Kind::Belt => "belt",
         Kind::Spring => "spring",
@@ -85,10 +90,28 @@ fn segments(line: &Line) -> Vec<Value> {
             "kind": kind,
             "from": place(&ends[0]),
             "to": place(&ends[1]),
+            "way": between(scene, line, i),
             "force": pulls.map(|pull| short(*pull)).collect::<Vec<_>>(),
         })
     };
     line.points.windows(2).enumerate().map(segment).collect()
+}
+
+/// The points between the ends of a segment, to 0.1 mm.
+fn between(scene: &Scene, line: &Line, segment: usize) -> Value {
+    let at = |k| {
+        let path = scene.path(k, line, segment);
+        let between = path[1..path.len() - 1].as_flattened();
+        between
+            .iter()
+            .map(|x| json!((x * 1e4).round() / 1e4))
+            .collect::<Vec<_>>()
+    };
+    let all: Vec<Vec<Value>> = (0..scene.times.len()).map(at).collect();
+    match all.first() {
+        Some(first) if !first.is_empty() => json!(all),
+        _ => Value::Null,
+    }
 }
 
 /// Index of the force, point, and the force on the body.

@@ -2,13 +2,16 @@
 //! What a law looks like is said by the law ([`Outputs::looks`](bryant_generator::law::Outputs::looks)).
 
 mod bones;
+mod camera;
 mod planes;
+mod route;
 
 use crate::picture::Instant;
 use crate::pose::{Frame, Layout, Mismatch, Numbers, Pose, Vec3, bryant_rotation, dot};
 use bryant_generator::law::{self, Look, Round};
 use bryant_generator::model::{
-    Attachment, BeltLength, Body, Dimension, ElementId, Model, Number, Output, Quantity,
+    Active, Attachment, BeltLength, Body, Dimension, ElementId, Force, Model, Number, Output,
+    Quantity, Reference,
 };
 use planes::Planes;
 
@@ -48,6 +51,8 @@ pub struct Named {
     pub name: String,
     /// The index of its system; `None` for a vehicle.
     pub system: Option<usize>,
+    /// The body that carries it, a vehicle among them.
+    pub parent: Option<usize>,
 }
 
 /// A point of a body; without a body, of the absolute frame.
@@ -77,6 +82,8 @@ pub struct Ellipsoid {
 /// A piece of a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
+    /// Name of the first force of it.
+    pub name: String,
     /// The body that carries it.
     pub body: Option<usize>,
     /// In order around it, local frame \[m\].
@@ -109,6 +116,8 @@ pub struct Line {
     pub length: Option<f64>,
     /// By segment and time, the force \[N\]; empty where forces are not known.
     pub pulls: Vec<Vec<f64>>,
+    /// Of a belt in space, by segment and time: points on the way over the bodies that it is on, as many at all times.
+    ways: Vec<Vec<Vec<Vec3>>>,
 }
 
 /// A force on a body.
@@ -143,6 +152,21 @@ pub fn with_forces(model: &Model) -> Model {
         }
     }
     model
+}
+
+/// Whether a scene without forces does not show how full bags are, or which belts are taut: those whose untensioned length changes, or that act at times.
+pub fn needs_forces(model: &Model) -> bool {
+    let changes = |force: &Force| {
+        force.kind.looks().into_iter().any(|look| match look {
+            Look::Bag(..) => true,
+            Look::Line(law::Line::Belt(belt), _) => {
+                let pays_out = belt.retractor.is_some() || belt.limiter.is_some();
+                pays_out || belt.pretensioner.is_some() || force.active != Active::default()
+            }
+            _ => false,
+        })
+    };
+    model.forces.iter().any(changes)
 }
 
 /// The columns that [`with_forces`] adds, read one after the other: each has a value for each time.
@@ -210,11 +234,19 @@ impl<'a> Bodies<'a> {
                 Named {
                     name: format!("{}/{}", of.name, of.elements[element].name),
                     system: Some(system),
+                    parent: match (of.elements[element].parent, &of.reference) {
+                        (Some(parent), _) => Some(self.first[system] + parent),
+                        (None, Reference::Riding { vehicle, .. }) => {
+                            self.index(Body::Vehicle(*vehicle))
+                        }
+                        (None, _) => None,
+                    },
                 }
             }
             Body::Vehicle(index) => Named {
                 name: self.model.vehicles[index].name.clone(),
                 system: None,
+                parent: None,
             },
             Body::Frame => unreachable!("it is no body of the list"),
         };
@@ -298,8 +330,18 @@ impl Scene {
         })
     }
 
-    /// Whether a belt is taut at a time.
-    pub fn taut(&self, k: usize, line: &Line) -> bool {
+    /// The points of a segment of a line at a time: both ends, and those between them by which it goes over bodies.
+    pub fn path(&self, k: usize, line: &Line, segment: usize) -> Vec<Vec3> {
+        let [from, to] = [0, 1].map(|end| self.point(k, line.points[segment + end]));
+        let between = line.ways[segment].get(k).into_iter().flatten().copied();
+        std::iter::once(from).chain(between).chain([to]).collect()
+    }
+
+    /// Whether a segment of a belt is taut at a time: by its force, or by the untensioned length at the start where forces are not known.
+    pub fn taut(&self, k: usize, line: &Line, segment: usize) -> bool {
+        if let Some(pulls) = line.pulls.get(segment) {
+            return pulls[k] > 0.0;
+        }
         let points: Vec<Vec3> = line.points.iter().map(|p| self.point(k, *p)).collect();
         line.length.is_none_or(|length| way(&points) > length)
     }
@@ -334,7 +376,13 @@ impl Builder<'_> {
                         self.ellipsoid(round, Some(volume));
                     }
                     Look::Plane(plane, round) => {
-                        planes.add(plane, round, &self.bodies, self.numbers, self.scene);
+                        planes.add(
+                            &force.name,
+                            (plane, round),
+                            &self.bodies,
+                            self.numbers,
+                            self.scene,
+                        );
                     }
                     Look::Push(round, plane) => {
                         let normal = plane.map(|plane| {
@@ -358,6 +406,17 @@ impl Builder<'_> {
         self.scene.planes = planes.finish();
         for shown in &model.shown {
             self.ellipsoid(shown.round(), None);
+        }
+        if !self.scene.planar {
+            let scene = &mut *self.scene;
+            let ways = |line: &Line| match line.kind {
+                Kind::Belt => route::ways(scene, &line.points),
+                _ => line.ways.clone(),
+            };
+            let ways: Vec<_> = scene.lines.iter().map(ways).collect();
+            for (line, ways) in scene.lines.iter_mut().zip(ways) {
+                line.ways = ways;
+            }
         }
         self.points();
     }
@@ -426,6 +485,7 @@ impl Builder<'_> {
         scene.lines.push(Line {
             name: name.to_owned(),
             kind,
+            ways: vec![Vec::new(); points.len() - 1],
             points,
             length,
             pulls,

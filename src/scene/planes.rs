@@ -8,6 +8,7 @@ use bryant_generator::model;
 /// A plane whose piece may still grow.
 #[derive(PartialEq)]
 struct Piece {
+    name: String,
     body: Option<usize>,
     /// A point, local frame.
     point: Vec3,
@@ -23,11 +24,11 @@ struct Piece {
 pub struct Planes(Vec<Piece>);
 
 impl Planes {
-    /// Adds a plane that an ellipsoid meets.
+    /// Adds a plane that an ellipsoid meets, of a force of this name.
     pub fn add(
         &mut self,
-        plane: &model::Plane,
-        round: Round<'_>,
+        name: &str,
+        (plane, round): (&model::Plane, Round<'_>),
         bodies: &Bodies<'_>,
         numbers: Numbers<'_>,
         scene: &Scene,
@@ -70,6 +71,7 @@ impl Planes {
                 }
             }
             None => self.0.push(Piece {
+                name: name.to_owned(),
                 body,
                 point,
                 normal,
@@ -92,6 +94,7 @@ impl Piece {
             |a: f64, b: f64| std::array::from_fn(|i| self.point[i] + a * first[i] + b * second[i]);
         let [[a, b], [c, d]] = self.reach;
         Plane {
+            name: self.name,
             body: self.body,
             corners: [corner(a, c), corner(b, c), corner(b, d), corner(a, d)],
             normal: self.normal,

@@ -6,11 +6,11 @@ use super::super::model_argument::Found;
 use super::super::prepare::prepare_model;
 use super::super::terminal::Terminal;
 use super::report::kept;
+use super::shown::Shown;
 use crate::accuracy::setting::Setting;
 use crate::animation::{glb, turns};
 use crate::scene::Scene;
 use crate::simulation::{self, Recording};
-use bryant_runtime::program::Job;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, TAU};
 
 /// An animation has at most so many keyframes: 28 bytes for each body.
@@ -28,38 +28,23 @@ const SAME: f64 = 0.02;
 /// # Errors
 /// The run has fewer than two instants.
 pub fn animation(
-    found: &Found,
-    job: &Job,
+    shown: &Shown<'_>,
     (recording, errors): (&Recording, &ErrorReport),
     terminal: &mut Terminal,
 ) -> Result<Vec<u8>, Error> {
-    let scene = |recording: &Recording, rows: bool| {
-        let instants = match rows {
-            true => kept(recording),
-            false => recording.instants.clone(),
-        };
-        let parameters = recording.parameters(job);
-        Scene::new(
-            &found.model,
-            &recording.coordinates,
-            &parameters,
-            &instants,
-            &[],
-        )
-        .map_err(Error::system)
-    };
-    let mut shown = scene(recording, true)?;
-    let rows = shown.times.len();
+    let Shown { found, job, .. } = *shown;
+    let name = &found.model.name;
+    let at_rows = kept(recording);
+    let rows = at_rows.len();
     let span = recording.last_time() - recording.first_time();
-    let aimed = |turning: f64| (span * turning / WANTED).ceil() as usize;
-    let wanted = aimed(recording.turning);
-    let enough = wanted < rows && widest(&shown) < MOST && turns_by_itself(found);
-    if rows < 2 || enough || recording.result.is_err() {
-        let slow = rows < 2 || wanted < rows && widest(&shown) < MOST;
+    let wanted = (span * recording.turning / WANTED).ceil() as usize;
+    let slow = rows < 2 || wanted < rows && widest(&shown.bare(recording, &at_rows)?) < MOST;
+    if rows < 2 || slow && turns_by_itself(found) || recording.result.is_err() {
         if !slow {
             tell(terminal);
         }
-        return glb(&found.model.name, &shown).map_err(Error::failed);
+        let scene = shown.scene(recording, &at_rows, terminal)?;
+        return glb(name, &scene).map_err(Error::failed);
     }
     let engine = prepare_model(found, &found.model, terminal)?;
     let mut by = errors.setting().unwrap_or(Setting::of(job)).job(job);
@@ -67,20 +52,25 @@ pub fn animation(
     let mut again = |frames: usize| {
         by.every = Some(span / frames as f64);
         let run = simulation::run_with_poses(&*engine, &by, 2 * MOST_KEYFRAMES, &mut |_| {});
-        scene(&run, false)
+        shown.bare(&run, &run.instants).map(|scene| (scene, run))
     };
     let mut frames = wanted.max(rows - 1);
-    let mut told = false;
+    let (mut told, mut last) = (false, None);
     while frames <= MOST_KEYFRAMES && !told {
-        shown = again(frames)?;
-        let closer = again((CLOSER * frames as f64).ceil() as usize)?;
-        told = widest(&shown) < MOST && alike(&shown, &closer);
+        let (scene, run) = again(frames)?;
+        let (closer, _) = again((CLOSER * frames as f64).ceil() as usize)?;
+        told = widest(&scene) < MOST && alike(&scene, &closer);
+        last = Some(run);
         frames *= 2;
     }
     if !told {
         tell(terminal);
     }
-    glb(&found.model.name, &shown).map_err(Error::failed)
+    let scene = match &last {
+        Some(run) => shown.scene(run, &run.instants, terminal)?,
+        None => shown.scene(recording, &at_rows, terminal)?,
+    };
+    glb(name, &scene).map_err(Error::failed)
 }
 
 fn tell(terminal: &mut Terminal) {

@@ -2,21 +2,18 @@
 
 use super::super::Error;
 use super::super::error_report::ErrorReport;
-use super::super::model_argument::Found;
-use super::super::prepare::prepare_model;
 use super::super::terminal::Terminal;
 use super::outcome;
 use super::responses::Responses;
+use super::shown::Shown;
 use super::{Arguments, beside};
-use crate::accuracy::setting::Setting;
 use crate::balance;
 use crate::picture::Instant;
 use crate::report::study::quoted;
 use crate::report::{self, page, short};
-use crate::scene::{Scene, with_forces};
-use crate::simulation::{self, Recording};
+use crate::simulation::Recording;
 use bryant_generator::effect;
-use bryant_runtime::program::{Header, History, Job};
+use bryant_runtime::program::{Header, History};
 use serde_json::{Value, json};
 
 /// A report has at most this many poses: more than one for each picture of a screen in ten seconds.
@@ -31,30 +28,15 @@ pub const MOST_ROWS: f64 = 2e4;
 /// The equations cannot be prepared again for the forces between bodies.
 pub fn html(
     arguments: &Arguments,
-    found: &Found,
-    job: &Job,
+    shown: &Shown<'_>,
     (recording, errors): (&Recording, &ErrorReport),
     (responses, criteria): (&Responses, Option<Value>),
     terminal: &Terminal,
 ) -> Result<String, Error> {
+    let Shown { found, job, .. } = *shown;
     let model = &found.model;
-    let instants = kept(recording);
     let parameters = recording.parameters(job);
-    let forces = forces(found, job, recording, errors, &instants, terminal)?;
-    let mut notes = recording.notes.clone();
-    if forces.is_empty() && recording.result.is_err() {
-        notes.push(
-            "Forces of belts and contacts are not shown: the run did not come to its end.".into(),
-        );
-    }
-    let scene = Scene::new(
-        model,
-        &recording.coordinates,
-        &parameters,
-        &instants,
-        &forces,
-    );
-    let scene = report::json(&scene.map_err(Error::system)?);
+    let scene = shown.scene(recording, &kept(recording), terminal)?;
     let columns = recording.table.columns.iter().map(|column| {
         let values: Vec<Value> = column.values.iter().map(|value| short(*value)).collect();
         json!({ "name": column.name, "unit": column.unit, "values": values })
@@ -85,13 +67,13 @@ pub fn html(
         "digest": recording.header.digest,
         "command": command(arguments),
         "columns": columns.collect::<Vec<_>>(),
-        "scene": scene,
+        "scene": report::json(&scene),
         "responses": told(&responses.json(recording, errors)),
         "criteria": criteria,
         "energy": recording.energy.as_ref().map(|energy| balance::json(&recording.header, energy)),
         "accuracy": accuracy,
         "beyond": errors.check().is_err(),
-        "notes": notes,
+        "notes": recording.notes,
         "doubts": recording.doubts.iter().map(|doubt| &doubt.message).collect::<Vec<_>>(),
         "failure": recording.result.as_ref().err().map(|error| error.message.clone()),
         "report": outcome::report(recording),
@@ -118,55 +100,6 @@ pub(super) fn kept(recording: &Recording) -> Vec<Instant> {
     let kept = recording.instants.iter().enumerate();
     let kept = kept.filter(|(k, _)| k % stride == 0 || *k == last);
     kept.map(|(_, instant)| instant.clone()).collect()
-}
-
-/// The forces between bodies at these instants, a column for each component. The same run is computed again, with outputs for these forces.
-/// `None` if the run did not reach its end, this time or before.
-fn forces(
-    found: &Found,
-    job: &Job,
-    recording: &Recording,
-    errors: &ErrorReport,
-    instants: &[Instant],
-    terminal: &Terminal,
-) -> Result<Vec<Vec<f64>>, Error> {
-    let model = with_forces(&found.model);
-    let own = found.model.outputs.len();
-    if model.outputs.len() == own || recording.result.is_err() {
-        return Ok(Vec::new());
-    }
-    let engine = prepare_model(found, &model, terminal)?;
-    let setting = errors.setting().unwrap_or(Setting::of(job));
-    let mut job = setting.job(job);
-    job.reading = Default::default();
-    let again = simulation::run(&*engine, &job, &mut |_| {});
-    engine.check()?;
-    if again.result.is_err() {
-        return Ok(Vec::new());
-    }
-    // additional outputs do not change steps
-    let bits = |state: &[f64]| {
-        state
-            .iter()
-            .map(|entry| entry.to_bits())
-            .collect::<Vec<_>>()
-    };
-    if bits(&again.last_state) != bits(&recording.last_state) {
-        return Err(Error::system(
-            "the forces of the report are not those of the run\n  help: leave out --report, and tell the authors",
-        ));
-    }
-    let times = &again.table.columns[0].values;
-    let rows: Vec<usize> = instants
-        .iter()
-        .map(|instant| times.partition_point(|t| *t < instant.time))
-        .collect();
-    let columns = again.table.columns[1 + own..].iter();
-    let at_rows = |values: &[f64]| {
-        let value = |row: &usize| values.get(*row).copied().unwrap_or(f64::NAN);
-        rows.iter().map(value).collect()
-    };
-    Ok(columns.map(|column| at_rows(&column.values)).collect())
 }
 
 /// The responses in the form that the page reads.
