@@ -1,13 +1,16 @@
 //! A run as an animation in glTF 2.0: one binary file that Blender, game engines and viewers on the web open.
 //!
 //! Every body is a node with keyframes of its position and its rotation, with less than a quarter turn from one to the next; its ellipsoids, bones and planes are
-//! meshes on nodes below it. A belt or a spring is a rod; keyframes rotate and stretch it from one end to the other. All nodes are below
-//! one node that rotates z up into y up, as glTF requires. Units are metres and seconds.
+//! meshes on nodes below it. A belt or a spring is made of rods; keyframes rotate and stretch each from one end to the other. A belt has its rods in several colours
+//! and widths, by force, one of which is there at a time: the others have the scale 0, by which glTF 2.0 (3.7.3.1) hides nodes. A camera moves with the body that the
+//! view [stays with](Scene::followed). All nodes are below one node that rotates z up into y up, as glTF requires. Units are metres and seconds.
 
+use crate::pose::{Frame, Vec3, cross, quaternion};
+use crate::scene::{Kind, Scene, from_to, length};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
-type Vec3 = [f64; 3];
+/// (x, y, z, w), as glTF has it.
 type Quaternion = [f64; 4];
 
 /// Number of circles of latitude and of longitude on a sphere.
@@ -16,8 +19,10 @@ const AROUND: (usize, usize) = (16, 24);
 /// Number of sides of a rod.
 const SIDES: usize = 10;
 
-/// Radius of bones and of belts \[m\].
-const RADII: [f64; 2] = [0.008, 0.01];
+/// Radius of bones, of springs and slack belts, and what the largest force adds to that of a belt \[m\].
+const OF_BONES: f64 = 0.008;
+const THIN: f64 = 0.006;
+const THICK: f64 = 0.008;
 
 /// Colours, safe for the colour-blind: of systems, vehicles, planes, and belts, springs and bushings.
 const COLOURS: [[f64; 4]; 4] = [
@@ -28,47 +33,66 @@ const COLOURS: [[f64; 4]; 4] = [
 ];
 const OF_VEHICLES: [f64; 4] = [0.45, 0.47, 0.5, 1.0];
 const OF_PLANES: [f64; 4] = [0.55, 0.57, 0.6, 0.35];
-const OF_LINES: [f64; 4] = [0.80, 0.37, 0.0, 1.0];
+const OF_SPRINGS: [f64; 4] = [0.20, 0.08, 0.30, 1.0];
+const OF_BAGS: [f64; 4] = [0.11, 0.16, 0.22, 0.3];
 
-/// The bytes of an animation. `scene` is the value of [`Scene::json`](crate::report::Scene::json).
+/// Colours of a slack belt and of one that pulls with the largest force, and the number of steps between nothing and that force.
+const SLACK: [f64; 4] = [0.32, 0.37, 0.42, 1.0];
+const LEAST: [f64; 4] = [0.79, 0.35, 0.0, 1.0];
+const MOST: [f64; 4] = [0.43, 0.0, 0.014, 1.0];
+const STEPS: usize = 6;
+
+/// The camera sees half this angle above and below its middle, and this many times what has to be seen \[rad\].
+const OPENING: f64 = 0.5;
+const ROOM: f64 = 1.1;
+
+/// The bytes of an animation.
 ///
 /// # Errors
 /// There are fewer than two instants.
-pub fn glb(title: &str, scene: &Value) -> Result<Vec<u8>, String> {
-    let times = numbers(&scene["times"]);
-    if times.len() < 2 {
+pub fn glb(title: &str, scene: &Scene) -> Result<Vec<u8>, String> {
+    if scene.times.len() < 2 {
         return Err("an animation needs at least two instants of the run".into());
     }
-    let mut file = File::new(title, &times);
-    let bodies = file.bodies(scene);
-    file.ellipsoids(scene, &bodies);
-    file.bones(scene, &bodies);
-    file.planes(scene, &bodies);
-    file.lines(scene);
+    let mut file = File::new(title, scene);
+    file.bodies();
+    file.ellipsoids();
+    file.bones();
+    file.planes();
+    file.lines();
+    file.camera();
     Ok(file.finish())
 }
 
 /// By how much each body of a scene turns at least from each instant to the next, instant by instant \[rad\].
-pub fn turns(scene: &Value) -> Vec<Vec<f64>> {
-    let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
-    let between = |pair: &[Vec<f64>]| {
-        let bodies = pair[0].chunks_exact(7).zip(pair[1].chunks_exact(7));
-        let angle = |(a, b): (&[f64], &[f64])| {
-            let [a, b] = [a, b].map(|one| unit([one[4], one[5], one[6], one[3]]));
+pub fn turns(scene: &Scene) -> Vec<Vec<f64>> {
+    let between = |pair: &[Vec<Frame>]| {
+        let angle = |(a, b): (&Frame, &Frame)| {
+            let [a, b] = [a, b].map(|frame| quaternion(frame.rotation));
             let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
             2.0 * libm::acos(product.abs().min(1.0))
         };
-        bodies.map(angle).collect()
+        pair[0].iter().zip(&pair[1]).map(angle).collect()
     };
-    frames.windows(2).map(between).collect()
+    scene.frames.windows(2).map(between).collect()
+}
+
+/// The accessors of times and scales that show a node and hide it, and whether it is there at first.
+struct Shows {
+    input: usize,
+    output: usize,
+    at_first: bool,
 }
 
 /// A glTF file under construction.
-struct File {
+struct File<'a> {
+    scene: &'a Scene,
     json: Value,
     binary: Vec<u8>,
+    /// The accessor of the times.
     times: usize,
-    count: usize,
+    /// The node of each body.
+    bodies: Vec<usize>,
     /// Meshes of unit size with their colours: spheres and rods.
     meshes: Vec<(Shape, [f64; 4], usize)>,
     shapes: Vec<(Shape, [usize; 3])>,
@@ -76,16 +100,17 @@ struct File {
 
 #[derive(Clone, Copy, PartialEq)]
 enum Shape {
-    /// A sphere of radius 1.
-    Sphere,
+    /// A sphere of radius 1, or a cube with rounded edges: the degree of its equation.
+    Sphere(u32),
     /// A rod of radius 1 along z, from 0 to 1.
     Rod,
 }
 
-impl File {
-    fn new(title: &str, times: &[f64]) -> Self {
+impl<'a> File<'a> {
+    fn new(title: &str, scene: &'a Scene) -> Self {
         let half = f64::sqrt(0.5);
         let mut file = File {
+            scene,
             json: json!({
                 "asset": { "version": "2.0", "generator": format!("bryant {}", env!("CARGO_PKG_VERSION")) },
                 "scene": 0,
@@ -93,18 +118,20 @@ impl File {
                 "nodes": [{ "name": title, "rotation": [-half, 0.0, 0.0, half], "children": [] }],
                 "meshes": [],
                 "materials": [],
+                "cameras": [],
                 "accessors": [],
                 "bufferViews": [],
                 "animations": [{ "name": "run", "channels": [], "samplers": [] }],
             }),
             binary: Vec::new(),
             times: 0,
-            count: times.len(),
+            bodies: Vec::new(),
             meshes: Vec::new(),
             shapes: Vec::new(),
         };
         // players expect that times begin at 0
-        let relative: Vec<f64> = times.iter().map(|t| t - times[0]).collect();
+        let times = scene.times.iter();
+        let relative: Vec<f64> = times.map(|t| t - scene.times[0]).collect();
         file.times = file.floats(&relative, 1, None);
         file
     }
@@ -198,7 +225,12 @@ impl File {
         ]
     }
 
-    fn mesh(&mut self, [places, normals, indices]: [usize; 3], colour: [f64; 4]) -> usize {
+    fn mesh(
+        &mut self,
+        name: &str,
+        [places, normals, indices]: [usize; 3],
+        colour: [f64; 4],
+    ) -> usize {
         let mut material = json!({
             "pbrMetallicRoughness": { "baseColorFactor": colour, "metallicFactor": 0.0, "roughnessFactor": 0.8 },
             "doubleSided": true,
@@ -219,7 +251,7 @@ impl File {
             "indices": indices,
             "material": material,
         });
-        self.add("meshes", json!({ "primitives": [primitive] }))
+        self.add("meshes", json!({ "name": name, "primitives": [primitive] }))
     }
 
     /// The mesh of a shape in a colour; each is made once.
@@ -236,7 +268,7 @@ impl File {
             Some(accessors) => accessors,
             None => {
                 let (places, normals, indices) = match shape {
-                    Shape::Sphere => sphere(),
+                    Shape::Sphere(degree) => sphere(degree),
                     Shape::Rod => rod(),
                 };
                 let accessors = self.triangles(&places, &normals, &indices);
@@ -244,17 +276,26 @@ impl File {
                 accessors
             }
         };
-        let mesh = self.mesh(accessors, colour);
+        let name = match shape {
+            Shape::Sphere(2) => "ellipsoid",
+            Shape::Sphere(_) => "rounded box",
+            Shape::Rod => "rod",
+        };
+        let mesh = self.mesh(name, accessors, colour);
         self.meshes.push((shape, colour, mesh));
         mesh
     }
 
-    /// Adds keyframes of a node. The first is also where the node rests: what shows the file without playing it shows the start.
+    /// Adds keyframes of a node at all times. The first is also where the node rests: what shows the file without playing it shows the start.
     fn key(&mut self, node: usize, path: &str, values: &[f64], width: usize) {
-        debug_assert_eq!(values.len(), width * self.count);
+        debug_assert_eq!(values.len(), width * self.scene.times.len());
         self.list("nodes")[node][path] = json!(values[..width]);
         let output = self.floats(values, width, None);
-        let sampler = json!({ "input": self.times, "output": output, "interpolation": "LINEAR" });
+        self.channel(node, path, (self.times, output, "LINEAR"));
+    }
+
+    fn channel(&mut self, node: usize, path: &str, (input, output, how): (usize, usize, &str)) {
+        let sampler = json!({ "input": input, "output": output, "interpolation": how });
         let channel = json!({ "node": node, "path": path });
         let animation = &mut self.json["animations"][0];
         let mut push = |key: &str, value: Value| match &mut animation[key] {
@@ -269,97 +310,230 @@ impl File {
     }
 
     /// Adds a node for each body, with its keyframes.
-    fn bodies(&mut self, scene: &Value) -> Vec<usize> {
-        let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
-        let mut nodes = Vec::new();
-        for (index, body) in list(&scene["bodies"]).iter().enumerate() {
-            let node = self.node(0, json!({ "name": body["name"] }));
-            let at = |frame: &Vec<f64>| frame[7 * index..7 * index + 7].to_vec();
-            let all: Vec<Vec<f64>> = frames.iter().map(at).collect();
-            let places: Vec<f64> = all.iter().flat_map(|one| one[..3].to_vec()).collect();
-            let turns = all.iter().map(|one| [one[4], one[5], one[6], one[3]]);
-            let turns = continuous(turns.collect());
+    fn bodies(&mut self) {
+        let scene = self.scene;
+        for (index, body) in scene.bodies.iter().enumerate() {
+            let node = self.node(0, json!({ "name": body.name }));
+            let frames = scene.frames.iter().map(|all| &all[index]);
+            let places: Vec<f64> = frames.clone().flat_map(|frame| frame.origin).collect();
+            let turns = continuous(frames.map(|frame| turn(frame.rotation)));
             self.key(node, "translation", &places, 3);
             self.key(node, "rotation", &turns.concat(), 4);
-            nodes.push(node);
+            self.bodies.push(node);
         }
-        nodes
     }
 
-    fn colour(scene: &Value, body: &Value) -> [f64; 4] {
-        let system = body.as_i64().and_then(|index| usize::try_from(index).ok());
-        let system = system.and_then(|index| scene["bodies"][index]["system"].as_u64());
-        system.map_or(OF_VEHICLES, |system| {
-            COLOURS[system as usize % COLOURS.len()]
-        })
+    /// The node of a body: that of the frame is above all others.
+    fn node_of(&self, body: Option<usize>) -> usize {
+        body.map_or(0, |body| self.bodies[body])
     }
 
-    fn ellipsoids(&mut self, scene: &Value, bodies: &[usize]) {
-        for ellipsoid in list(&scene["ellipsoids"]) {
-            let colour = Self::colour(scene, &ellipsoid["body"]);
-            let mesh = self.shape(Shape::Sphere, colour);
-            let turn = numbers(&ellipsoid["turn"]);
+    fn colour(&self, body: Option<usize>) -> [f64; 4] {
+        let system = self.scene.system(body);
+        system.map_or(OF_VEHICLES, |system| COLOURS[system % COLOURS.len()])
+    }
+
+    fn ellipsoids(&mut self) {
+        for ellipsoid in &self.scene.ellipsoids {
+            let body = ellipsoid.center.body;
+            let (what, colour) = match ellipsoid.fill {
+                Some(_) => ("bag", OF_BAGS),
+                None => ("ellipsoid", self.colour(body)),
+            };
+            let mesh = self.shape(Shape::Sphere(ellipsoid.degree), colour);
             let node = json!({
+                "name": self.part(body, what),
                 "mesh": mesh,
-                "translation": ellipsoid["at"],
-                "rotation": unit([turn[1], turn[2], turn[3], turn[0]]),
-                "scale": ellipsoid["semi"],
+                "translation": ellipsoid.center.at,
+                "rotation": turn(ellipsoid.turn),
+                "scale": ellipsoid.semi,
             });
-            self.node(node_of(bodies, &ellipsoid["body"]), node);
+            let node = self.node(self.node_of(body), node);
+            if ellipsoid.fill.as_ref().is_some_and(|fill| !fill.is_empty()) {
+                let sizes = (0..self.scene.times.len()).flat_map(|k| {
+                    let size = ellipsoid.size(k);
+                    ellipsoid.semi.map(|semi| size * semi)
+                });
+                self.key(node, "scale", &sizes.collect::<Vec<_>>(), 3);
+            }
         }
     }
 
-    /// Adds rods within bodies. Rods between two bodies, of sliding joints, are left out.
-    fn bones(&mut self, scene: &Value, bodies: &[usize]) {
-        for bone in list(&scene["bones"]) {
-            if bone[0] != bone[2] {
+    /// Adds rods within bodies that have no ellipsoid. Rods between two bodies, of sliding joints, are left out.
+    fn bones(&mut self) {
+        let scene = self.scene;
+        let is_round = |body| scene.ellipsoids.iter().any(|e| e.center.body == body);
+        for [from, to] in &scene.bones {
+            let (turn, length) = along(from.at, to.at);
+            if from.body != to.body || length == 0.0 || is_round(from.body) {
                 continue;
             }
-            let (from, to) = (vector(&bone[1]), vector(&bone[3]));
-            let colour = Self::colour(scene, &bone[0]);
+            let mesh = self.shape(Shape::Rod, self.colour(from.body));
+            let scale = [OF_BONES, OF_BONES, length];
+            let node = json!({
+                "name": self.part(from.body, "bone"),
+                "mesh": mesh,
+                "translation": from.at,
+                "rotation": turn,
+                "scale": scale,
+            });
+            self.node(self.node_of(from.body), node);
+        }
+    }
+
+    fn planes(&mut self) {
+        for plane in &self.scene.planes {
+            let normals = [plane.normal; 4];
+            let accessors = self.triangles(&plane.corners, &normals, &[0, 1, 2, 0, 2, 3]);
+            let name = format!("{} plane", plane.name);
+            let mesh = self.mesh(&name, accessors, OF_PLANES);
+            let node = json!({ "name": name, "mesh": mesh });
+            self.node(self.node_of(plane.body), node);
+        }
+    }
+
+    /// The name of a part of a body.
+    fn part(&self, body: Option<usize>, what: &str) -> String {
+        match body {
+            Some(body) => format!("{} {what}", self.scene.bodies[body].name),
+            None => format!("frame {what}"),
+        }
+    }
+
+    /// Adds belts, springs and bushings: a node for each segment, below it a node for each rod.
+    fn lines(&mut self) {
+        let scene = self.scene;
+        let belts = scene.lines.iter().filter(|line| line.kind == Kind::Belt);
+        let pulls = belts.flat_map(|belt| belt.pulls.iter().flatten());
+        let largest = pulls.fold(0.0, |most: f64, pull| pull.max(most));
+        for line in &scene.lines {
+            for segment in 0..line.points.len() - 1 {
+                let name = match line.points.len() {
+                    2 => line.name.clone(),
+                    _ => format!("{}, segment {}", line.name, segment + 1),
+                };
+                let steps: Vec<usize> = match (line.kind, line.pulls.get(segment)) {
+                    (Kind::Belt, Some(pulls)) => {
+                        let step = |pull: &f64| (pull / largest * STEPS as f64).ceil() as usize;
+                        pulls.iter().map(step).collect()
+                    }
+                    _ => vec![0; scene.times.len()],
+                };
+                let looks = self.looks(line.kind, &steps);
+                let paths = (0..scene.times.len()).map(|k| scene.path(k, line, segment));
+                let paths: Vec<Vec<Vec3>> = paths.collect();
+                let node = self.node(0, json!({ "name": name }));
+                for piece in 0..paths[0].len() - 1 {
+                    let ends = paths.iter().map(|path| [path[piece], path[piece + 1]]);
+                    self.rod(node, &name, &ends.collect::<Vec<_>>(), &looks);
+                }
+            }
+        }
+    }
+
+    /// The looks of a line that is at these steps of force: mesh and radius of each, and the times and scales by which it is there.
+    fn looks(&mut self, kind: Kind, steps: &[usize]) -> Vec<(usize, f64, Option<Shows>)> {
+        if kind != Kind::Belt {
+            return vec![(self.shape(Shape::Rod, OF_SPRINGS), THIN, None)];
+        }
+        let mut used = steps.to_vec();
+        used.sort_unstable();
+        used.dedup();
+        let look = |step: usize| {
+            let part = step as f64 / STEPS as f64;
+            let colour = match step {
+                0 => SLACK,
+                _ => std::array::from_fn(|i| LEAST[i] + part * (MOST[i] - LEAST[i])),
+            };
             let mesh = self.shape(Shape::Rod, colour);
-            let (turn, length) = along(from, to);
-            if length > 0.0 {
-                let scale = [RADII[0], RADII[0], length];
-                let node =
-                    json!({ "mesh": mesh, "translation": from, "rotation": turn, "scale": scale });
-                self.node(node_of(bodies, &bone[0]), node);
-            }
+            let shows = (used.len() > 1).then(|| self.shows(steps, step));
+            (mesh, THIN + part * THICK, shows)
+        };
+        used.iter().copied().map(look).collect()
+    }
+
+    /// When a step of force is there: keyframes where that changes.
+    fn shows(&mut self, steps: &[usize], step: usize) -> Shows {
+        let there = |k: usize| steps[k] == step;
+        let changes = (0..steps.len()).filter(|&k| k == 0 || there(k) != there(k - 1));
+        let (mut times, mut scales) = (Vec::new(), Vec::new());
+        for k in changes {
+            times.push(self.scene.times[k] - self.scene.times[0]);
+            scales.extend([f64::from(u8::from(there(k))); 3]);
+        }
+        Shows {
+            input: self.floats(&times, 1, None),
+            output: self.floats(&scales, 3, None),
+            at_first: there(0),
         }
     }
 
-    fn planes(&mut self, scene: &Value, bodies: &[usize]) {
-        for plane in list(&scene["planes"]) {
-            let corners: Vec<Vec3> = list(&plane["corners"]).iter().map(vector).collect();
-            let normal = vector(&plane["normal"]);
-            let accessors =
-                self.triangles(&corners, &vec![normal; corners.len()], &[0, 1, 2, 0, 2, 3]);
-            let mesh = self.mesh(accessors, OF_PLANES);
-            self.node(
-                node_of(bodies, &plane["body"]),
-                json!({ "name": "plane", "mesh": mesh }),
-            );
+    /// Adds a rod with its ends at all times, in all its looks.
+    fn rod(
+        &mut self,
+        parent: usize,
+        name: &str,
+        ends: &[[Vec3; 2]],
+        looks: &[(usize, f64, Option<Shows>)],
+    ) {
+        let rods: Vec<(Quaternion, f64)> = ends.iter().map(|[a, b]| along(*a, *b)).collect();
+        let places: Vec<f64> = ends.iter().flat_map(|[from, _]| *from).collect();
+        let scales = rods
+            .iter()
+            .flat_map(|(_, length)| [1.0, 1.0, length.max(1e-6)]);
+        let node = self.node(parent, json!({ "name": format!("{name} rod") }));
+        self.key(node, "translation", &places, 3);
+        let turns = continuous(rods.iter().map(|(turn, _)| *turn));
+        self.key(node, "rotation", &turns.concat(), 4);
+        self.key(node, "scale", &scales.collect::<Vec<_>>(), 3);
+        for (mesh, radius, shows) in looks {
+            let wide = json!({ "mesh": mesh, "scale": [radius, radius, 1.0] });
+            let Some(shows) = shows else {
+                self.node(node, wide);
+                continue;
+            };
+            let size = f64::from(u8::from(shows.at_first));
+            let switch = self.node(node, json!({ "scale": [size, size, size] }));
+            self.channel(switch, "scale", (shows.input, shows.output, "STEP"));
+            self.node(switch, wide);
         }
     }
 
-    /// Adds belts, springs and bushings.
-    fn lines(&mut self, scene: &Value) {
-        let frames: Vec<Vec<f64>> = list(&scene["frames"]).iter().map(numbers).collect();
-        for line in list(&scene["lines"]) {
-            let mesh = self.shape(Shape::Rod, OF_LINES);
-            let node = self.node(0, json!({ "name": line["name"], "mesh": mesh }));
-            let end = |frame: &[f64], end: &Value| place(frame, &end[0], vector(&end[1]));
-            let (mut places, mut turns, mut scales) = (Vec::new(), Vec::new(), Vec::new());
-            for frame in &frames {
-                let (from, to) = (end(frame, &line["from"]), end(frame, &line["to"]));
-                let (turn, length) = along(from, to);
-                places.extend(from);
-                turns.push(turn);
-                scales.extend([RADII[1], RADII[1], length.max(1e-6)]);
-            }
-            self.key(node, "translation", &places, 3);
-            self.key(node, "rotation", &continuous(turns).concat(), 4);
-            self.key(node, "scale", &scales, 3);
+    /// Adds a camera that sees the whole motion, and stays with what the view stays with.
+    fn camera(&mut self) {
+        let scene = self.scene;
+        let followed = scene.followed();
+        let [low, high] = scene.around(followed);
+        let [right, up] = scene.view().axes();
+        let back = cross(right, up);
+        let extent = |axis: Vec3| {
+            (0..3)
+                .map(|i| axis[i].abs() * (high[i] - low[i]))
+                .sum::<f64>()
+        };
+        let seen = ROOM * 0.5 * extent(up).max(extent(right)).max(0.1);
+        let away = seen / libm::tan(OPENING / 2.0) + 0.5 * extent(back);
+        let middle: Vec3 = std::array::from_fn(|i| 0.5 * (low[i] + high[i]) + away * back[i]);
+        let camera = self.add(
+            "cameras",
+            json!({
+                "name": scene.view().name(),
+                "type": "perspective",
+                "perspective": { "yfov": OPENING, "znear": 0.01 * away, "zfar": 100.0 * away },
+            }),
+        );
+        // the camera looks along its −z, with y upwards
+        let rows = std::array::from_fn(|i| [right[i], up[i], back[i]]);
+        let node = json!({ "name": "camera", "camera": camera, "rotation": turn(rows) });
+        let node = self.node(0, node);
+        let places = (0..scene.times.len()).flat_map(|k| {
+            let travel = scene.travel(k, followed);
+            [0, 1, 2].map(|i| middle[i] + travel[i])
+        });
+        let places: Vec<f64> = places.collect();
+        match followed {
+            Some(_) => self.key(node, "translation", &places, 3),
+            None => self.list("nodes")[node]["translation"] = json!(places[..3]),
         }
     }
 
@@ -391,48 +565,10 @@ impl File {
     }
 }
 
-fn list(value: &Value) -> &[Value] {
-    value.as_array().map_or(&[], Vec::as_slice)
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    list(value)
-        .iter()
-        .map(|number| number.as_f64().unwrap_or(0.0))
-        .collect()
-}
-
-fn vector(value: &Value) -> Vec3 {
-    let all = numbers(value);
-    std::array::from_fn(|i| all.get(i).copied().unwrap_or(0.0))
-}
-
-/// The node of a body: −1 is the frame, which is the node above all others.
-fn node_of(bodies: &[usize], body: &Value) -> usize {
-    let index = body.as_i64().and_then(|index| usize::try_from(index).ok());
-    index
-        .and_then(|index| bodies.get(index).copied())
-        .unwrap_or(0)
-}
-
-/// The position of a point of a body at an instant.
-fn place(frame: &[f64], body: &Value, at: Vec3) -> Vec3 {
-    let Some(index) = body.as_i64().and_then(|index| usize::try_from(index).ok()) else {
-        return at;
-    };
-    let [x, y, z, w, a, b, c] = std::array::from_fn(|i| frame[7 * index + i]);
-    let u = [a, b, c];
-    let t = cross(u, at).map(|x| 2.0 * x);
-    let v = cross(u, t);
-    std::array::from_fn(|i| [x, y, z][i] + at[i] + w * t[i] + v[i])
-}
-
-fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+/// The rotation of a frame.
+fn turn(rotation: [Vec3; 3]) -> Quaternion {
+    let [w, x, y, z] = quaternion(rotation);
+    [x, y, z, w]
 }
 
 fn unit(q: Quaternion) -> Quaternion {
@@ -442,8 +578,8 @@ fn unit(q: Quaternion) -> Quaternion {
 
 /// The rotation (x, y, z, w) of z into the direction from one point to another, and their distance.
 fn along(from: Vec3, to: Vec3) -> (Quaternion, f64) {
-    let d: Vec3 = std::array::from_fn(|i| to[i] - from[i]);
-    let length = d.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let d = from_to(from, to);
+    let length = length(d);
     if length == 0.0 {
         return ([0.0, 0.0, 0.0, 1.0], 0.0);
     }
@@ -456,8 +592,8 @@ fn along(from: Vec3, to: Vec3) -> (Quaternion, f64) {
 }
 
 /// Unit quaternions with the sign, q or −q, that is closer to the one before: players interpolate along the shorter way.
-fn continuous(turns: Vec<Quaternion>) -> Vec<Quaternion> {
-    let mut all: Vec<Quaternion> = Vec::with_capacity(turns.len());
+fn continuous(turns: impl IntoIterator<Item = Quaternion>) -> Vec<Quaternion> {
+    let mut all: Vec<Quaternion> = Vec::new();
     for turn in turns {
         let turn = unit(turn);
         let far = all.last().is_some_and(|before| {
@@ -469,15 +605,26 @@ fn continuous(turns: Vec<Quaternion>) -> Vec<Quaternion> {
     all
 }
 
-/// Positions, normals and triangles of a sphere.
-fn sphere() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
+/// Positions, normals and triangles of Σ |x_i|ⁿ = 1, a sphere if n is 2.
+fn sphere(degree: u32) -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
     let (rings, sides) = AROUND;
-    let mut places = Vec::new();
+    let n = f64::from(degree);
+    let power = |x: f64, to: f64| libm::pow(x.abs(), to).copysign(x);
+    let (mut places, mut normals) = (Vec::new(), Vec::new());
     for i in 0..=rings {
         let (sine, cosine) = libm::sincos(PI * i as f64 / rings as f64);
         for j in 0..=sides {
             let (y, x) = libm::sincos(TAU * j as f64 / sides as f64);
-            places.push([sine * x, sine * y, cosine]);
+            let on_sphere = [sine * x, sine * y, cosine];
+            if degree == 2 {
+                places.push(on_sphere);
+                normals.push(on_sphere);
+                continue;
+            }
+            let place = on_sphere.map(|x| power(x, 2.0 / n));
+            let normal = place.map(|x| power(x, n - 1.0));
+            places.push(place);
+            normals.push(normal.map(|x| x / length(normal)));
         }
     }
     let mut indices = Vec::new();
@@ -488,7 +635,7 @@ fn sphere() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
             indices.extend([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
         }
     }
-    (places.clone(), places, indices)
+    (places, normals, indices)
 }
 
 /// Positions, normals and triangles of a rod, without its ends.
@@ -510,8 +657,8 @@ fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
 
 #[cfg(test)]
 mod tests {
-    use super::{along, continuous, cross, place, rod, sphere};
-    use serde_json::json;
+    use super::{along, continuous, rod, sphere};
+    use crate::pose::{cross, rotation};
 
     #[test]
     fn a_rod_is_turned_from_one_end_to_the_other() {
@@ -522,8 +669,7 @@ mod tests {
             [0.0, 0.0, 3.0],
         ] {
             let ([a, b, c, w], length) = along([0.0; 3], to);
-            let frame = [0.0, 0.0, 0.0, w, a, b, c];
-            let tip = place(&frame, &json!(0), [0.0, 0.0, length]);
+            let tip = rotation(&[w, a, b, c]).map(|row| length * row[2]);
             assert!(
                 tip.iter().zip(to).all(|(x, y)| (x - y).abs() < 1e-12),
                 "{tip:?} {to:?}"
@@ -540,7 +686,7 @@ mod tests {
     /// Triangles are counter-clockwise about their normals.
     #[test]
     fn meshes_look_outward() {
-        for (places, normals, indices) in [sphere(), rod()] {
+        for (places, normals, indices) in [sphere(2), sphere(8), rod()] {
             for three in indices.chunks(3) {
                 let [a, b, c] = [0, 1, 2].map(|k| places[usize::from(three[k])]);
                 let sides = [b, c].map(|p| std::array::from_fn(|i| p[i] - a[i]));

@@ -24,6 +24,7 @@
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`timing`] | the time of one evaluation |
 //! | [`settling`] | a state of rest |
+//! | [`scene`] | a motion as it is seen: shapes of bodies and forces |
 //! | [`report`] | a run as one page of HTML |
 //! | [`animation`] | the motion of a run in glTF |
 //! | [`criteria`] | injury criteria of a recording beside the limits of regulations |
@@ -85,6 +86,7 @@ pub mod picture;
 pub mod pose;
 pub mod process;
 pub mod report;
+pub mod scene;
 pub mod settling;
 pub mod simulation;
 pub mod stability;

@@ -319,6 +319,15 @@ pub fn dot(a: Vec3, b: Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// a × b
+pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
 /// Rx(φ₁) Ry(φ₂) Rz(φ₃), by rows.
 pub fn bryant_rotation([a, b, c]: Vec3) -> [Vec3; 3] {
     let ((s1, c1), (s2, c2), (s3, c3)) = (libm::sincos(a), libm::sincos(b), libm::sincos(c));
@@ -358,9 +367,49 @@ pub(crate) fn rotation(coordinates: &[f64]) -> [Vec3; 3] {
     }
 }
 
+/// The unit quaternion (w, x, y, z) of a rotation by rows.
+pub fn quaternion(rows: [Vec3; 3]) -> [f64; 4] {
+    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = rows;
+    // four times the square of each component; the code divides by the largest
+    let squares = [
+        1.0 + xx + yy + zz,
+        1.0 + xx - yy - zz,
+        1.0 - xx + yy - zz,
+        1.0 - xx - yy + zz,
+    ];
+    let largest = (0..4).fold(0, |best, k| match squares[k] > squares[best] {
+        true => k,
+        false => best,
+    });
+    let part = 0.5 * squares[largest].max(0.0).sqrt();
+    let by = 0.25 / part;
+    match largest {
+        0 => [part, by * (zy - yz), by * (xz - zx), by * (yx - xy)],
+        1 => [by * (zy - yz), part, by * (xy + yx), by * (xz + zx)],
+        2 => [by * (xz - zx), by * (xy + yx), part, by * (yz + zy)],
+        _ => [by * (yx - xy), by * (xz + zx), by * (yz + zy), part],
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_quaternion_is_the_rotation_it_is_made_of() {
+        for a in [-3.0, -1.6, -0.4, 0.0, 0.9, 2.8] {
+            for b in [-1.5, 0.0, 0.7, 1.5] {
+                for c in [-3.1, 0.0, 1.2, 3.0] {
+                    let rows = bryant_rotation([a, b, c]);
+                    let back = rotation(&quaternion(rows));
+                    for (x, y) in rows.iter().flatten().zip(back.iter().flatten()) {
+                        // a dozen products of numbers up to 1
+                        assert!((x - y).abs() <= 32.0 * f64::EPSILON, "{rows:?} {back:?}");
+                    }
+                }
+            }
+        }
+    }
 
     #[test]
     fn one_angle_turns_x_downwards() {

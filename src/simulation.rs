@@ -197,7 +197,6 @@ struct Recorder {
     stride: usize,
     turning: Turning,
     latest: Option<Instant>,
-    last_state: Vec<f64>,
 }
 
 impl Recorder {
@@ -210,7 +209,6 @@ impl Recorder {
             stride: 1,
             turning,
             latest: None,
-            last_state: Vec::new(),
             without_charts: WithoutCharts::of(&header),
             header,
         }
@@ -220,9 +218,12 @@ impl Recorder {
         let mut instant = self.latest.take().unwrap_or(Instant {
             time: t,
             coordinates: Vec::new(),
+            state: Vec::new(),
         });
         instant.time = t;
         instant.coordinates = self.without_charts.q(state);
+        instant.state.clear();
+        instant.state.extend_from_slice(state);
         if self.times.len().is_multiple_of(self.stride) {
             self.instants.push(instant.clone());
             if self.instants.len() > self.most {
@@ -236,8 +237,6 @@ impl Recorder {
         }
         self.latest = Some(instant);
         self.turning.look_at(state);
-        self.last_state.clear();
-        self.last_state.extend_from_slice(state);
         self.times.push(t);
         for (column, value) in self.outputs.iter_mut().zip(outputs) {
             column.push(*value);
@@ -245,6 +244,7 @@ impl Recorder {
     }
 
     fn finish(mut self, outcome: Outcome, wall: Duration) -> Recording {
+        let last_state = self.latest.as_ref().map(|i| i.state.clone());
         if let Some(latest) = self.latest
             && self.instants.last().is_some_and(|i| i.time < latest.time)
         {
@@ -268,7 +268,7 @@ impl Recorder {
             coordinates: self.without_charts.coordinates,
             instants: self.instants,
             header: self.header,
-            last_state: self.last_state,
+            last_state: last_state.unwrap_or_default(),
             turning: self.turning.fastest,
             result: outcome.result,
             answers: outcome.answers,

@@ -10,7 +10,9 @@ mod report;
 mod responses;
 mod result;
 mod rings;
+mod shown;
 
+use self::shown::Shown;
 use super::Error;
 use super::accuracy::accuracy;
 use super::caution::{self, singular::Near};
@@ -251,9 +253,9 @@ pub struct Arguments {
     figures: u16,
 
     /// Direction from which the picture shows a model in space: side, from the right; front; top, from above; oblique, from the right, the
-    /// front and above
-    #[arg(long, value_name = "VIEW", default_value = "side", value_parser = view())]
-    view: View,
+    /// front and above [default: side, unless the motion is larger from the front or from above]
+    #[arg(long, value_name = "VIEW", value_parser = view())]
+    view: Option<View>,
 
     /// Draw the stick figures on top of each other instead of side by side
     #[arg(long)]
@@ -643,12 +645,13 @@ impl Done<'_> {
             recording,
             ..
         } = *self;
-        let mut written = files.write(arguments, &found.model, job, (recording, &self.table))?;
+        let shown = Shown::new(found, job);
+        let mut written = files.write(arguments, &shown, (recording, &self.table), terminal)?;
         if let Some(path) = &arguments.report {
             let of_run = (recording, &self.table, self.errors);
             let judged = self.verdict.as_ref().map(judged_json);
             let judged = (self.responses, judged);
-            let page = report::html(arguments, found, job, of_run, judged, terminal)?;
+            let page = report::html(arguments, &shown, of_run, judged, terminal)?;
             crate::files::replace(path, |out| out.write_all(page.as_bytes()))
                 .map_err(Error::system)?;
             written.push(path.clone());
@@ -661,7 +664,7 @@ impl Done<'_> {
             written.push(path.clone());
         }
         if let Some(path) = &arguments.animation {
-            let file = animation::animation(found, job, (recording, self.errors), terminal)?;
+            let file = animation::animation(&shown, (recording, self.errors), terminal)?;
             crate::files::replace(path, |out| out.write_all(&file)).map_err(Error::system)?;
             written.push(path.clone());
         }
@@ -700,8 +703,7 @@ impl Done<'_> {
         }
         files.print(
             arguments,
-            &self.found.model,
-            job,
+            &Shown::new(self.found, job),
             (recording, &self.table),
             terminal,
         )?;

@@ -11,7 +11,7 @@ use super::prepare::{Prepared, prepare_model};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::own::{self, Kind};
-use crate::report::with_forces;
+use crate::scene::with_forces;
 use crate::settling::{End, Settled, Wanted, settle};
 use crate::{files, interrupt, quantity, simulation, state_file};
 use bryant_generator::model::{
@@ -348,18 +348,27 @@ impl Watched {
         let own = model.outputs.len();
         let mut watched = with_forces(model);
         let mut forces = Vec::new();
-        for (index, output) in watched.outputs.iter().enumerate().skip(own).step_by(3) {
+        for (index, output) in watched.outputs.iter().enumerate().skip(own) {
+            // y and z stand behind x
+            let is_first = |projection: &Projection| projection.component == Component::X;
             match &output.quantity {
-                Quantity::ForceOn { force, .. } => {
+                Quantity::ForceOn {
+                    force, projection, ..
+                } if is_first(projection) => {
                     forces.push((model.forces[*force].name.clone(), index));
                 }
-                Quantity::ForceOnPoints { force, points, .. } => {
+                Quantity::ForceOnPoints {
+                    force,
+                    points,
+                    projection,
+                } if is_first(projection) => {
                     let name = &model.forces[*force].name;
                     forces.push((format!("{name}, segment {}", points.len()), index));
                 }
                 _ => {}
             }
         }
+        let first_element = watched.outputs.len();
         let mut add = |name: String, body: Body, at: _, what: PointQuantity| {
             watched.outputs.push(Output {
                 name: format!("{name} at rest: {what:?}"),
@@ -376,7 +385,6 @@ impl Watched {
                 channel: None,
             });
         };
-        let first_element = own + 3 * forces.len();
         let (mut elements, mut roots) = (Vec::new(), Vec::new());
         for (s, system) in model.systems.iter().enumerate() {
             for (e, element) in system.elements.iter().enumerate() {

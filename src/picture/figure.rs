@@ -1,11 +1,9 @@
 //! The visible parts of a model at one time, as shapes in the plane of the picture \[m\].
 
 use super::view::View;
-use crate::pose::{Numbers, Pose, Vec3, bryant_rotation, dot};
-use bryant_generator::model::{
-    Against, Attachment, BeltLength, Body, Contact, Element, ElementId, ForceKind, Freedom, Model,
-    Number,
-};
+use crate::pose::Vec3;
+use crate::scene::{self, Ellipsoid, Kind, Place, Scene, from_to, length};
+use std::f64::consts::TAU;
 
 /// A point in the plane of the picture: to the right, upwards \[m\].
 pub type Point = [f64; 2];
@@ -15,6 +13,8 @@ pub type Point = [f64; 2];
 pub struct Figure {
     /// \[s\]
     pub time: f64,
+    /// How far the body has gone that the view moves with \[m\].
+    pub travel: f64,
     /// Elements, as (system, from, to).
     pub bones: Vec<(usize, Point, Point)>,
     /// Joints, as (system, place).
@@ -23,18 +23,47 @@ pub struct Figure {
     pub masses: Vec<(usize, Point)>,
     /// Ellipsoids.
     pub ellipses: Vec<Ellipse>,
+    /// Rounded boxes, as (system of the body that carries it, outline).
+    pub boxes: Vec<(Option<usize>, Vec<Point>)>,
+    /// Bags, as large as their gas.
+    pub bags: Vec<Ellipse>,
     /// Whether some of them are in no contact.
     pub some_meet_nothing: bool,
-    /// Contact planes that are seen edge-on.
+    /// Contact planes that are seen edge-on in all figures.
     pub planes: Vec<Plane>,
-    /// Contact planes that are not seen edge-on: their corners.
+    /// Other contact planes: their corners.
     pub faces: Vec<[Point; 4]>,
     /// Belts.
     pub belts: Vec<Belt>,
+    /// Points of ellipsoids and planes that have to be seen, and how far these reach around them.
+    pub outer: Vec<(Point, f64)>,
     /// Ends of springs.
     pub springs: Vec<[Point; 2]>,
     /// Origins of both frames of bushings.
     pub bushings: Vec<[Point; 2]>,
+}
+
+impl Figure {
+    /// How far anything, or the view, has moved since another figure of the same motion; infinite where a belt has become taut or slack.
+    pub fn change(&self, before: &Figure) -> f64 {
+        let ends = |figure: &Figure| -> Vec<Point> {
+            let bones = figure.bones.iter().flat_map(|(_, from, to)| [*from, *to]);
+            let belts = figure.belts.iter().flat_map(|belt| belt.points.clone());
+            let lines = figure.springs.iter().chain(&figure.bushings).flatten();
+            let bags = figure.bags.iter();
+            let bags = bags.map(|bag| [bag.centre[0] + bag.semi_axes[0], bag.centre[1]]);
+            let outer = figure.outer.iter().map(|(at, _)| *at);
+            let all = bones.chain(belts).chain(lines.copied()).chain(bags);
+            all.chain(outer).collect()
+        };
+        let taut = |figure: &Figure| figure.belts.iter().map(|b| b.taut).collect::<Vec<_>>();
+        if taut(self) != taut(before) {
+            return f64::INFINITY;
+        }
+        let pairs = ends(self).into_iter().zip(ends(before));
+        let moved = pairs.map(|(a, b)| libm::hypot(a[0] - b[0], a[1] - b[1]));
+        moved.fold((self.travel - before.travel).abs(), f64::max)
+    }
 }
 
 /// Outline of an ellipsoid.
@@ -61,437 +90,195 @@ pub struct Plane {
     pub normal: Point,
 }
 
-/// A belt.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A segment of a belt.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Belt {
-    /// One end.
-    pub from: Point,
-    /// The other end.
-    pub to: Point,
+    /// From one end to the other.
+    pub points: Vec<Point>,
     /// False where it is slack.
     pub taut: bool,
-}
-
-/// The figures of several poses of one motion.
-pub fn figures(
-    model: &Model,
-    parameters: &[f64],
-    poses: &[(f64, Pose)],
-    view: View,
-) -> Vec<Figure> {
-    let numbers = Numbers { model, parameters };
-    let surfaces = surfaces(model, numbers, poses);
-    let side = |point: Vec3| view.seen(point);
-    let lengths = belt_lengths(numbers, poses);
-    let figure = |(time, pose): &(f64, Pose)| {
-        let mut figure = Figure {
-            time: *time,
-            some_meet_nothing: !model.shown.is_empty(),
-            ..Figure::default()
-        };
-        for (index, system) in model.systems.iter().enumerate() {
-            for element in 0..system.elements.len() {
-                let id = ElementId {
-                    system: index,
-                    element,
-                };
-                add_element(&mut figure, numbers, pose, id, view);
-            }
-        }
-        add_ellipses(&mut figure, numbers, pose, view);
-        for surface in &surfaces {
-            match surface.seen(pose, view) {
-                Seen::Edge(plane) => figure.planes.push(plane),
-                Seen::Face(corners) => figure.faces.push(corners),
-            }
-        }
-        let belts = belts(model).zip(&lengths);
-        figure.belts = belts
-            .flat_map(|(belt, untensioned)| {
-                let points = belt.points().map(|point| pose.point(&numbers, point));
-                let points: Vec<Vec3> = points.collect();
-                let taut = way(&points) > *untensioned;
-                let segments = points.windows(2).map(|ends| Belt {
-                    from: side(ends[0]),
-                    to: side(ends[1]),
-                    taut,
-                });
-                segments.collect::<Vec<_>>()
-            })
-            .collect();
-        figure.springs = springs(model)
-            .map(|spring| [&spring.from, &spring.to].map(|end| side(pose.point(&numbers, end))))
-            .collect();
-        figure.bushings = bushings(model)
-            .map(|bushing| {
-                [&bushing.from.on, &bushing.to.on].map(|end| side(pose.point(&numbers, end)))
-            })
-            .collect();
-        figure
-    };
-    poses.iter().map(figure).collect()
-}
-
-fn distance([a, b]: [Vec3; 2]) -> f64 {
-    let d: Vec3 = std::array::from_fn(|i| b[i] - a[i]);
-    dot(d, d).sqrt()
-}
-
-/// Length of the line through these points.
-fn way(points: &[Vec3]) -> f64 {
-    let pairs = points.windows(2);
-    pairs.map(|ends| distance([ends[0], ends[1]])).sum()
-}
-
-/// The belts of a model.
-pub fn belts(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Belt> {
-    model.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::Belt(belt) => Some(&**belt),
-        _ => None,
-    })
-}
-
-/// The springs of a model.
-pub fn springs(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Spring> {
-    model.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::Spring(spring) => Some(&**spring),
-        _ => None,
-    })
-}
-
-/// The bushings of a model.
-pub fn bushings(model: &Model) -> impl Iterator<Item = &bryant_generator::model::Bushing> {
-    model.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::Bushing(bushing) => Some(&**bushing),
-        _ => None,
-    })
-}
-
-/// An ellipsoid of a model: its centre, its semi-axes, the angles of these, its degree.
-type Shape<'a> = (&'a Attachment, &'a [Number; 3], &'a [Number; 3], u32);
-
-/// The ellipsoids of a model: those of its contacts, those of its airbags, then those that meet nothing.
-pub fn ellipsoids(model: &Model) -> impl Iterator<Item = Shape<'_>> {
-    let contacts = contacts(model).flat_map(|contact| {
-        let first = (
-            &contact.ellipsoid,
-            &contact.semi_axes,
-            &contact.axes,
-            contact.degree,
-        );
-        let second = match &contact.against {
-            Against::Ellipsoid(second) => {
-                Some((&second.center, &second.semi_axes, &second.axes, 2))
-            }
-            Against::Plane(_) => None,
-        };
-        std::iter::once(first).chain(second)
-    });
-    let airbags = model.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::Airbag(airbag) => Some(airbag),
-        _ => None,
-    });
-    let bags = airbags.flat_map(|airbag| airbag.ellipsoids());
-    let bags = bags.map(|bag| (&bag.center, &bag.semi_axes, &bag.axes, 2));
-    let shown = model.shown.iter().map(|shown| {
-        let round = &shown.round;
-        (&round.center, &round.semi_axes, &round.axes, shown.degree)
-    });
-    contacts.chain(bags).chain(shown)
-}
-
-/// The contacts of a model.
-pub fn contacts(model: &Model) -> impl Iterator<Item = &Contact> {
-    model.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::Contact(contact) => Some(&**contact),
-        _ => None,
-    })
-}
-
-/// Untensioned lengths of the belts, from their positions in the first pose \[m\].
-pub fn belt_lengths(numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<f64> {
-    let Some((_, start)) = poses.first() else {
-        return Vec::new();
-    };
-    let length = |belt: &bryant_generator::model::Belt| {
-        let points = belt.points().map(|point| start.point(&numbers, point));
-        let initial = way(&points.collect::<Vec<_>>());
-        let value = |number: &Number| number.value(numbers.parameters);
-        match &belt.length {
-            BeltLength::Given(length) => value(length),
-            BeltLength::Slack(slack) => initial + value(slack),
-            BeltLength::Pretension(force) => {
-                let curve = &numbers.model.curves[belt.force.curve];
-                let ordinate = value(force) / value(&belt.force.times);
-                let elongation = value(&belt.force.stretch) * curve.inverse(ordinate);
-                initial / (1.0 + elongation)
-            }
-        }
-    };
-    belts(numbers.model).map(length).collect()
-}
-
-/// Lines from the joint of an element to the joints that it carries; an element that carries none is drawn to its end.
-fn add_element(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, id: ElementId, view: View) {
-    let side = |point: Vec3| view.seen(point);
-    let elements = &numbers.model.systems[id.system].elements;
-    let element = &elements[id.element];
-    let frame = pose.frame(id);
-    let origin = side(frame.origin);
-    let mut bone = |local: Vec3| {
-        let end = side(frame.point(local));
-        figure.bones.push((id.system, origin, end));
-    };
-    let children = elements.iter().enumerate();
-    let children = children.filter(|(_, child)| child.parent == Some(id.element));
-    let mut tip = true;
-    // from the places of joints on it to the parts that have slid away from them
-    let mut slides = Vec::new();
-    for (index, child) in children {
-        let at = numbers.vector(&child.at);
-        let slid = pose.frame(ElementId {
-            element: index,
-            ..id
-        });
-        if child.joint.freedoms().iter().any(Freedom::slides) {
-            slides.push((id.system, side(frame.point(at)), side(slid.origin)));
-        }
-        if dot(at, at) > 0.0 {
-            bone(at);
-            tip = false;
-        }
-    }
-    if tip {
-        for end in ends(numbers, element) {
-            bone(end);
-        }
-        let centre = side(frame.point(numbers.vector(&element.cg)));
-        figure.masses.push((id.system, centre));
-    }
-    figure.bones.extend(slides);
-    figure.joints.push((id.system, origin));
-}
-
-/// Ends of an element that carries no other element, in its local frame: the ends of the uniform rod with the same mass and the same
-/// largest moment about the joint; for an element that turns about its centre of gravity, the ends along its axes.
-pub fn ends(numbers: Numbers<'_>, element: &Element) -> Vec<Vec3> {
-    let value = |number: &Number| number.value(numbers.parameters);
-    let cg = numbers.vector(&element.cg);
-    let moments = numbers.vector(&element.inertia);
-    let mass = value(&element.mass);
-    let to_cg = dot(cg, cg).sqrt();
-    let planar = numbers.model.dimension == bryant_generator::model::Dimension::Plane;
-    let largest = if planar {
-        moments[1]
-    } else {
-        moments.into_iter().fold(0.0, f64::max)
-    };
-    // A uniform rod of half-length h has I = m h²/3.
-    let half = (3.0 * largest / mass).max(0.0).sqrt();
-    if to_cg > 0.05 * half {
-        let factor = 1.0 + half.min(to_cg) / to_cg;
-        return vec![cg.map(|c| c * factor)];
-    }
-    let axes = bryant_rotation(numbers.vector(&element.axes));
-    let along =
-        |axis: usize, length: f64| -> Vec3 { std::array::from_fn(|i| axes[i][axis] * length) };
-    if planar {
-        return vec![along(0, half), along(2, half / 2.0)];
-    }
-    let [a, b, c] = moments;
-    // Semi-axes of the homogeneous ellipsoid: a² = 5 (I_y + I_z − I_x) / 2m.
-    let squares = [b + c - a, a + c - b, a + b - c];
-    let semi = squares.map(|s| (2.5 * s / mass).max(0.0).sqrt());
-    (0..3).map(|axis| along(axis, semi[axis])).collect()
-}
-
-/// Draws every ellipsoid once, even if it touches several planes.
-fn add_ellipses(figure: &mut Figure, numbers: Numbers<'_>, pose: &Pose, view: View) {
-    for (center, semi_axes, axes, _) in ellipsoids(numbers.model) {
-        let ellipse = outline(numbers, pose, center, [semi_axes, axes], view);
-        if !figure.ellipses.contains(&ellipse) {
-            figure.ellipses.push(ellipse);
-        }
-    }
-}
-
-/// Outline of an ellipsoid with axes B and semi-axes a: with Q = B diag(a²) Bᵀ, the outline is the ellipse of the block of Q in the
-/// directions of the picture.
-fn outline(
-    numbers: Numbers<'_>,
-    pose: &Pose,
-    center: &Attachment,
-    [semi_axes, axes]: [&[Number; 3]; 2],
-    view: View,
-) -> Ellipse {
-    let body = pose.body(center.on);
-    let own = bryant_rotation(numbers.vector(axes));
-    let semi = numbers.vector(semi_axes);
-    let columns: [Vec3; 3] = std::array::from_fn(|k| {
-        let axis: Vec3 = std::array::from_fn(|i| own[i][k] * semi[k]);
-        body.direction(axis)
-    });
-    let planar = numbers.model.dimension == bryant_generator::model::Dimension::Plane;
-    let seen: &[usize] = if planar { &[0, 2] } else { &[0, 1, 2] };
-    let columns = columns.map(|column| view.seen(column));
-    let entry =
-        |i: usize, j: usize| -> f64 { seen.iter().map(|&k| columns[k][i] * columns[k][j]).sum() };
-    let (xx, xz, zz) = (entry(0, 0), entry(0, 1), entry(1, 1));
-    let (mean, difference) = ((xx + zz) / 2.0, (xx - zz) / 2.0);
-    let radius = libm::hypot(difference, xz);
-    Ellipse {
-        system: system_of(center.on),
-        centre: view.seen(pose.point(&numbers, center)),
-        semi_axes: [(mean + radius).sqrt(), (mean - radius).max(0.0).sqrt()],
-        angle: 0.5 * libm::atan2(xz, difference),
-    }
-}
-
-fn system_of(body: Body) -> Option<usize> {
-    match body {
-        Body::Frame | Body::Vehicle(_) => None,
-        Body::Element(id) => Some(id.system),
-    }
-}
-
-/// A plane with its extent; of a plane without end, the piece near which the ellipsoids come during the motion.
-pub struct Surface {
-    /// The body that carries it.
-    pub on: Body,
-    /// A point, local frame.
-    point: Vec3,
-    /// Normal to the side of the ellipsoids, local frame.
-    pub normal: Vec3,
-    /// Directions in the plane, local frame; the second is not used in a planar model.
-    along: [Vec3; 2],
-    /// Extent of the piece from the point, along these directions.
-    reach: [[f64; 2]; 2],
-}
-
-/// The appearance of a plane.
-enum Seen {
-    /// Its edge.
-    Edge(Plane),
-    /// Its corners.
-    Face([Point; 4]),
 }
 
 /// A plane is seen edge-on if its normal leaves the plane of the picture by at most this sine.
 const EDGE_ON: f64 = 0.02;
 
-/// The planes of a model, each once.
-pub fn surfaces(model: &Model, numbers: Numbers<'_>, poses: &[(f64, Pose)]) -> Vec<Surface> {
-    let planar = model.dimension == bryant_generator::model::Dimension::Plane;
-    let mut surfaces: Vec<Surface> = Vec::new();
-    for contact in contacts(model) {
-        let Some(plane) = contact.against.plane() else {
-            continue;
-        };
-        let point = numbers.vector(&plane.at.at);
-        let Some(normal) = unit(numbers.vector(&plane.normal)) else {
-            continue;
-        };
-        let along = directions(normal, numbers.vector(&plane.tangent));
-        let mut reach = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-        let largest = numbers.vector(&contact.semi_axes);
-        let size = 1.15
-            * if planar {
-                largest[0].max(largest[2])
-            } else {
-                largest.into_iter().fold(0.0, f64::max)
+/// Corners of the outline of a rounded box.
+const CORNERS: usize = 64;
+
+/// The figures of a motion, one for each of its times. They move with the body that the [view stays with](Scene::followed).
+pub fn figures(scene: &Scene, view: View) -> Vec<Figure> {
+    let followed = scene.followed();
+    let at = |k| Projection {
+        scene,
+        k,
+        view,
+        followed,
+    };
+    let times = 0..scene.times.len();
+    // what is an edge in some figures alone is drawn in the same way in all of them
+    let edges = scene.planes.iter().map(|plane| {
+        let mut normals = times.clone().map(|k| at(k).direction(plane));
+        normals.all(|n| libm::hypot(n[0], n[1]) >= (1.0 - EDGE_ON * EDGE_ON).sqrt())
+    });
+    let edges: Vec<bool> = edges.collect();
+    times.clone().map(|k| at(k).figure(&edges)).collect()
+}
+
+/// A scene at one time, seen from one side.
+struct Projection<'a> {
+    scene: &'a Scene,
+    k: usize,
+    view: View,
+    followed: Option<usize>,
+}
+
+impl Projection<'_> {
+    fn figure(&self, edges: &[bool]) -> Figure {
+        let Projection { scene, k, .. } = *self;
+        let system = |place: Place| scene.system(place.body).unwrap_or_default();
+        let bones = scene.bones.iter().map(|[from, to]| {
+            let [a, b] = [from, to].map(|end| self.seen(*end));
+            (system(*from), a, b)
+        });
+        let elements = scene.bodies.iter().enumerate().filter_map(|(body, named)| {
+            let origin = Place {
+                body: Some(body),
+                at: [0.0; 3],
             };
-        for (_, pose) in poses {
-            let body = pose.body(plane.at.on);
-            let centre = pose.point(&numbers, &contact.ellipsoid);
-            let from: Vec3 = std::array::from_fn(|i| centre[i] - body.point(point)[i]);
-            for (reach, along) in reach.iter_mut().zip(along) {
-                let offset = dot(from, body.direction(along));
-                *reach = [reach[0].min(offset - size), reach[1].max(offset + size)];
-            }
-        }
-        if let Some(extent) = &plane.extent {
-            for (reach, half) in reach.iter_mut().zip(&extent.half_lengths) {
-                let half = half.value(numbers.parameters);
-                *reach = [-half, half];
-            }
-        }
-        let same = |s: &&mut Surface| {
-            let extends = plane.extent.is_none() || s.reach == reach;
-            s.on == plane.at.on && s.point == point && s.normal == normal && extends
+            Some((named.system?, self.seen(origin)))
+        });
+        let masses = scene.masses.iter();
+        let mut figure = Figure {
+            time: scene.times[k],
+            travel: length(scene.travel(k, self.followed)),
+            bones: bones.collect(),
+            joints: elements.collect(),
+            masses: masses.map(|at| (system(*at), self.seen(*at))).collect(),
+            some_meet_nothing: scene.some_meet_nothing,
+            ..Figure::default()
         };
-        match surfaces.iter_mut().find(same) {
-            Some(s) => {
-                for (known, new) in s.reach.iter_mut().zip(reach) {
-                    *known = [known[0].min(new[0]), known[1].max(new[1])];
+        // of the frame, past which the view moves, nothing has to be seen
+        let counts = |body: Option<usize>| self.followed.is_none() || body.is_some();
+        for ellipsoid in &scene.ellipsoids {
+            if counts(ellipsoid.center.body) {
+                let ellipse = self.outline(ellipsoid);
+                let reach = ellipse.semi_axes[0];
+                figure.outer.push((ellipse.centre, reach));
+            }
+            if ellipsoid.fill.is_some() {
+                figure.bags.push(self.outline(ellipsoid));
+            } else if ellipsoid.degree > 2 {
+                let system = scene.system(ellipsoid.center.body);
+                figure.boxes.push((system, self.corners(ellipsoid)));
+            } else {
+                figure.ellipses.push(self.outline(ellipsoid));
+            }
+        }
+        for (plane, edge) in scene.planes.iter().zip(edges) {
+            let frame = scene.frame(k, plane.body);
+            let corners = plane.corners.map(|at| self.project(frame.point(at)));
+            if counts(plane.body) {
+                figure.outer.extend(corners.map(|corner| (corner, 0.0)));
+            }
+            match edge {
+                true => figure.planes.push(self.edge(plane, corners)),
+                false => figure.faces.push(corners),
+            }
+        }
+        for line in &scene.lines {
+            for (segment, ends) in line.points.windows(2).enumerate() {
+                let [from, to] = [0, 1].map(|end| self.seen(ends[end]));
+                match line.kind {
+                    Kind::Belt => figure.belts.push(Belt {
+                        points: scene
+                            .path(k, line, segment)
+                            .into_iter()
+                            .map(|point| self.project(point))
+                            .collect(),
+                        taut: scene.taut(k, line, segment),
+                    }),
+                    Kind::Spring => figure.springs.push([from, to]),
+                    Kind::Bushing => figure.bushings.push([from, to]),
                 }
             }
-            None => surfaces.push(Surface {
-                on: plane.at.on,
-                point,
-                normal,
-                along,
-                reach,
-            }),
         }
+        figure
     }
-    surfaces
-}
 
-/// The unit vector in this direction; `None` if there is no direction.
-fn unit(vector: Vec3) -> Option<Vec3> {
-    let length = dot(vector, vector).sqrt();
-    (length > 1e-12).then(|| vector.map(|a| a / length))
-}
+    /// The place of a point in the picture.
+    fn project(&self, point: Vec3) -> Point {
+        let travel = self.scene.travel(self.k, self.followed);
+        self.view.seen(from_to(travel, point))
+    }
 
-/// Two directions in a plane: the tangent, or without a tangent one in x–z, and normal × this.
-fn directions(normal: Vec3, tangent: Vec3) -> [Vec3; 2] {
-    let within = |vector: Vec3| {
-        let out = dot(vector, normal);
-        unit(std::array::from_fn(|i| vector[i] - out * normal[i]))
-    };
-    // a plane whose normal is along y contains x and z
-    let first = within(tangent)
-        .or_else(|| unit([-normal[2], 0.0, normal[0]]))
-        .unwrap_or([1.0, 0.0, 0.0]);
-    let second = [
-        normal[1] * first[2] - normal[2] * first[1],
-        normal[2] * first[0] - normal[0] * first[2],
-        normal[0] * first[1] - normal[1] * first[0],
-    ];
-    [first, second]
-}
+    fn seen(&self, place: Place) -> Point {
+        self.project(self.scene.point(self.k, place))
+    }
 
-impl Surface {
-    /// The corners of the piece, in order around it, local frame.
-    pub fn corners(&self) -> [Vec3; 4] {
-        let corner = |a: f64, b: f64| {
-            std::array::from_fn(|i| self.point[i] + a * self.along[0][i] + b * self.along[1][i])
+    /// The normal of a plane in the picture.
+    fn direction(&self, plane: &scene::Plane) -> Point {
+        let frame = self.scene.frame(self.k, plane.body);
+        self.view.seen(frame.direction(plane.normal))
+    }
+
+    /// The semi-axes of an ellipsoid that are seen.
+    fn axes(&self, ellipsoid: &Ellipsoid) -> Vec<Point> {
+        let axes = self.scene.axes(self.k, ellipsoid);
+        let seen: &[usize] = match self.scene.planar {
+            true => &[0, 2],
+            false => &[0, 1, 2],
         };
-        let [[a, b], [c, d]] = self.reach;
-        [corner(a, c), corner(b, c), corner(b, d), corner(a, d)]
+        seen.iter().map(|&i| self.view.seen(axes[i])).collect()
     }
 
-    /// The piece in one pose.
-    fn seen(&self, pose: &Pose, view: View) -> Seen {
-        let body = pose.body(self.on);
-        let corners = self.corners().map(|local| view.seen(body.point(local)));
-        let normal = view.seen(body.direction(self.normal));
-        let length = libm::hypot(normal[0], normal[1]);
-        if length < (1.0 - EDGE_ON * EDGE_ON).sqrt() {
-            return Seen::Face(corners);
+    /// Outline of an ellipsoid with axes B and semi-axes a: with Q = B diag(a²) Bᵀ, the outline is the ellipse of the block of Q in the
+    /// directions of the picture.
+    fn outline(&self, ellipsoid: &Ellipsoid) -> Ellipse {
+        let axes = self.axes(ellipsoid);
+        let entry = |i: usize, j: usize| -> f64 { axes.iter().map(|axis| axis[i] * axis[j]).sum() };
+        let (xx, xz, zz) = (entry(0, 0), entry(0, 1), entry(1, 1));
+        let (mean, difference) = ((xx + zz) / 2.0, (xx - zz) / 2.0);
+        let radius = libm::hypot(difference, xz);
+        Ellipse {
+            system: self.scene.system(ellipsoid.center.body),
+            centre: self.seen(ellipsoid.center),
+            semi_axes: [(mean + radius).sqrt(), (mean - radius).max(0.0).sqrt()],
+            angle: 0.5 * libm::atan2(xz, difference),
         }
-        let normal = normal.map(|n| n / length);
-        // the corners are on one line: its ends
+    }
+
+    /// Outline of a rounded box of degree n with axes aᵢ: its farthest point in the direction d is Σ aᵢ cᵢ with cᵢ ∝ |aᵢ·d|^(1/(n−1)), Σ |cᵢ|ⁿ = 1.
+    fn corners(&self, ellipsoid: &Ellipsoid) -> Vec<Point> {
+        let axes = self.axes(ellipsoid);
+        let centre = self.seen(ellipsoid.center);
+        let n = f64::from(ellipsoid.degree);
+        let corner = |i: usize| {
+            let (y, x) = libm::sincos(TAU * i as f64 / CORNERS as f64);
+            let along = axes.iter().map(|axis| axis[0] * x + axis[1] * y);
+            let parts: Vec<f64> = along
+                .map(|a| libm::pow(a.abs(), 1.0 / (n - 1.0)).copysign(a))
+                .collect();
+            let sum: f64 = parts.iter().map(|c| libm::pow(c.abs(), n)).sum();
+            let size = libm::pow(sum, -1.0 / n);
+            [0, 1].map(|i| {
+                let far: f64 = axes.iter().zip(&parts).map(|(axis, c)| axis[i] * c).sum();
+                centre[i] + size * far
+            })
+        };
+        (0..=CORNERS).map(corner).collect()
+    }
+
+    /// The edge of a plane whose corners are on one line.
+    fn edge(&self, plane: &scene::Plane, mut corners: [Point; 4]) -> Plane {
+        let normal = self.direction(plane);
+        let size = libm::hypot(normal[0], normal[1]);
+        let normal = normal.map(|n| n / size);
         let place = |corner: &Point| corner[1] * normal[0] - corner[0] * normal[1];
-        let ends = |from: Point, to: &Point| match place(to) > place(&from) {
-            true => [from, *to],
-            false => [*to, from],
-        };
-        let [mut from, mut to] = ends(corners[0], &corners[1]);
-        for corner in &corners[2..] {
-            from = ends(from, corner)[0];
-            to = ends(to, corner)[1];
+        corners.sort_by(|a, b| place(a).total_cmp(&place(b)));
+        Plane {
+            from: corners[0],
+            to: corners[3],
+            normal,
         }
-        Seen::Edge(Plane { from, to, normal })
     }
 }

@@ -19,7 +19,7 @@ pub use figure::Figure;
 pub use sheet::{Arrangement, Sheet};
 pub use view::View;
 
-use crate::pose::{Layout, Mismatch, Pose};
+use crate::scene::Scene;
 use bryant_generator::model::Model;
 
 /// Coordinates at one time.
@@ -29,43 +29,34 @@ pub struct Instant {
     pub time: f64,
     /// q, in the order of the names given with it.
     pub coordinates: Vec<f64>,
+    /// The whole state: q, v, z, m.
+    pub state: Vec<f64>,
 }
 
-/// Draws a model at several times.
-///
-/// `coordinates` are the names of q, `parameters` the values of the run (SI, in the model's order). Instants with coordinates that are not
-/// finite are left out: a failed run is drawn up to its failure.
+/// Draws a motion at those of its times that are in `times`. A figure is left out where little has moved since the one before; the heading of that says until when.
 pub fn draw(
     model: &Model,
-    coordinates: &[String],
-    parameters: &[f64],
-    instants: &[Instant],
+    scene: &Scene,
+    times: &[f64],
     arrangement: Arrangement,
     view: View,
-) -> Result<Drawing, Mismatch> {
-    let layout = Layout::new(model, coordinates)?;
-    let poses: Vec<(f64, Pose)> = instants
-        .iter()
-        .filter(|instant| instant.coordinates.iter().all(|q| q.is_finite()))
-        .filter_map(|instant| {
-            let q = &instant.coordinates;
-            let pose = Pose::new(model, &layout, parameters, instant.time, q)?;
-            Some((instant.time, pose))
-        })
-        .collect();
-    let figures = figure::figures(model, parameters, &poses, view);
-    Ok(Sheet {
-        title: match model.title.as_str() {
+) -> Drawing {
+    let followed = scene.followed().map(|body| &scene.bodies[body].name);
+    let moves = followed.map(|name| format!("the view moves with {name}"));
+    let words = view.words(scene.planar).into_iter().chain(moves);
+    let words: Vec<String> = words.collect();
+    Sheet::new(
+        match model.title.as_str() {
             "" => model.name.clone(),
             title => format!("{} — {title}", model.name),
         },
-        view: view.words(model.dimension),
-        axes: view.names(),
-        systems: model.systems.iter().map(|s| s.name.clone()).collect(),
-        figures,
+        (!words.is_empty()).then(|| words.join(", ")),
+        view.names(),
+        model.systems.iter().map(|s| s.name.clone()).collect(),
+        (figure::figures(scene, view), times),
         arrangement,
-    }
-    .drawing())
+    )
+    .drawing()
 }
 
 /// Times for about `count` figures between `first` and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and both ends. If some of

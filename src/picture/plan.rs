@@ -44,13 +44,12 @@ impl Window {
                 include(*to, 0.0);
             }
             figure.joints.iter().for_each(|(_, at)| include(*at, 0.0));
-            for ellipse in &figure.ellipses {
-                include(ellipse.centre, ellipse.semi_axes[0]);
-            }
-            for belt in &figure.belts {
-                include(belt.from, 0.0);
-                include(belt.to, 0.0);
-            }
+            figure
+                .outer
+                .iter()
+                .for_each(|(at, reach)| include(*at, *reach));
+            let belts = figure.belts.iter().flat_map(|belt| &belt.points);
+            belts.for_each(|point| include(*point, 0.0));
             figure
                 .springs
                 .iter()
@@ -61,13 +60,6 @@ impl Window {
                 .iter()
                 .flatten()
                 .for_each(|end| include(*end, 0.0));
-            for corner in figure.faces.iter().flatten() {
-                include(*corner, 0.0);
-            }
-            for plane in &figure.planes {
-                include(plane.from, 0.0);
-                include(plane.to, 0.0);
-            }
         }
         if !low.iter().chain(&high).all(|v| v.is_finite()) {
             return Window {

@@ -1,6 +1,7 @@
 //! A simplified child in a child seat, and motions of it, for the tests of the pictures.
 
 use super::{Arrangement, Instant, View, draw};
+use crate::scene::Scene;
 use bryant_generator::model::*;
 
 fn vector(x: f64, y: f64, z: f64) -> [Number; 3] {
@@ -174,6 +175,7 @@ pub fn lurch(count: usize) -> Vec<Instant> {
     let instant = |k: usize| {
         let s = k as f64 / (count - 1).max(1) as f64;
         Instant {
+            state: Vec::new(),
             time: 0.12 * s,
             coordinates: vec![
                 0.12 * s * s,
@@ -195,10 +197,20 @@ fn written(name: &str, svg: &str) {
     }
 }
 
+fn drawn(
+    model: &Model,
+    instants: &[Instant],
+    arrangement: Arrangement,
+    view: View,
+) -> bryant_picture::Drawing {
+    let scene = Scene::new(model, &names(), &[], instants, &[]).unwrap();
+    let times = scene.times.clone();
+    draw(model, &scene, &times, arrangement, view)
+}
+
 /// The stick figures of a motion side by side, from the side.
 fn in_a_row(model: &Model, instants: &[Instant]) -> String {
-    let drawing = draw(model, &names(), &[], instants, Arrangement::Row, View::Side);
-    drawing.unwrap().svg()
+    drawn(model, instants, Arrangement::Row, View::Side).svg()
 }
 
 fn count(svg: &str, what: &str) -> usize {
@@ -221,16 +233,7 @@ fn every_time_has_a_panel_with_everything_in_it() {
 
 #[test]
 fn overlay_has_one_panel() {
-    let svg = draw(
-        &child(),
-        &names(),
-        &[],
-        &lurch(5),
-        Arrangement::Overlay,
-        View::Side,
-    )
-    .unwrap()
-    .svg();
+    let svg = drawn(&child(), &lurch(5), Arrangement::Overlay, View::Side).svg();
     written("overlay.svg", &svg);
     assert_eq!(count(&svg, "class=\"panel\""), 1);
     // The legend shows the system and every time in its shade.
@@ -257,15 +260,7 @@ fn a_motion_that_went_wrong_is_drawn_up_to_there() {
 
 #[test]
 fn names_that_do_not_fit_are_an_error() {
-    let error = draw(
-        &child(),
-        &names()[..4],
-        &[],
-        &lurch(2),
-        Arrangement::Row,
-        View::Side,
-    )
-    .unwrap_err();
+    let error = Scene::new(&child(), &names()[..4], &[], &lurch(2), &[]).unwrap_err();
     assert!(error.to_string().contains("child/thigh"), "{error}");
 }
 
@@ -280,8 +275,7 @@ fn titles_are_escaped() {
 /// The raster format draws all parts of these pictures.
 #[test]
 fn every_picture_of_ours_can_be_had_as_png() {
-    let stick =
-        |arrangement, view| draw(&child(), &names(), &[], &lurch(5), arrangement, view).unwrap();
+    let stick = |arrangement, view| drawn(&child(), &lurch(5), arrangement, view);
     let pictures = [
         ("row", stick(Arrangement::Row, View::Side)),
         ("overlay", stick(Arrangement::Overlay, View::Side)),
@@ -318,14 +312,8 @@ fn a_plane_is_drawn_as_far_as_it_extends() {
         });
         let mut instants = lurch(3);
         instants[2].coordinates[0] = 4.0;
-        let layout = crate::pose::Layout::new(&model, &names()).unwrap();
-        let pose = |instant: &Instant| {
-            let q = &instant.coordinates;
-            let pose = crate::pose::Pose::new(&model, &layout, &[], instant.time, q);
-            (instant.time, pose.unwrap())
-        };
-        let poses: Vec<_> = instants.iter().map(pose).collect();
-        let figures = super::figure::figures(&model, &[], &poses, View::Side);
+        let scene = Scene::new(&model, &names(), &[], &instants, &[]).unwrap();
+        let figures = super::figure::figures(&scene, View::Side);
         let width = |figure: &super::Figure| {
             let plane = figure.planes[0];
             assert!((plane.normal[1] - 1.0).abs() < 1e-12);

@@ -1,6 +1,6 @@
 //! The sheet with the figures: panels of one scale, ticks in metres, times, a bar of known length, a legend.
 
-use super::figure::{Figure, Point};
+use super::figure::{Ellipse, Figure, Point};
 use super::nice_above;
 use super::plan::{LEFT, Plan, RIGHT, TICKS, TIME, TITLE_LETTER, TITLE_LINE, Window};
 use bryant_picture::text::wrap;
@@ -29,6 +29,8 @@ pub struct Sheet {
     pub systems: Vec<String>,
     /// In the order of time.
     pub figures: Vec<Figure>,
+    /// Until when each stands for the motion \[s\].
+    until: Vec<f64>,
     /// Their arrangement.
     pub arrangement: Arrangement,
 }
@@ -44,19 +46,61 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
 .panel{fill:none;stroke:#999;stroke-width:1}
 .grid{stroke:#e6e6e6;stroke-width:1;fill:none}
 .plane{stroke:#444;stroke-width:2;stroke-linecap:round}
-.face{stroke:#888;stroke-width:1.2;fill:none}
+.face{stroke:#888;stroke-width:1.2;fill:#888;fill-opacity:.06}
+.bag{stroke:#5c6f82;stroke-width:1.4;fill:#5c6f82;fill-opacity:.10}
 .hatch{stroke:#888;stroke-width:1;fill:none}
 .ellipse{fill-opacity:.08;stroke-width:1.2;stroke-opacity:.75}
 .bone{stroke-width:3.5;stroke-linecap:round;fill:none}
 .joint{fill:#fff;stroke-width:1.6}
-.taut{stroke:#d55e00;stroke-width:2.2;stroke-linecap:round}
+.taut{fill:none;stroke:#d55e00;stroke-width:2.2;stroke-linecap:round}
 .spring{fill:none;stroke:#333;stroke-width:1.3;stroke-linejoin:round}
-.slack{stroke:#d55e00;stroke-width:1.5;stroke-dasharray:4 3}
+.slack{fill:none;stroke:#d55e00;stroke-width:1.5;stroke-dasharray:4 3}
 .end{fill:#d55e00}
 .bar{stroke:#222;stroke-width:2;fill:none}
 ";
 
+/// A figure is left out if nothing in it has moved by more than this part of the window since the one before.
+const STILL: f64 = 0.01;
+
 impl Sheet {
+    /// A sheet with those of these figures whose time is in `times`, less those since the one before which nothing has moved, at no time between.
+    pub fn new(
+        title: String,
+        view: Option<String>,
+        axes: [&'static str; 2],
+        systems: Vec<String>,
+        (all, times): (Vec<Figure>, &[f64]),
+        arrangement: Arrangement,
+    ) -> Self {
+        let [width, height] = Window::around(&all).size();
+        let (mut figures, mut until): (Vec<Figure>, Vec<f64>) = (Vec::new(), Vec::new());
+        let mut moved = true;
+        for figure in all {
+            let change = figures.last().map(|before| figure.change(before));
+            moved |= change.is_none_or(|change| change >= STILL * width.max(height));
+            if !times.contains(&figure.time) {
+                continue;
+            }
+            match until.last_mut() {
+                Some(end) if !moved => *end = figure.time,
+                _ => {
+                    until.push(figure.time);
+                    figures.push(figure);
+                    moved = false;
+                }
+            }
+        }
+        Sheet {
+            title,
+            view,
+            axes,
+            systems,
+            figures,
+            until,
+            arrangement,
+        }
+    }
+
     /// The picture.
     pub fn drawing(&self) -> Drawing {
         let window = Window::around(&self.figures);
@@ -86,7 +130,14 @@ impl Sheet {
             Arrangement::Row => {
                 for (index, figure) in self.figures.iter().enumerate() {
                     let origin = plan.panel(index);
-                    self.panel(&mut drawing, &plan, index, origin, &time(figure.time));
+                    let mut heading = time(figure.time);
+                    if self.until[index] > figure.time {
+                        heading += &format!(" to {}", time(self.until[index]));
+                    }
+                    if figure.travel > 0.0 {
+                        heading += &format!(", gone {} m", significant(figure.travel));
+                    }
+                    self.panel(&mut drawing, &plan, index, origin, &heading);
                     self.figure(&mut drawing, &plan, origin, figure);
                     drawing.close();
                 }
@@ -197,21 +248,24 @@ impl Sheet {
             drawing.lines("hatch", &hatch(from, to, back));
             drawing.line("plane", from, to);
         }
-        for face in &figure.faces {
-            let corners = face.map(place);
-            let lines: Vec<_> = (0..4).map(|i| (corners[i], corners[(i + 1) % 4])).collect();
-            drawing.lines("face", &lines);
+        for [a, b, c, d] in figure.faces.iter().map(|face| face.map(place)) {
+            drawing.polyline("face", &[a, b, c, d, a]);
         }
-        for ellipse in &figure.ellipses {
-            let class = ellipse.system.map_or("frame".to_owned(), colour);
+        let mut round = |class: &str, ellipse: &Ellipse| {
             let semi = ellipse.semi_axes.map(|a| a * plan.scale);
             let turn = -ellipse.angle.to_degrees();
-            drawing.ellipse(
-                &format!("ellipse {class}"),
-                place(ellipse.centre),
-                semi,
-                turn,
-            );
+            drawing.ellipse(class, place(ellipse.centre), semi, turn);
+        };
+        let of = |system: Option<usize>| system.map_or("frame".to_owned(), colour);
+        for ellipse in &figure.ellipses {
+            round(&format!("ellipse {}", of(ellipse.system)), ellipse);
+        }
+        for bag in &figure.bags {
+            round("bag", bag);
+        }
+        for (system, outline) in &figure.boxes {
+            let outline: Vec<Point> = outline.iter().map(|point| place(*point)).collect();
+            drawing.polyline(&format!("ellipse {}", of(*system)), &outline);
         }
         for (system, from, to) in &figure.bones {
             drawing.line(
@@ -222,9 +276,15 @@ impl Sheet {
         }
         for belt in &figure.belts {
             let class = if belt.taut { "taut" } else { "slack" };
-            drawing.line(class, place(belt.from), place(belt.to));
-            drawing.circle("end", place(belt.from), 2.2);
-            drawing.circle("end", place(belt.to), 2.2);
+            let points: Vec<Point> = belt.points.iter().map(|point| place(*point)).collect();
+            let ends = [points[0], points[points.len() - 1]];
+            match points.len() {
+                2 => drawing.line(class, ends[0], ends[1]),
+                _ => drawing.polyline(class, &points),
+            }
+            for end in ends {
+                drawing.circle("end", end, 2.2);
+            }
         }
         for ends in &figure.springs {
             drawing.polyline("spring", &coil(ends.map(place)));
@@ -262,12 +322,15 @@ impl Sheet {
         if any(&|f| !f.masses.is_empty()) {
             entries.push(Entry::new("mass", "centre of gravity"));
         }
-        if any(&|f| !f.ellipses.is_empty()) {
+        if any(&|f| !f.ellipses.is_empty() || !f.boxes.is_empty()) {
             let name = match any(&|f| f.some_meet_nothing) {
                 true => "ellipsoid",
                 false => "contact ellipsoid",
             };
             entries.push(Entry::new("ellipse", name));
+        }
+        if any(&|f| !f.bags.is_empty()) {
+            entries.push(Entry::new("bag", "airbag"));
         }
         if any(&|f| !f.planes.is_empty()) {
             entries.push(Entry::new("plane", "contact plane (hatched behind)"));
@@ -402,7 +465,7 @@ impl Entry {
         match self.kind {
             "joint" => drawing.circle(&self.class, middle, 3.0),
             "mass" => drawing.circle("mass", middle, 3.2),
-            "ellipse" => drawing.ellipse(&self.class, middle, [10.0, 6.0], 0.0),
+            "ellipse" | "bag" => drawing.ellipse(&self.class, middle, [10.0, 6.0], 0.0),
             "plane" => {
                 let (from, to) = ([x, y - 2.0], [x + 22.0, y - 2.0]);
                 drawing.lines("hatch", &hatch(from, to, [0.0, 1.0]));
@@ -415,8 +478,8 @@ impl Entry {
                     [x + 22.0, y - 5.0],
                     [x + 6.0, y - 5.0],
                 ];
-                let lines: Vec<_> = (0..4).map(|i| (corners[i], corners[(i + 1) % 4])).collect();
-                drawing.lines("face", &lines);
+                let [a, b, c, d] = corners;
+                drawing.polyline("face", &[a, b, c, d, a]);
             }
             "bone" => {
                 drawing.open("sample", self.opacity);
@@ -461,6 +524,12 @@ fn time(seconds: f64) -> String {
         }
     }
     format!("{} s", plain((seconds * 1e4).round() / 1e4))
+}
+
+/// A length to three digits.
+fn significant(value: f64) -> String {
+    let decimals = (2.0 - libm::log10(value).floor()).clamp(0.0, 3.0) as usize;
+    format!("{value:.decimals$}")
 }
 
 fn plain(value: f64) -> String {

@@ -3,7 +3,6 @@
 
 use super::figure::Point;
 use crate::pose::{Vec3, dot};
-use bryant_generator::model::Dimension;
 
 /// The direction from which a model is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,7 +42,7 @@ impl View {
     }
 
     /// Unit vectors to the right and upwards in the picture.
-    pub(super) fn axes(self) -> [Vec3; 2] {
+    pub(crate) fn axes(self) -> [Vec3; 2] {
         let ([s, c], [lift, flat]) = (TURNED, LIFTED);
         match self {
             View::Side => [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
@@ -54,7 +53,7 @@ impl View {
     }
 
     /// The place of a point or a direction in the picture.
-    pub(super) fn seen(self, point: Vec3) -> Point {
+    pub(crate) fn seen(self, point: Vec3) -> Point {
         self.axes().map(|axis| dot(axis, point))
     }
 
@@ -69,9 +68,9 @@ impl View {
     }
 
     /// The view in words, if it needs to be said.
-    pub(super) fn words(self, dimension: Dimension) -> Option<String> {
+    pub(super) fn words(self, planar: bool) -> Option<String> {
         let words = match self {
-            _ if dimension == Dimension::Plane => return None,
+            _ if planar => return None,
             View::Side => "seen from the right, along +y",
             View::Front => "seen from the front, along −x",
             View::Top => "seen from above, along −z",

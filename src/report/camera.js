@@ -18,6 +18,7 @@ function turned(q, v) {
 class Camera {
   constructor() {
     this.center = [0, 0, 0];
+    this.offset = [0, 0, 0];
     this.half = 1;
     this.look(0, 0);
   }

@@ -16,7 +16,7 @@ void main() {
 // The ray along `forward` through a point of the picture meets the body where sum |x_i / a_i|^n = 1.
 const ELLIPSOID_FRAGMENT = `#version 300 es
 precision highp float;
-uniform vec3 right, up, forward; uniform float depth;
+uniform vec3 right, up, forward; uniform float depth, alpha;
 in vec2 seen; flat in vec3 o; flat in mat3 axes; flat in vec4 colour; out vec4 result;
 vec3 local(vec3 v) { return vec3(dot(axes[0], v) / dot(axes[0], axes[0]), dot(axes[1], v) / dot(axes[1], axes[1]), dot(axes[2], v) / dot(axes[2], axes[2])); }
 float outside(vec3 p, float n) { vec3 q = pow(abs(p), vec3(n)); return q.x + q.y + q.z - 1.0; }
@@ -47,7 +47,8 @@ void main() {
   normal = normalize(axes[0] * normal.x / dot(axes[0], axes[0]) + axes[1] * normal.y / dot(axes[1], axes[1]) + axes[2] * normal.z / dot(axes[2], axes[2]));
   float light = 0.42 + 0.58 * max(0.0, dot(normal, normalize(0.5 * up - 0.35 * right - forward)));
   float rim = smoothstep(0.0, 0.25, -dot(normal, forward));
-  result = vec4(colour.rgb * light * (0.6 + 0.4 * rim), 1.0);
+  float cover = alpha < 1.0 ? mix(0.85, alpha, rim) : 1.0;
+  result = vec4(colour.rgb * light * (0.6 + 0.4 * rim) * cover, cover);
   gl_FragDepth = clamp(0.5 + 0.5 * t / depth, 0.0, 1.0);
 }`;
 const FLAT_VERTEX = `#version 300 es
@@ -55,7 +56,7 @@ in vec3 place; in vec4 colour; out vec4 tint; void main() { tint = colour; gl_Po
 const FLAT_FRAGMENT = `#version 300 es
 precision mediump float; in vec4 tint; out vec4 result; void main() { result = vec4(tint.rgb * tint.a, tint.a); }`;
 
-// Draws lists of shapes: ellipsoids { place, axes: [3 vectors of the lengths of semi-axes], colour, degree }, faces { corners, colour,
+// Draws lists of shapes: ellipsoids, and bags that one sees through { place, axes: [3 vectors of the lengths of semi-axes], colour, degree }, faces { corners, colour,
 // alpha }, strokes { from, to, colour, width [px], above }.
 class WebGl {
   static of(canvas) {
@@ -108,23 +109,31 @@ class WebGl {
     gl.uniform1f(uniform("half_height"), camera.half);
     gl.uniform1f(uniform("aspect"), aspect);
     gl.uniform1f(uniform("depth"), far * camera.half);
-    const numbers = [];
-    for (const e of shapes.ellipsoids) numbers.push(...e.place, ...e.axes[0], ...e.axes[1], ...e.axes[2], ...e.colour, e.degree);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.corners);
-    this.attribute(this.round, "corner", 2, 2, 0, 0);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.DYNAMIC_DRAW);
-    ["place", "first", "second", "third"].forEach((name, k) => this.attribute(this.round, name, 3, 16, 3 * k, 1));
-    this.attribute(this.round, "look", 4, 16, 12, 1);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, shapes.ellipsoids.length);
+    this.rounds(shapes.ellipsoids, 1);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     this.triangles(camera, aspect, far, shapes.strokes.filter((s) => !s.above).flatMap((s) => this.stroke(camera, aspect, s)));
     gl.depthMask(false);
     const flat = shapes.faces.flatMap((face) => [0, 1, 2, 0, 2, 3].map((k) => [face.corners[k], face.colour, face.alpha]));
     this.triangles(camera, aspect, far, flat);
+    // one sees through bags: they are drawn after what is in them
+    this.rounds(shapes.bags || [], 0.25);
     gl.disable(gl.DEPTH_TEST);
     this.triangles(camera, aspect, far, shapes.strokes.filter((s) => s.above).flatMap((s) => this.stroke(camera, aspect, s)));
+  }
+  // Draws ellipsoids.
+  rounds(all, alpha) {
+    const gl = this.gl;
+    gl.useProgram(this.round);
+    gl.uniform1f(gl.getUniformLocation(this.round, "alpha"), alpha);
+    const numbers = all.flatMap((e) => [...e.place, ...e.axes[0], ...e.axes[1], ...e.axes[2], ...e.colour, e.degree]);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.corners);
+    this.attribute(this.round, "corner", 2, 2, 0, 0);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.DYNAMIC_DRAW);
+    ["place", "first", "second", "third"].forEach((name, k) => this.attribute(this.round, name, 3, 16, 3 * k, 1));
+    this.attribute(this.round, "look", 4, 16, 12, 1);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, all.length);
   }
   // Draws a stroke as two triangles that face the camera.
   stroke(camera, aspect, { from, to, colour, width, head }) {
@@ -170,7 +179,8 @@ class Plain {
     const css = (colour, alpha = 1) => `rgba(${colour.map((x) => Math.round(255 * x)).join(",")},${alpha})`;
     const ratio = height / this.canvas.clientHeight;
     const items = [];
-    for (const e of shapes.ellipsoids) items.push([place(e.place)[2], () => this.ellipse(camera, e, place(e.place), pixels, css)]);
+    for (const e of shapes.ellipsoids) items.push([place(e.place)[2], () => this.ellipse(camera, e, place(e.place), pixels, css, 1)]);
+    for (const e of shapes.bags || []) items.push([place(e.place)[2], () => this.ellipse(camera, e, place(e.place), pixels, css, 0.25)]);
     for (const f of shapes.faces) {
       const corners = f.corners.map(place);
       items.push([Math.max(...corners.map((p) => p[2])), () => {
@@ -205,7 +215,7 @@ class Plain {
     }
     items.sort((a, b) => b[0] - a[0]).forEach(([, paint]) => paint());
   }
-  ellipse(camera, e, [x, y], pixels, css) {
+  ellipse(camera, e, [x, y], pixels, css, alpha) {
     const c = this.context;
     const parts = e.axes.map((axis) => [dot(axis, camera.right), dot(axis, camera.up)]);
     const entry = (i, j) => parts.reduce((sum, part) => sum + part[i] * part[j], 0);
@@ -214,7 +224,7 @@ class Plain {
     const long = (Math.sqrt(mean + radius) / camera.half) * pixels, short = (Math.sqrt(Math.max(0, mean - radius)) / camera.half) * pixels;
     c.beginPath();
     c.ellipse(x, y, long, short, -0.5 * Math.atan2(2 * xy, xx - yy), 0, 2 * Math.PI);
-    c.fillStyle = css(mixed(e.colour, [1, 1, 1], 0.35));
+    c.fillStyle = css(mixed(e.colour, [1, 1, 1], 0.35), alpha);
     c.fill();
     c.strokeStyle = css(mixed(e.colour, [0, 0, 0], 0.35));
     c.lineWidth = 1.5;

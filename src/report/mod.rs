@@ -22,7 +22,7 @@ mod scene;
 pub mod study;
 
 pub use curves::{Curve, Samples, curves};
-pub use scene::{Scene, short, with_forces};
+pub use scene::{json, short};
 
 use serde_json::Value;
 

@@ -23,7 +23,19 @@ function framesAt(t, scene = data.scene) {
     const length = Math.hypot(...mid) || 1;
     return { at: add(p, scale(sub(r, p), u)), turn: mid.map((x) => x / length) };
   });
-  return { frames, k: u > 0.5 && k + 1 < times.length ? k + 1 : k };
+  return { frames, k: u > 0.5 && k + 1 < times.length ? k + 1 : k, at: k, u };
+}
+// Numbers that are given for each sample, between two samples.
+const between = (list, { at, u }) => {
+  const [a, b] = [list[at], list[Math.min(at + 1, list.length - 1)]];
+  return Array.isArray(a) ? a.map((x, i) => x + (b[i] - x) * u) : a + (b - a) * u;
+};
+// The points of a line: both ends, and those between them by which a belt goes over bodies.
+function pathOf(moment, line) {
+  const ends = [line.from, line.to].map((end) => pointOf(moment.frames, ...end)), path = [ends[0]];
+  const way = line.way ? between(line.way, moment) : [];
+  for (let i = 0; i < way.length; i += 3) path.push(way.slice(i, i + 3));
+  return [...path, ends[1]];
 }
 const FIXED = { at: [0, 0, 0], turn: [1, 0, 0, 0] };
 const frameOf = (frames, body) => (body < 0 ? FIXED : frames[body]);
@@ -40,19 +52,29 @@ const colourOf = (body) => {
 // Slack is grey; otherwise the colour goes from orange to dark red as the force grows.
 const tensionColour = (force, most) => (force > 0 && most > 0 ? mixed(rgb("#e69f00"), rgb("#b00020"), Math.min(1, force / most)) : rgb("#9aa4b0"));
 
+// An ellipsoid as it is drawn.
+function solid(frames, e, colour, size = 1) {
+  const axes = [0, 1, 2].map((i) => turned(frameOf(frames, e.body).turn, turned(e.turn, [0, 1, 2].map((j) => (i === j ? size * e.semi[i] : 0)))));
+  return { place: pointOf(frames, e.body, e.at), axes, colour, degree: e.degree };
+}
+
 // The second run, in grey, under the first.
 function ghost(t, shapes) {
   const { scene } = data.beside, grey = rgb("#9aa4b0");
-  const { frames } = framesAt(Math.min(t, scene.times[scene.times.length - 1]), scene);
+  const moment = framesAt(Math.min(t, scene.times[scene.times.length - 1]), scene), { frames } = moment;
   if (byId("show-shapes").checked) {
     for (const e of scene.ellipsoids) {
       if (e.body < 0 || !isShown(e.body)) continue;
-      const axes = [0, 1, 2].map((i) => turned(frameOf(frames, e.body).turn, turned(e.turn, [0, 1, 2].map((j) => (i === j ? e.semi[i] : 0)))));
-      shapes.ellipsoids.push({ place: pointOf(frames, e.body, e.at), axes, colour: mixed(grey, [1, 1, 1], 0.35), degree: e.degree });
+      shapes.ellipsoids.push(solid(frames, e, mixed(grey, [1, 1, 1], 0.35)));
     }
   }
   for (const [a, p, b, q] of scene.bones) shapes.strokes.push({ from: pointOf(frames, a, p), to: pointOf(frames, b, q), colour: grey, width: 3.5, above: scene.planar });
-  for (const line of scene.lines) shapes.strokes.push({ from: pointOf(frames, ...line.from), to: pointOf(frames, ...line.to), colour: grey, width: 2, above: scene.planar });
+  for (const line of scene.lines) strokes(shapes, pathOf(moment, line), { colour: grey, width: 2, above: scene.planar });
+}
+
+// Strokes from point to point.
+function strokes(shapes, path, look) {
+  for (let i = 1; i < path.length; i++) shapes.strokes.push({ from: path[i - 1], to: path[i], ...look });
 }
 
 // A bushing: a cross in the axes of its first body, and a line to the origin of its second frame.
@@ -70,20 +92,15 @@ function bushingMark(frames, line) {
 const traceable = scene ? [...scene.bodies.map((body, index) => ({ name: body.name, body: index, at: [0, 0, 0] })), ...scene.points] : [];
 
 function shapesAt(t) {
-  const { frames, k } = framesAt(t);
-  const shapes = { ellipsoids: [], faces: [], strokes: [], texts: [] };
+  const moment = framesAt(t), { frames, k } = moment;
+  const shapes = { ellipsoids: [], bags: [], faces: [], strokes: [], texts: [] };
   if (data.beside && byId("show-beside").checked) ghost(t, shapes);
   const ink = rgb(style("--ink").length === 7 ? style("--ink") : "#1a1d21");
   if (byId("show-shapes").checked) {
     for (const e of scene.ellipsoids) {
       if (!isShown(e.body)) continue;
-      const frame = frameOf(frames, e.body);
-      const axes = [0, 1, 2].map((i) => {
-        const axis = [0, 0, 0];
-        axis[i] = e.semi[i];
-        return turned(frame.turn, turned(e.turn, axis));
-      });
-      shapes.ellipsoids.push({ place: pointOf(frames, e.body, e.at), axes, colour: mixed(colourOf(e.body), [1, 1, 1], 0.25), degree: e.degree });
+      if (e.size) shapes.bags.push(solid(frames, e, rgb("#5c6f82"), e.size.length ? between(e.size, moment) : 1));
+      else shapes.ellipsoids.push(solid(frames, e, mixed(colourOf(e.body), [1, 1, 1], 0.25)));
     }
   }
   for (const p of scene.planes) {
@@ -94,8 +111,11 @@ function shapesAt(t) {
     else corners.forEach((corner, i) => shapes.strokes.push({ from: corner, to: corners[(i + 1) % 4], colour: rgb("#6f7883"), width: 1.5 }));
   }
   const bare = !byId("show-shapes").checked;
+  const round = new Set(scene.ellipsoids.map((e) => e.body));
   for (const [a, p, b, q] of scene.bones) {
     if (!isShown(a)) continue;
+    // in space sticks would only stand out of solids
+    if (!bare && !scene.planar && round.has(a)) continue;
     const colour = mixed(colourOf(a), ink, scene.planar && !bare ? 0.45 : 0.1);
     shapes.strokes.push({ from: pointOf(frames, a, p), to: pointOf(frames, b, q), colour, width: bare ? 6 : 4, above: scene.planar || bare });
   }
@@ -106,8 +126,9 @@ function shapesAt(t) {
     if (line.kind === "bushing") { shapes.strokes.push(...bushingMark(frames, line)); continue; }
     const force = line.force[k] || 0;
     const colour = lightOr(lawOf(line), line.kind === "belt" ? tensionColour(force, most) : rgb("#7a5195"));
-    const [from, to] = [pointOf(frames, ...line.from), pointOf(frames, ...line.to)];
-    shapes.strokes.push({ from, to, colour, width: 3.5 + (most > 0 ? 3 * Math.max(0, force / most) : 0), above: scene.planar });
+    const path = pathOf(moment, line);
+    strokes(shapes, path, { colour, width: 3.5 + (most > 0 ? 3 * Math.max(0, force / most) : 0), above: scene.planar });
+    const [from, to] = [path[0], path[path.length - 1]];
     if (Math.abs(force) > 0.02 * most && byId("show-forces").checked) shapes.texts.push({ at: scale(add(from, to), 0.5), force: Math.abs(force) });
   }
   if (byId("show-forces").checked) {
@@ -131,17 +152,21 @@ function shapesAt(t) {
   return { shapes, frames };
 }
 
-// The box that contains the whole motion.
+// The box that contains the whole motion, as one sees it who moves with the body that is followed.
 const home = { center: [0, 0, 0], half: 1 };
+const followed = () => Number(byId("follow").value);
+const placeOf = (frames) => frameOf(frames, followed()).at;
 function frameAll() {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  let origin = [0, 0, 0];
   const include = (point, margin) => point.forEach((x, i) => {
-    low[i] = Math.min(low[i], x - margin);
-    high[i] = Math.max(high[i], x + margin);
+    low[i] = Math.min(low[i], x - origin[i] - margin);
+    high[i] = Math.max(high[i], x - origin[i] + margin);
   });
   const first = Math.max(1, Math.floor(times.length / 60));
   for (let k = 0; k < times.length; k += first) {
     const { frames } = framesAt(times[k]);
+    origin = placeOf(frames);
     frames.forEach((frame, body) => { if (scene.bodies[body].system >= 0) include(frame.at, 0); });
     for (const [a, p, b, q] of scene.bones) { include(pointOf(frames, a, p), 0); include(pointOf(frames, b, q), 0); }
     for (const e of scene.ellipsoids) if (e.body >= 0) include(pointOf(frames, e.body, e.at), Math.max(...e.semi));
@@ -157,7 +182,7 @@ function fit() {
   if (!home.low) return;
   const size = sub(home.high, home.low), aspect = byId("scene").clientWidth / Math.max(1, byId("scene").clientHeight);
   const extent = (axis) => 0.5 * size.reduce((sum, length, i) => sum + Math.abs(axis[i]) * length, 0);
-  camera.center = home.center.slice();
+  camera.offset = home.center.slice();
   camera.half = 1.12 * Math.max(extent(camera.up), extent(camera.right) / aspect, 0.05);
   home.half = camera.half;
 }
@@ -182,8 +207,7 @@ function render() {
   if (!renderer) return;
   resize();
   const { shapes, frames } = shapesAt(now);
-  const followed = Number(byId("follow").value);
-  if (followed >= 0) camera.center = add(frames[followed].at, camera.offset || [0, 0, 0]);
+  camera.center = add(placeOf(frames), camera.offset);
   const canvas = byId("scene"), aspect = canvas.clientWidth / canvas.clientHeight, { half } = camera;
   // a flatter picture on paper shows the same width
   if (printing) camera.half *= Math.max(1, seenAspect / aspect); else seenAspect = aspect;
@@ -246,7 +270,6 @@ function play(on) {
 }
 function view(name) {
   camera.look(...VIEWS[name]);
-  byId("follow").value = "-1";
   fit();
   redraw();
 }
@@ -265,8 +288,7 @@ function hands() {
     const unit = (2 * camera.half) / canvas.clientHeight;
     const move = () => {
       const by = add(scale(camera.right, -dx * unit), scale(camera.up, dy * unit));
-      camera.center = add(camera.center, by);
-      camera.offset = add(camera.offset || [0, 0, 0], by);
+      camera.offset = add(camera.offset, by);
     };
     if (fingers.size === 2) {
       const [a, b] = [...fingers.values()], distance = Math.hypot(a[0] - b[0], a[1] - b[1]);
@@ -329,8 +351,7 @@ function startMotion() {
     byId(id).append(element("option", "nothing", { value: -1 }));
     (id === "trace" ? traceable : scene.bodies).forEach((one, index) => byId(id).append(element("option", one.name, { value: index })));
     byId(id).addEventListener("change", () => {
-      camera.offset = [0, 0, 0];
-      if (id === "follow" && byId(id).value === "-1") fit();
+      if (id === "follow") { frameAll(); fit(); }
       redraw();
     });
   }
@@ -344,12 +365,13 @@ function startMotion() {
   if (strongest > 0) words.push(`Arrows: forces of contacts on bodies; their length is proportional to the square root of the force, the longest is ${newtons(strongest)}.`);
   if (data.beside) words.push(`Grey: the run with ${data.beside.label}.`);
   byId("legend").textContent = words.join(" ");
+  byId("follow").value = scene.follow;
   frameAll();
   hands();
   // report.html#t=80&view=front begins at 80 ms, seen from the front
   const asked = new URLSearchParams(location.hash.slice(1));
   const from = asked.get("view");
-  view(!scene.planar && from in VIEWS ? from : scene.planar ? "side" : "oblique");
+  view(scene.planar ? "side" : from in VIEWS ? from : scene.view === "side" ? "oblique" : scene.view);
   new ResizeObserver(redraw).observe(byId("stage"));
   onPaper(render);
   const t = Number(asked.get("t"));

@@ -24,6 +24,7 @@ outputs:
   - { name: lower, of: arm/lower, at: [0, 0, 0], what: position, component: [x, y, z] }
   - { name: tip, of: arm/lower, at: [0, 0, -0.3], what: position, component: [x, y, z] }
   - { name: strap, of: belt strap, what: length }
+  - { name: pull, of: belt strap, what: force }
 run: { duration: 1.5 s, every: 10 ms }
 ";
 
@@ -100,7 +101,7 @@ fn keyframes_are_where_the_outputs_say() {
     };
     let (times, places) = keys("arm/lower", "translation");
     let (_, turns) = keys("arm/lower", "rotation");
-    let (_, lengths) = keys("strap", "scale");
+    let (_, begins) = keys("strap rod", "translation");
     // positions have six digits, singles have seven
     let near = |a: f64, b: f64| assert!((a - b).abs() < 2e-5, "{a} {b}");
     assert_eq!(times.len(), written.len());
@@ -124,13 +125,22 @@ fn keyframes_are_where_the_outputs_say() {
                 column(&columns, &format!("tip {axis}"))[k],
             );
         }
-        near(lengths[3 * k + 2], column(&columns, "strap")[k]);
+        // the first rod of the strap begins at its end on the car, which goes with 2 m/s
+        for (begin, expected) in begins[3 * k..].iter().zip([2.0 * time + 0.5, 0.0, 1.2]) {
+            near(*begin, expected);
+        }
         if k > 0 {
             let product: f64 = (0..4)
                 .map(|i| turns[4 * k + i] * turns[4 * k - 4 + i])
                 .sum();
             assert!(product > 0.0, "the turn jumps at row {k}");
         }
+    }
+    // the camera goes with the car
+    let (_, eyes) = keys("camera", "translation");
+    for (k, time) in times.iter().enumerate() {
+        near(eyes[3 * k] - eyes[0], 2.0 * time);
+        near(eyes[3 * k + 1] - eyes[1], 0.0);
     }
     // at rest everything is where the first keyframe has it
     let mut moved = 0;
@@ -158,7 +168,79 @@ fn keyframes_are_where_the_outputs_say() {
     let ellipsoid = nodes
         .iter()
         .find(|node| node["scale"] == serde_json::json!([0.05, 0.03, 0.08]));
-    assert!(ellipsoid.is_some_and(|node| node["translation"] == serde_json::json!([0, 0, -0.3])));
+    assert!(ellipsoid.is_some_and(|node| {
+        node["name"] == "arm/lower ellipsoid"
+            && node["translation"] == serde_json::json!([0.0, 0.0, -0.3])
+    }));
+    let unnamed = nodes.iter().filter(|node| node["name"].is_null());
+    // those that make a rod visible, or wide
+    assert!(unnamed.clone().all(|node| node["scale"].is_array()));
+}
+
+/// A belt has one colour and width at a time, which grow with its force by sixths of the largest.
+#[test]
+fn a_belt_shows_its_force() {
+    let directory = directory();
+    let path = directory.path();
+    // a strap that becomes slack, and taut again
+    let scene = SCENE.replace("slack: 0.2 m", "slack: -0.02 m");
+    fs::write(path.join("swing.yaml"), scene).unwrap();
+    let run = [
+        "run",
+        "swing.yaml",
+        "--no-files",
+        "--csv",
+        "run.csv",
+        "--animation",
+        "swing.glb",
+    ];
+    call(path, &run, 0);
+    let columns = tables::read(&path.join("run.csv"));
+    let pull = column(&columns, "pull");
+    let largest = pull.iter().copied().fold(0.0, f64::max);
+    assert!(largest > 0.0 && pull.contains(&0.0));
+    let bytes = fs::read(path.join("swing.glb")).unwrap();
+    let (json, buffer) = parts(&bytes);
+    let nodes = json["nodes"].as_array().unwrap();
+    let rods = nodes.iter().filter(|node| node["name"] == "strap rod");
+    let mut widths = Vec::new();
+    for rod in rods {
+        // each look: when it is there, and how wide it is
+        let looks = rod["children"].as_array().unwrap().iter().map(|switch| {
+            let channels = json["animations"][0]["channels"].as_array().unwrap();
+            let of = channels
+                .iter()
+                .find(|c| c["target"]["node"] == *switch)
+                .unwrap();
+            let sampler = of["sampler"].as_u64().unwrap() as usize;
+            let sampler = &json["animations"][0]["samplers"][sampler];
+            assert_eq!(sampler["interpolation"], "STEP");
+            let [times, scales] =
+                ["input", "output"].map(|key| floats(&json, buffer, &sampler[key]));
+            let child = nodes[switch.as_u64().unwrap() as usize]["children"][0].as_u64();
+            let width = nodes[child.unwrap() as usize]["scale"][0].as_f64().unwrap();
+            (times, scales, width)
+        });
+        let looks: Vec<_> = looks.collect();
+        for (time, pull) in column(&columns, "time").iter().zip(pull) {
+            let shown = looks.iter().filter(|(times, scales, _)| {
+                let k = times.iter().rposition(|t| *t <= time + 1e-6).unwrap();
+                scales[3 * k] == 1.0
+            });
+            let shown: Vec<f64> = shown.map(|(.., width)| *width).collect();
+            let steps = (6.0 * pull / largest).ceil();
+            assert_eq!(shown.len(), 1, "{time}");
+            // 6 mm, and 8 mm more for the largest force
+            assert!(
+                (shown[0] - 0.006 - 0.008 * steps / 6.0).abs() < 1e-9,
+                "{time} {pull} {shown:?}"
+            );
+            widths.push(steps as usize);
+        }
+    }
+    widths.sort_unstable();
+    widths.dedup();
+    assert!(widths.len() > 2, "{widths:?}");
 }
 
 /// Columns are doubles one after the other, with all digits of the table.

@@ -6,10 +6,9 @@
 //! | `check.rs` | the checked form, and how it is made of the keys |
 //! | `terms.rs` | its numbers and terms ([`Terms`]): what each may be, what may be left out |
 //! | `force.rs` | the equations ([`Equations`]): forces and moments on bodies, events, states, powers |
-//! | `outputs.rs` | what can be asked of it ([`Outputs`], [`Measures`], [`OfLaw`]) |
+//! | `outputs.rs` | what can be asked of it, and what is seen of it ([`Outputs`], [`Measures`], [`OfLaw`], [`Look`]) |
 //!
-//! A further law is a folder such as `bushing/`, its `mod` here and its line in `laws!`. Equations and effects ask no force which law it is; pictures and reports
-//! (`src/picture/figure.rs`, `src/report/scene.rs`) draw the laws that they know. Pages and tests are
+//! A further law is a folder such as `bushing/`, its `mod` here and its line in `laws!`. Equations, effects, pictures and reports ask no force which law it is. Pages and tests are
 //! beside that: `docs/forces/`, `docs/reference.md`, `generator/tests/{effects,short}.rs`, `tests/suite/trust/`, and two lists of all laws in `tests/suite/{snapshots,invariance}.rs`.
 
 pub mod airbag;
@@ -19,6 +18,7 @@ pub mod contact;
 pub mod field;
 pub mod joint;
 pub mod load;
+mod look;
 pub mod spring;
 pub mod user;
 
@@ -35,6 +35,7 @@ use crate::model::part::Field;
 use crate::model::requirement::{Curves, List};
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Component, Dimension, Model, Projection, Quantity};
+pub use look::{Line, Look, Round};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
@@ -182,6 +183,11 @@ pub trait Outputs {
         force: usize,
         at: At<'_>,
     ) -> Option<(Quantity, &'static str)>;
+
+    /// What is seen of it.
+    fn looks(&self) -> Vec<Look<'_>> {
+        Vec::new()
+    }
 }
 
 /// Expressions of what can be asked of a law.

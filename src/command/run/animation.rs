@@ -6,12 +6,11 @@ use super::super::model_argument::Found;
 use super::super::prepare::prepare_model;
 use super::super::terminal::Terminal;
 use super::report::kept;
+use super::shown::Shown;
 use crate::accuracy::setting::Setting;
 use crate::animation::{glb, turns};
-use crate::report::Scene;
+use crate::scene::Scene;
 use crate::simulation::{self, Recording};
-use bryant_runtime::program::Job;
-use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, TAU};
 
 /// An animation has at most so many keyframes: 28 bytes for each body.
@@ -29,32 +28,23 @@ const SAME: f64 = 0.02;
 /// # Errors
 /// The run has fewer than two instants.
 pub fn animation(
-    found: &Found,
-    job: &Job,
+    shown: &Shown<'_>,
     (recording, errors): (&Recording, &ErrorReport),
     terminal: &mut Terminal,
 ) -> Result<Vec<u8>, Error> {
-    let scene = |recording: &Recording, rows: bool| {
-        let instants = match rows {
-            true => kept(recording),
-            false => recording.instants.clone(),
-        };
-        let parameters = recording.parameters(job);
-        let scene = Scene::new(&found.model, &recording.coordinates, &parameters, &instants);
-        scene.map_err(Error::system).map(|scene| scene.json(&[]))
-    };
-    let mut shown = scene(recording, true)?;
-    let rows = shown["times"].as_array().map_or(0, Vec::len);
+    let Shown { found, job, .. } = *shown;
+    let name = &found.model.name;
+    let at_rows = kept(recording);
+    let rows = at_rows.len();
     let span = recording.last_time() - recording.first_time();
-    let aimed = |turning: f64| (span * turning / WANTED).ceil() as usize;
-    let wanted = aimed(recording.turning);
-    let enough = wanted < rows && widest(&shown) < MOST && turns_by_itself(found);
-    if rows < 2 || enough || recording.result.is_err() {
-        let slow = rows < 2 || wanted < rows && widest(&shown) < MOST;
+    let wanted = (span * recording.turning / WANTED).ceil() as usize;
+    let slow = rows < 2 || wanted < rows && widest(&shown.bare(recording, &at_rows)?) < MOST;
+    if rows < 2 || slow && turns_by_itself(found) || recording.result.is_err() {
         if !slow {
             tell(terminal);
         }
-        return glb(&found.model.name, &shown).map_err(Error::failed);
+        let scene = shown.scene(recording, &at_rows, terminal)?;
+        return glb(name, &scene).map_err(Error::failed);
     }
     let engine = prepare_model(found, &found.model, terminal)?;
     let mut by = errors.setting().unwrap_or(Setting::of(job)).job(job);
@@ -62,20 +52,25 @@ pub fn animation(
     let mut again = |frames: usize| {
         by.every = Some(span / frames as f64);
         let run = simulation::run_with_poses(&*engine, &by, 2 * MOST_KEYFRAMES, &mut |_| {});
-        scene(&run, false)
+        shown.bare(&run, &run.instants).map(|scene| (scene, run))
     };
     let mut frames = wanted.max(rows - 1);
-    let mut told = false;
+    let (mut told, mut last) = (false, None);
     while frames <= MOST_KEYFRAMES && !told {
-        shown = again(frames)?;
-        let closer = again((CLOSER * frames as f64).ceil() as usize)?;
-        told = widest(&shown) < MOST && alike(&shown, &closer);
+        let (scene, run) = again(frames)?;
+        let (closer, _) = again((CLOSER * frames as f64).ceil() as usize)?;
+        told = widest(&scene) < MOST && alike(&scene, &closer);
+        last = Some(run);
         frames *= 2;
     }
     if !told {
         tell(terminal);
     }
-    glb(&found.model.name, &shown).map_err(Error::failed)
+    let scene = match &last {
+        Some(run) => shown.scene(run, &run.instants, terminal)?,
+        None => shown.scene(recording, &at_rows, terminal)?,
+    };
+    glb(name, &scene).map_err(Error::failed)
 }
 
 fn tell(terminal: &mut Terminal) {
@@ -94,7 +89,7 @@ fn turns_by_itself(found: &Found) -> bool {
 }
 
 /// The largest angle from one keyframe to the next, as players turn \[rad\].
-fn widest(scene: &Value) -> f64 {
+fn widest(scene: &Scene) -> f64 {
     turns(scene)
         .iter()
         .flatten()
@@ -102,8 +97,8 @@ fn widest(scene: &Value) -> f64 {
 }
 
 /// Whether all bodies turn through the same angle in both scenes.
-fn alike(a: &Value, b: &Value) -> bool {
-    let sums = |scene: &Value| {
+fn alike(a: &Scene, b: &Scene) -> bool {
+    let sums = |scene: &Scene| {
         let mut sums: Vec<f64> = Vec::new();
         for angles in turns(scene) {
             sums.resize(angles.len(), 0.0);

@@ -11,7 +11,8 @@ use super::responses::Responses;
 use crate::accuracy::setting::Setting;
 use crate::command::parameters::parse_parameters;
 use crate::command::prepare::prepare;
-use crate::report::{Scene, short};
+use crate::report::{self, short};
+use crate::scene::Scene;
 use crate::simulation::{self, Recording};
 use crate::table::Table;
 use bryant_generator::model::Model;
@@ -137,8 +138,14 @@ pub fn run(
     }
     let parameters = second.parameters(&job);
     let instants = kept(&second);
-    let scene = Scene::new(&found.model, &second.coordinates, &parameters, &instants);
-    let scene = scene.map_err(Error::system)?.json(&[]);
+    let scene = Scene::new(
+        &found.model,
+        &second.coordinates,
+        &parameters,
+        &instants,
+        &[],
+    );
+    let scene = report::json(&scene.map_err(Error::system)?);
     let times: Vec<Value> = seconds(&second).into_iter().map(short).collect();
     let curves = output_curves(&second, responses);
     Ok(json!({ "label": label, "scene": scene, "times": times, "curves": curves }))

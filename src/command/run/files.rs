@@ -1,5 +1,6 @@
 //! The places where the results of a run go: files, and standard output.
 
+use super::shown::Shown;
 use super::{Arguments, Error, Terminal};
 use crate::command::model_argument::Found;
 use crate::command::outputs::{Outputs, is_standard};
@@ -8,12 +9,12 @@ use crate::own::Kind;
 use crate::picture::corridor::Corridor;
 use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement, Format, View};
+use crate::scene::needs_forces;
 use crate::simulation::Recording;
 use crate::state_file;
 use crate::table::{Layout, Table};
 use crate::units::Units;
 use bryant_generator::model::{Dimension, Model};
-use bryant_runtime::program::Job;
 use bryant_signal::filter::{Standard, class_of_code, filtered};
 use bryant_signal::mme::{self, About};
 use bryant_signal::{Channel, Signal};
@@ -40,10 +41,11 @@ impl Files {
     /// Two results go to one place, or one to a file that the command reads; or a plot needs a column that does not exist.
     pub fn of(arguments: &Arguments, found: &Found) -> Result<Self, Error> {
         let model = &found.model;
-        if model.dimension == Dimension::Plane && arguments.view != View::Side {
+        let view = arguments.view.unwrap_or_default();
+        if model.dimension == Dimension::Plane && view != View::Side {
             return Err(Error::Input(format!(
                 "--view {}: {} is planar and is seen from the side only\n  help: leave out --view",
-                arguments.view.name(),
+                view.name(),
                 model.name
             )));
         }
@@ -116,10 +118,11 @@ impl Files {
     pub fn write(
         &self,
         arguments: &Arguments,
-        model: &Model,
-        job: &Job,
+        shown: &Shown<'_>,
         (recording, table): (&Recording, &Table),
+        terminal: &Terminal,
     ) -> Result<Vec<PathBuf>, Error> {
+        let model = &shown.found.model;
         let file = |path: &Option<PathBuf>| path.clone().filter(|path| !is_standard(path));
         let mut written = Vec::new();
         if let Some(path) = file(&self.csv) {
@@ -135,7 +138,7 @@ impl Files {
             written.push(write_mme(folder, model, recording)?);
         }
         if let Some(path) = file(&self.picture) {
-            let bytes = drawn(arguments, model, job, recording, &path)?;
+            let bytes = drawn(arguments, shown, recording, &path, terminal)?;
             files::replace(&path, |out| out.write_all(&bytes)).map_err(Error::system)?;
             written.push(path);
         }
@@ -161,8 +164,7 @@ impl Files {
     pub fn print(
         &self,
         arguments: &Arguments,
-        model: &Model,
-        job: &Job,
+        shown: &Shown<'_>,
         (recording, table): (&Recording, &Table),
         terminal: &mut Terminal,
     ) -> Result<(), Error> {
@@ -175,7 +177,7 @@ impl Files {
                 false => terminal.print(&state_file::text(recording)),
             }
         } else if let Some(path) = self.picture.as_ref().filter(|path| is_standard(path)) {
-            let bytes = drawn(arguments, model, job, recording, path)?;
+            let bytes = drawn(arguments, shown, recording, path, terminal)?;
             terminal.write(|out| out.write_all(&bytes))
         } else if arguments.quiet {
             Ok(())
@@ -327,27 +329,34 @@ pub fn parquet(
 /// The picture in the format that the ending of its file says.
 fn drawn(
     arguments: &Arguments,
-    model: &Model,
-    job: &Job,
+    shown: &Shown<'_>,
     recording: &Recording,
     path: &Path,
+    terminal: &Terminal,
 ) -> Result<Vec<u8>, Error> {
-    let every = job.every.unwrap_or(model.run.every);
+    let model = &shown.found.model;
+    let every = shown.job.every.unwrap_or(model.run.every);
     let ends = [recording.first_time(), recording.last_time()];
     let times = picture::times(ends, arguments.figures.into(), every);
     let arrangement = match arguments.overlay {
         true => Arrangement::Overlay,
         false => Arrangement::Row,
     };
-    let drawing = picture::draw(
-        model,
-        &recording.coordinates,
-        &recording.parameters(job),
-        &recording.at(&times),
-        arrangement,
-        arguments.view,
-    );
+    // what happens between the figures says what the view stays with, from where it looks, and which of them are alike
+    let between = times.windows(2).flat_map(|ends| {
+        let part = |n: i32| ends[0] + f64::from(n) / 4.0 * (ends[1] - ends[0]);
+        (0..4).map(part)
+    });
+    let looks: Vec<f64> = between.chain(times.last().copied()).collect();
+    let instants = recording.at(&looks);
+    let scene = match needs_forces(model) {
+        true => shown.scene(recording, &instants, terminal)?,
+        false => shown.bare(recording, &instants)?,
+    };
+    let drawn = recording.at(&times);
+    let drawn: Vec<f64> = drawn.iter().map(|instant| instant.time).collect();
+    let view = arguments.view.unwrap_or_else(|| scene.view());
+    let drawing = picture::draw(model, &scene, &drawn, arrangement, view);
     let format = Format::of(path).unwrap_or(Format::Svg);
-    let bytes = drawing.map_err(Error::system)?.bytes(format);
-    bytes.map_err(Error::system)
+    drawing.bytes(format).map_err(Error::system)
 }

@@ -2,21 +2,20 @@
 
 use super::super::Error;
 use super::super::error_report::ErrorReport;
-use super::super::model_argument::Found;
-use super::super::prepare::prepare_model;
 use super::super::terminal::Terminal;
 use super::outcome;
 use super::responses::Responses;
+use super::shown::Shown;
 use super::{Arguments, beside};
-use crate::accuracy::setting::Setting;
 use crate::balance;
 use crate::picture::Instant;
 use crate::report::study::quoted;
-use crate::report::{Curve, Scene, curves, page, plots, short, with_forces};
-use crate::simulation::{self, Recording};
+use crate::report::{self, Curve, curves, page, plots, short};
+use crate::simulation::Recording;
 use crate::table::Table;
 use bryant_generator::effect;
-use bryant_runtime::program::{Header, History, Job};
+use bryant_generator::model::Body;
+use bryant_runtime::program::{Header, History};
 use bryant_signal::unit;
 use serde_json::{Value, json};
 
@@ -32,31 +31,28 @@ pub const MOST_ROWS: f64 = 2e4;
 /// The equations cannot be prepared again for the forces between bodies.
 pub fn html(
     arguments: &Arguments,
-    found: &Found,
-    job: &Job,
+    shown: &Shown<'_>,
     (recording, table, errors): (&Recording, &Table, &ErrorReport),
     (responses, criteria): (&Responses, Option<Value>),
     terminal: &Terminal,
 ) -> Result<String, Error> {
+    let Shown { found, job, .. } = *shown;
     let model = &found.model;
-    let instants = kept(recording);
     let parameters = recording.parameters(job);
-    let forces = forces(found, job, recording, errors, &instants, terminal)?;
-    let mut notes = recording.notes.clone();
-    if forces.is_empty() && recording.result.is_err() {
-        notes.push(
-            "Forces of belts and contacts are not shown: the run did not come to its end.".into(),
-        );
-    }
-    let scene = Scene::new(model, &recording.coordinates, &parameters, &instants);
-    let scene = scene.map_err(Error::system)?;
+    let scene = shown.scene(recording, &kept(recording), terminal)?;
     let [_, outputs @ ..] = table.columns.as_slice() else {
         return Err(Error::system("a run has no time"));
     };
     let mut columns = output_curves(recording, responses);
+    let places = crate::scene::Bodies::of(model);
+    let indices = |bodies: &[Body]| -> Vec<usize> {
+        bodies
+            .iter()
+            .filter_map(|body| places.index(*body))
+            .collect()
+    };
     for (curve, output) in columns.iter_mut().zip(&model.outputs) {
-        let bodies = plots::bodies(model, &output.quantity);
-        curve["bodies"] = bodies.iter().map(|body| scene.index(*body)).collect();
+        curve["bodies"] = json!(indices(&plots::bodies(model, &output.quantity)));
         curve["laws"] = json!(plots::laws(&output.quantity));
     }
     let units: Vec<&str> = outputs.iter().map(|column| column.unit.as_str()).collect();
@@ -66,8 +62,7 @@ pub fn html(
         .map(|column| largest(&column.values))
         .collect();
     let laws = model.forces.iter().enumerate().map(|(index, force)| {
-        let bodies = plots::of_force(model, index);
-        let bodies: Vec<i64> = bodies.iter().map(|body| scene.index(*body)).collect();
+        let bodies = indices(&plots::of_force(model, index));
         json!({ "name": force.name, "kind": force.kind.key(), "bodies": bodies })
     });
     let laws: Vec<Value> = laws.collect();
@@ -106,14 +101,14 @@ pub fn html(
         "times": seconds(recording).into_iter().map(short).collect::<Vec<_>>(),
         "columns": columns,
         "plots": plots::json(model, &units, &sizes),
-        "scene": scene.json(&forces),
+        "scene": report::json(&scene),
         "forces": laws,
         "responses": told(&responses.json(recording, errors)),
         "criteria": criteria,
         "energy": recording.energy.as_ref().map(|energy| balance::json(&recording.header, energy)),
         "accuracy": accuracy,
         "beyond": errors.check().is_err(),
-        "notes": notes,
+        "notes": recording.notes,
         "doubts": recording.doubts.iter().map(|doubt| &doubt.message).collect::<Vec<_>>(),
         "failure": recording.result.as_ref().err().map(|error| error.message.clone()),
         "report": outcome::report(recording),
@@ -160,55 +155,6 @@ pub(super) fn kept(recording: &Recording) -> Vec<Instant> {
     let kept = recording.instants.iter().enumerate();
     let kept = kept.filter(|(k, _)| k % stride == 0 || *k == last);
     kept.map(|(_, instant)| instant.clone()).collect()
-}
-
-/// The forces between bodies at these instants, a column for each component. The same run is computed again, with outputs for these forces.
-/// `None` if the run did not reach its end, this time or before.
-fn forces(
-    found: &Found,
-    job: &Job,
-    recording: &Recording,
-    errors: &ErrorReport,
-    instants: &[Instant],
-    terminal: &Terminal,
-) -> Result<Vec<Vec<f64>>, Error> {
-    let model = with_forces(&found.model);
-    let own = found.model.outputs.len();
-    if model.outputs.len() == own || recording.result.is_err() {
-        return Ok(Vec::new());
-    }
-    let engine = prepare_model(found, &model, terminal)?;
-    let setting = errors.setting().unwrap_or(Setting::of(job));
-    let mut job = setting.job(job);
-    job.reading = Default::default();
-    let again = simulation::run(&*engine, &job, &mut |_| {});
-    engine.check()?;
-    if again.result.is_err() {
-        return Ok(Vec::new());
-    }
-    // additional outputs do not change steps
-    let bits = |state: &[f64]| {
-        state
-            .iter()
-            .map(|entry| entry.to_bits())
-            .collect::<Vec<_>>()
-    };
-    if bits(&again.last_state) != bits(&recording.last_state) {
-        return Err(Error::system(
-            "the forces of the report are not those of the run\n  help: leave out --report, and tell the authors",
-        ));
-    }
-    let times = &again.table.columns[0].values;
-    let rows: Vec<usize> = instants
-        .iter()
-        .map(|instant| times.partition_point(|t| *t < instant.time))
-        .collect();
-    let columns = again.table.columns[1 + own..].iter();
-    let at_rows = |values: &[f64]| {
-        let value = |row: &usize| values.get(*row).copied().unwrap_or(f64::NAN);
-        rows.iter().map(value).collect()
-    };
-    Ok(columns.map(|column| at_rows(&column.values)).collect())
 }
 
 /// The responses in the form that the page reads.

@@ -5,7 +5,7 @@ use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::law::{Asked, Look, Measures, OfLaw, Outputs, Value};
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Quantity};
 
@@ -57,6 +57,12 @@ impl Outputs for Airbag {
             }
         };
         Some((quantity, unit))
+    }
+
+    fn looks(&self) -> Vec<Look<'_>> {
+        let bag = Look::Bag(self.bag.round(), Asked::Airbag(AirbagQuantity::Volume));
+        let others = self.against.iter().map(|other| Look::Round(other.round()));
+        std::iter::once(bag).chain(others).collect()
     }
 }
 

@@ -6,7 +6,7 @@ use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::law::{Asked, Line, Look, Measures, OfLaw, Outputs, Value};
 use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
 use crate::model::{Body, Quantity};
@@ -97,6 +97,10 @@ impl Outputs for Belt {
         });
         let quantity = resolver.scalar(force, asked, at);
         part.map(|_| (quantity, unit))
+    }
+
+    fn looks(&self) -> Vec<Look<'_>> {
+        vec![Look::Line(Line::Belt(self), self.points().collect())]
     }
 }
 

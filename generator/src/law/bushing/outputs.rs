@@ -5,7 +5,7 @@ use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::law::{Asked, Line, Look, Measures, OfLaw, Outputs, Value};
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Component, Projection, Quantity};
 
@@ -116,6 +116,10 @@ impl Outputs for Bushing {
         };
         let what = Asked::Bushing(what);
         Some((Quantity::OfForce { force, what }, unit))
+    }
+
+    fn looks(&self) -> Vec<Look<'_>> {
+        vec![Look::Line(Line::Bushing, vec![&self.from.on, &self.to.on])]
     }
 }
 

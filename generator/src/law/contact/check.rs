@@ -6,6 +6,7 @@ use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::short::Surface;
 use crate::diagnostic::quoted;
+use crate::law::Round;
 use crate::model::resolve::hysteresis::Unloading;
 use crate::model::resolve::quantity::{
     ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS,
@@ -376,6 +377,14 @@ pub(crate) fn surface(
 }
 
 impl Shown {
+    /// As it is seen.
+    pub fn round(&self) -> Round<'_> {
+        Round {
+            degree: self.degree,
+            ..self.round.round()
+        }
+    }
+
     /// Whether a contact has this ellipsoid.
     pub(crate) fn is_of(&self, contact: &Contact) -> bool {
         let Ellipsoid {

@@ -1,11 +1,11 @@
 //! What can be asked of a contact.
 
-use super::check::Contact;
+use super::check::{Against, Contact};
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::law::{Asked, Look, Measures, OfLaw, Outputs, Round, Value};
 use crate::model::Quantity;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
@@ -53,6 +53,21 @@ impl Outputs for Contact {
             what => resolver.scalar(force, Asked::Contact(what), at),
         };
         Some((quantity, unit))
+    }
+
+    fn looks(&self) -> Vec<Look<'_>> {
+        let round = Round {
+            center: &self.ellipsoid,
+            semi_axes: &self.semi_axes,
+            axes: &self.axes,
+            degree: self.degree,
+        };
+        let other = match &self.against {
+            Against::Plane(plane) => Look::Plane(plane, round),
+            Against::Ellipsoid(ellipsoid) => Look::Round(ellipsoid.round()),
+        };
+        let push = Look::Push(round, self.against.plane());
+        vec![Look::Round(round), other, push]
     }
 }
 

@@ -5,7 +5,7 @@ use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::law::{Asked, Line, Look, Measures, OfLaw, Outputs, Value};
 use crate::model::Quantity;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
@@ -49,6 +49,10 @@ impl Outputs for Spring {
             what => resolver.scalar(force, Asked::Spring(what), at),
         };
         Some((quantity, unit))
+    }
+
+    fn looks(&self) -> Vec<Look<'_>> {
+        vec![Look::Line(Line::Spring, vec![&self.from, &self.to])]
     }
 }
 

@@ -1,0 +1,132 @@
+//! The scene of a run, with the forces between its bodies: outputs for them are computed at its states.
+
+use super::super::Error;
+use super::super::model_argument::Found;
+use super::super::prepare::{Prepared, prepare_model};
+use super::super::terminal::Terminal;
+use crate::picture::Instant;
+use crate::scene::{Scene, with_forces};
+use crate::simulation::Recording;
+use bryant_generator::model::Model;
+use bryant_runtime::dynamics::Family;
+use bryant_runtime::program::Job;
+use std::cell::OnceCell;
+
+/// Outputs are the same within this share of the largest of them, or this, in SI.
+const SAME: f64 = 1e-3;
+const SMALL: f64 = 1e-9;
+
+/// What scenes of runs of one model are made with.
+pub struct Shown<'a> {
+    /// The model.
+    pub found: &'a Found,
+    /// The run.
+    pub job: &'a Job,
+    model: Model,
+    /// Its equations, once a scene needs them.
+    engine: OnceCell<Prepared>,
+}
+
+impl<'a> Shown<'a> {
+    /// Nothing is computed yet.
+    pub fn new(found: &'a Found, job: &'a Job) -> Self {
+        Shown {
+            found,
+            job,
+            model: with_forces(&found.model),
+            engine: OnceCell::new(),
+        }
+    }
+
+    /// The scene at these instants of a run.
+    ///
+    /// # Errors
+    /// The equations cannot be prepared, a user function fails, or the outputs at a state are not those of the run.
+    pub fn scene(
+        &self,
+        recording: &Recording,
+        instants: &[Instant],
+        terminal: &Terminal,
+    ) -> Result<Scene, Error> {
+        let forces = self.forces(recording, instants, terminal)?;
+        self.scene_of(recording, instants, &forces)
+    }
+
+    /// The same without forces, which is quicker.
+    ///
+    /// # Errors
+    /// The recording is one of another model.
+    pub fn bare(&self, recording: &Recording, instants: &[Instant]) -> Result<Scene, Error> {
+        self.scene_of(recording, instants, &[])
+    }
+
+    fn scene_of(
+        &self,
+        recording: &Recording,
+        instants: &[Instant],
+        forces: &[Vec<f64>],
+    ) -> Result<Scene, Error> {
+        let parameters = recording.parameters(self.job);
+        let model = &self.found.model;
+        let scene = Scene::new(model, &recording.coordinates, &parameters, instants, forces);
+        scene.map_err(Error::system)
+    }
+
+    /// A column for each output that the scene has to know.
+    fn forces(
+        &self,
+        recording: &Recording,
+        instants: &[Instant],
+        terminal: &Terminal,
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        let own = self.found.model.outputs.len();
+        if self.model.outputs.len() == own {
+            return Ok(Vec::new());
+        }
+        if self.engine.get().is_none() {
+            let prepared = prepare_model(self.found, &self.model, terminal)?;
+            let _ = self.engine.set(prepared);
+        }
+        let Some(engine) = self.engine.get() else {
+            return Ok(Vec::new());
+        };
+        let mut model = Family::over::<f64>(&**engine);
+        model.set_parameters(&recording.parameters(self.job));
+        let mut outputs = vec![0.0; self.model.outputs.len()];
+        let mut forces = vec![Vec::with_capacity(instants.len()); self.model.outputs.len() - own];
+        for instant in instants {
+            if !instant.coordinates.iter().all(|q| q.is_finite()) {
+                continue;
+            }
+            model.outputs(instant.time, &instant.state, &mut outputs);
+            if !self.is_of_run(recording, instant.time, &outputs[..own]) {
+                return Err(Error::system(
+                    "the forces between bodies are not those of the run\n  help: leave out the report, the animation and the picture, and tell the authors",
+                ));
+            }
+            for (column, force) in forces.iter_mut().zip(&outputs[own..]) {
+                column.push(*force);
+            }
+        }
+        engine.check()?;
+        Ok(forces)
+    }
+
+    /// Whether the run has the same outputs at this time. Equations with other outputs beside them round differently. Outputs that are filtered are not compared.
+    fn is_of_run(&self, recording: &Recording, time: f64, outputs: &[f64]) -> bool {
+        let [times, columns @ ..] = recording.table.columns.as_slice() else {
+            return true;
+        };
+        let row = times.values.partition_point(|t| *t < time);
+        let outputs = outputs.iter().zip(&self.found.model.outputs).zip(columns);
+        let mut compared = outputs.filter(|((_, output), _)| output.filter.is_none());
+        compared.all(|((value, _), column)| {
+            let largest = column
+                .values
+                .iter()
+                .fold(0.0, |most: f64, x| x.abs().max(most));
+            let far = |written: &f64| (written - value).abs() > SAME * largest + SMALL;
+            !column.values.get(row).is_some_and(far)
+        })
+    }
+}
