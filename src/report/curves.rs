@@ -13,8 +13,10 @@ const MOST_BETWEEN: usize = 20_000;
 /// Equidistant samples of an output.
 #[derive(Clone, Copy)]
 pub struct Samples<'a> {
-    /// In the unit of the output.
+    /// In a unit of the output.
     pub values: &'a [f64],
+    /// By this factor they are in the unit of the column.
+    pub factor: f64,
     /// \[s\]
     pub start: f64,
     /// \[s\]
@@ -22,6 +24,10 @@ pub struct Samples<'a> {
 }
 
 impl Samples<'_> {
+    fn value(&self, index: usize) -> f64 {
+        self.factor * self.values[index]
+    }
+
     fn time(&self, index: usize) -> f64 {
         self.start + index as f64 * self.every
     }
@@ -34,7 +40,7 @@ impl Samples<'_> {
             (Response::Peak, Response::TimeOfPeak),
         ];
         both.map(|(value, time)| {
-            let (value, time) = (read(value), self.start + read(time));
+            let (value, time) = (self.factor * read(value), self.start + read(time));
             match value.is_finite() && time.is_finite() {
                 true => json!([value, time]),
                 false => Value::Null,
@@ -83,7 +89,7 @@ pub fn curves(times: &[f64], outputs: &[(&Column, Option<Samples<'_>>)]) -> Vec<
                 let mut indices: Vec<usize> = points.iter().map(|point| point.index).collect();
                 indices.sort_unstable();
                 let time = |index: &usize| short(samples.time(*index));
-                let value = |index: &usize| short(samples.values[*index]);
+                let value = |index: &usize| short(samples.value(*index));
                 curve["between"] = json!({
                     "times": indices.iter().map(time).collect::<Vec<_>>(),
                     "values": indices.iter().map(value).collect::<Vec<_>>(),
@@ -96,7 +102,8 @@ pub fn curves(times: &[f64], outputs: &[(&Column, Option<Samples<'_>>)]) -> Vec<
 
 /// The samples between rows without which the curve would be off, and its smallest and largest sample (Ramer 1972, Douglas and Peucker 1973).
 fn between(times: &[f64], values: &[f64], samples: &Samples<'_>) -> Vec<Point> {
-    let finite = || samples.values.iter().copied().filter(|v| v.is_finite());
+    let all = || (0..samples.values.len()).map(|k| samples.value(k));
+    let finite = || all().filter(|v| v.is_finite());
     let [low, high] = [
         finite().fold(f64::INFINITY, f64::min),
         finite().fold(f64::NEG_INFINITY, f64::max),
@@ -117,7 +124,7 @@ fn between(times: &[f64], values: &[f64], samples: &Samples<'_>) -> Vec<Point> {
             let end = ((b.0 - 1e-6).ceil() as usize).min(samples.values.len());
             let off = |k: usize| {
                 let line = a.1 + (b.1 - a.1) * (k as f64 - a.0) / (b.0 - a.0);
-                (samples.values[k] - line).abs() / (high - low)
+                (samples.value(k) - line).abs() / (high - low)
             };
             let far = (first..end)
                 .map(|k| (k, off(k)))
@@ -125,7 +132,7 @@ fn between(times: &[f64], values: &[f64], samples: &Samples<'_>) -> Vec<Point> {
             if let Some((k, off)) = far.max_by(|a, b| a.1.total_cmp(&b.1)) {
                 let share = above.min(off);
                 points.push(Point { index: k, share });
-                let middle = (k as f64, samples.values[k]);
+                let middle = (k as f64, samples.value(k));
                 parts.extend([[a, middle], [middle, b]]);
                 shares.extend([share; 2]);
             }
@@ -136,7 +143,7 @@ fn between(times: &[f64], values: &[f64], samples: &Samples<'_>) -> Vec<Point> {
         if values.contains(&extreme) {
             continue;
         }
-        let Some(at) = samples.values.iter().position(|v| *v == extreme) else {
+        let Some(at) = all().position(|v| v == extreme) else {
             continue;
         };
         match points.iter_mut().find(|point| point.index == at) {
@@ -169,6 +176,7 @@ mod tests {
         let samples: Vec<f64> = (0..=10_000).map(|k| curve(EVERY * f64::from(k))).collect();
         let samples = Samples {
             values: &samples,
+            factor: 1.0,
             start: 0.0,
             every: EVERY,
         };
@@ -212,6 +220,26 @@ mod tests {
         );
         assert!((curve["largest"][0].as_f64().unwrap() - peak).abs() < 1e-4);
         assert!((curve["largest"][1].as_f64().unwrap() - 0.4537).abs() < EVERY);
+    }
+
+    /// The column is in kilonewtons, its samples are in newtons.
+    #[test]
+    fn samples_are_in_the_unit_of_their_column() {
+        let times = [0.0, 0.01];
+        let column = Column {
+            name: "one".into(),
+            unit: "kN".into(),
+            values: vec![1.0, 1.0],
+        };
+        let samples = Samples {
+            values: &[1000.0, 1000.0, 5000.0, 1000.0, 1000.0],
+            factor: 1e-3,
+            start: 0.0,
+            every: 0.0025,
+        };
+        let curve = &curves(&times, &[(&column, Some(samples))])[0];
+        assert_eq!(curve["largest"][0], 5.0);
+        assert!(points(curve).contains(&(0.005, 5.0)), "{curve}");
     }
 
     #[test]

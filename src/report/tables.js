@@ -45,6 +45,8 @@ function result(parent) {
     const judged = data.criteria.criteria.filter((one) => one.value !== null);
     right.append(element("p", `${data.criteria.standard}, ${data.criteria.dummy}`, { class: "hint" }));
     right.append(table([["criterion", false], ["value", true], ["limit", true], ["unit", false], ["verdict", false]], judged.map((one) => [one.criterion, readable(one.value), limit(one), one.unit, met(one)])));
+    const missing = data.criteria.criteria.filter((one) => one.missing);
+    if (missing.length) right.append(element("p", `Not judged: ${missing.map((one) => one.criterion).join(", ")}; see below.`, { class: "hint" }));
   }
   if (data.responses && data.responses.length) {
     right.append(table([["response", false], ["value", true], ["unit", false]], data.responses.map((r) => [r.name, readable(r.value), r.unit || ""])));

@@ -273,6 +273,14 @@ def parts(browser, url, run):
         whole(page)
 
 
+def limits(browser, url):
+    """Limits stand there as the regulation prints them."""
+    with Page(browser, url) as page:
+        cells = page.js("[...byId('result').querySelectorAll('td')].map((e) => e.textContent)")
+        for name, limit in [("femur left", "10008"), ("neck tension", "4170"), ("HIC15", "700")]:
+            expect(cells[cells.index(name) + 2] == limit, f"the limit of {name} is {cells[cells.index(name) + 2]}")
+
+
 def opened(browser, url):
     """A report that is only looked at."""
     with Page(browser, url) as page:
@@ -412,6 +420,7 @@ def main():
         *[(printed, url, 2) for url in [seat, frontal, many]],
         *[(keys, url) for url in [seat, many]],
         (scrolls, seat),
+        (limits, frontal),
         (readings, seat, rows),
         (legend, seat),
         (parts, seat, rows),

@@ -12,7 +12,7 @@ use crate::accuracy::setting::Setting;
 use crate::balance;
 use crate::picture::Instant;
 use crate::report::study::quoted;
-use crate::report::{Scene, curves, page, plots, short, with_forces};
+use crate::report::{Samples, Scene, curves, page, plots, short, with_forces};
 use crate::simulation::{self, Recording};
 use bryant_generator::effect;
 use bryant_runtime::program::{Header, History, Job};
@@ -134,7 +134,12 @@ pub(super) fn seconds(recording: &Recording) -> Vec<f64> {
 /// The curves of all outputs, with samples between the rows.
 pub(super) fn output_curves(recording: &Recording, responses: &Responses) -> Vec<Value> {
     let outputs = recording.table.columns.iter().skip(1).enumerate();
-    let outputs = outputs.map(|(index, column)| (column, responses.samples(recording, index)));
+    let outputs = outputs.map(|(index, column)| {
+        let own = &recording.header.outputs[index].unit;
+        let factor = unit::factor(own, &column.unit).unwrap_or(1.0);
+        let samples = responses.samples(recording, index);
+        (column, samples.map(|samples| Samples { factor, ..samples }))
+    });
     curves(&seconds(recording), &outputs.collect::<Vec<_>>())
 }
 

@@ -130,6 +130,7 @@ impl Responses {
         let values = recording.kept.get(*self.signals.get(output)?)?;
         (!values.is_empty()).then_some(Samples {
             values,
+            factor: 1.0,
             start: recording.first_time(),
             every: self.every,
         })
@@ -143,6 +144,7 @@ impl Responses {
                 values,
                 start,
                 every,
+                ..
             } = self.samples(recording, index)?;
             Peak::of((&output.name, &output.unit), values, [start, every])
         };

@@ -340,7 +340,10 @@ fn lists_are_read_from_csv_with_units_in_headings() {
         panic!("a list")
     };
     assert_eq!(list.0, [0.2, 10.0 * 1e-3, 0.5, 2.0 * 1e-2]);
-    assert_eq!((&*study.varied[0].shown, &*study.varied[1].shown), ("", "mm"));
+    assert_eq!(
+        (&*study.varied[0].shown, &*study.varied[1].shown),
+        ("", "mm")
+    );
     let message = problem(read("friction,lap_slack\n0.2,0.01\n0.2,7\n"));
     assert!(
         message.starts_with("rows.csv:3:1") && message.contains("from 0 to 0.1 m"),
