@@ -351,7 +351,13 @@ function startMotion() {
   const from = asked.get("view");
   view(!scene.planar && from in VIEWS ? from : scene.planar ? "side" : "oblique");
   new ResizeObserver(redraw).observe(byId("stage"));
-  onPaper(render);
+  onPaper(() => {
+    // at rest there is little to see: paper has the first peak, unless another time was chosen
+    const [peak] = data.result.peaks, chosen = now;
+    if (printing && now === times[0] && peak) now = peak.time_s;
+    render();
+    now = chosen;
+  });
   const t = Number(asked.get("t"));
   setTime(asked.has("t") && Number.isFinite(t) ? t / 1000 : times[0]);
 }
