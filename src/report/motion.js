@@ -321,7 +321,7 @@ function startMotion() {
   for (const s of speeds) byId("speed").append(element("option", s === 1 ? "real time" : `1 : ${Math.round(1 / s)}`, { value: s }));
   byId("speed").value = usual;
   for (const name of scene.planar ? ["side"] : Object.keys(VIEWS)) {
-    const button = element("button", name);
+    const button = element("button", scene.planar ? "whole view" : name);
     button.addEventListener("click", () => view(name));
     byId("views").append(button, " ");
   }

@@ -110,7 +110,14 @@ def scrolls(browser, url):
             before = page.js("scrollY")
             page.swipe(left + width / 2, top + height / 2, 0, -200)
             page.wait(f"scrollY > {before} + 100")
-        # and one that goes across turns the view, or moves it
+        # one that stays, or goes across a plot, reads it
+        left, top, width, height = page.box("plots[1].canvas")
+        for dx in [0, 60]:
+            page.swipe(left + 0.4 * width, top + height / 2, dx, 0)
+            read = page.js("[plots[1].reading.hidden, plots[1].reading.querySelectorAll('output').length, pointed, plots[1].reading.getBoundingClientRect().right <= innerWidth]")
+            expect(read[:2] == [False, 2] and read[3], f"a finger reads {read}")
+        expect(page.js("zoomed === null"), "a finger zooms where it should read")
+        # one that goes across the motion turns the view, or moves it
         left, top, width, height = page.box("byId('scene')")
         view = "JSON.stringify([camera.yaw, camera.center])"
         before = page.js(view)
