@@ -25,6 +25,7 @@ function readable(value, most = 0) {
 const limitText = (limit) => String(Number(limit.toPrecision(12)));
 // Times are in milliseconds, those of a long run in seconds, as in the terminal.
 const TIME = data.times && data.times[data.times.length - 1] >= 10 ? { unit: "s", scale: 1, digits: 3 } : { unit: "ms", scale: 1000, digits: 1 };
+const atTime = (t) => `${Number((TIME.scale * t).toPrecision(6))} ${TIME.unit}`;
 const timeText = (t) => (TIME.scale * t).toFixed(TIME.digits);
 
 // Colours of systems and curves, also for the colour-blind (Okabe and Ito 2008).
@@ -88,6 +89,23 @@ function chart(canvas, [a, b], [low, high], titles, paint, scale = 1) {
   paint(c, px, py, { left, right, top, bottom });
   c.restore();
   canvas.places = { left, right, top, bottom, a, b, low, high, x: px, y: py };
+}
+
+// Shows numbers beside the place x of a canvas: rows of { colour, name, value, unit, near }.
+function showReading(box, canvas, x, title, rows) {
+  box.replaceChildren(element("b", title), ...rows.map(({ colour, name, value, unit, near }) => {
+    const row = element("div", null, near ? { class: "near" } : {});
+    if (colour) {
+      const mark = element("i");
+      mark.style.background = colour;
+      row.append(mark);
+    }
+    row.append(element("span", name), element("output", value), element("span", unit || "", { class: "unit" }));
+    return row;
+  }));
+  box.hidden = false;
+  const right = x + 14 + box.offsetWidth > canvas.clientWidth;
+  box.style.left = `${right ? Math.max(0, x - 14 - box.offsetWidth) : x + 14}px`;
 }
 
 // What is drawn is drawn again where its colours or its size change at once: in the dark, and on paper.

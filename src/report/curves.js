@@ -138,20 +138,12 @@ class Plot {
   // Shows the values at a time beside the pointer.
   read(e, t) {
     pointed = t;
-    const { left, top, width } = this.canvas.getBoundingClientRect(), x = this.canvas.places.x(t);
+    const { top } = this.canvas.getBoundingClientRect(), x = this.canvas.places.x(t);
     const lines = this.members.filter((m) => m.shown).map((m) => ({ m, v: valueAt(m.points, t) })).filter(({ v }) => v !== null);
     // the curve next to the pointer is in bold
     const away = ({ v }) => Math.abs(this.canvas.places.y(v) - (e.clientY - top));
     const nearest = lines.reduce((best, line) => (!best || away(line) < away(best) ? line : best), null);
-    this.reading.replaceChildren(element("b", `${Number((TIME.scale * t).toPrecision(6))} ${TIME.unit}`), ...lines.map((line) => {
-      const row = element("div", null, line === nearest ? { class: "near" } : {}), mark = element("i");
-      mark.style.background = line.m.colour;
-      row.append(mark, element("span", line.m.name), element("output", readable(line.v, line.m.size)), element("span", line.m.unit, { class: "unit" }));
-      return row;
-    }));
-    this.reading.hidden = false;
-    const wide = this.reading.offsetWidth;
-    this.reading.style.left = `${Math.max(0, x + 14 + wide > width ? Math.max(0, x - 14 - wide) : x + 14)}px`;
+    showReading(this.reading, this.canvas, x, atTime(t), lines.map((line) => ({ colour: line.m.colour, name: line.m.name, value: readable(line.v, line.m.size), unit: line.m.unit, near: line === nearest })));
     // away from the pointer
     const low = e.clientY - top < 0.5 * this.canvas.clientHeight;
     Object.assign(this.reading.style, low ? { top: "auto", bottom: "38px" } : { top: "24px", bottom: "auto" });

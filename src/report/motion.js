@@ -343,7 +343,7 @@ function startMotion() {
   for (const s of speeds) byId("speed").append(element("option", s === 1 ? "real time" : `1 : ${Math.round(1 / s)}`, { value: s }));
   byId("speed").value = usual;
   for (const name of scene.planar ? ["side"] : Object.keys(VIEWS)) {
-    const button = element("button", name);
+    const button = element("button", scene.planar ? "whole view" : name);
     button.addEventListener("click", () => view(name));
     byId("views").append(button, " ");
   }
@@ -373,7 +373,13 @@ function startMotion() {
   const from = asked.get("view");
   view(scene.planar ? "side" : from in VIEWS ? from : scene.view === "side" ? "oblique" : scene.view);
   new ResizeObserver(redraw).observe(byId("stage"));
-  onPaper(render);
+  onPaper(() => {
+    // at rest there is little to see: paper has the first peak, unless another time was chosen
+    const [peak] = data.result.peaks, chosen = now;
+    if (printing && now === times[0] && peak) now = peak.time_s;
+    render();
+    now = chosen;
+  });
   const t = Number(asked.get("t"));
   setTime(asked.has("t") && Number.isFinite(t) ? t / 1000 : times[0]);
 }

@@ -102,7 +102,7 @@ function tornado() {
     const { shares, correlations } = about, column = data.parameters.length + response;
     const all = data.parameters.map((p, k) => ({ name: p.name, main: shares ? shares[k].main.value : Math.abs(correlations[k]), total: shares ? shares[k].total.value : Math.abs(correlations[k]), ends: lowAndHigh(k, column) }));
     all.sort((a, b) => b.total - a.total);
-    const bar = (share, kind) => element("span", "", { class: kind, style: `width:${Math.round(100 * Math.max(0, Math.min(1, share || 0)))}px` });
+    const bar = (share, kind) => element("span", "", { class: kind, style: `width:${100 * Math.max(0, Math.min(1, share || 0))}%` });
     const furthest = Math.max(1e-300, ...all.flatMap(({ ends }) => (ends || []).map((v) => Math.abs(v - about.mean))));
     // low to the left or right of the mean, high to the other side
     const swing = (ends) => {
@@ -187,13 +187,8 @@ function read(canvas, run) {
   const box = byId("reading");
   box.hidden = !run;
   if (!run) return;
-  box.replaceChildren(element("b", `run ${run.index}`), ...names.map((one, k) => {
-    const line = element("div");
-    line.append(element("span", one.name), element("output", readable(run.values[k])), element("span", one.unit || "", { class: "unit" }));
-    return line;
-  }));
   const x = canvas.places.x(run.values[Number(byId("across").value)]);
-  box.style.left = `${x + 14 + box.offsetWidth > canvas.clientWidth ? Math.max(0, x - 14 - box.offsetWidth) : x + 14}px`;
+  showReading(box, canvas, x, `run ${run.index}`, names.map((one, k) => ({ name: one.name, value: readable(run.values[k]), unit: one.unit })));
 }
 
 function startStudy() {
@@ -204,7 +199,7 @@ function startStudy() {
   if (missed.length) byId("state").classList.add("bad");
   const limited = data.responses.filter((one) => one.limit !== null);
   if (limited.length) {
-    const all = data.kept === data.runs, what = limited.length === 1 ? `the limit of ${limited[0].name}` : `all ${limited.length} limits`;
+    const all = data.kept === data.runs, what = limited.length === 1 ? `the limit of ${limited[0].name}` : limited.length === 2 ? "both limits" : `all ${limited.length} limits`;
     byId("kept").append(element("span", `${data.kept} of ${data.runs} runs (${readable((100 * data.kept) / data.runs)} %) keep ${what}.`, { class: all ? "met" : "missed" }));
   }
   // a column that would be empty is not there

@@ -45,6 +45,8 @@ function result(parent) {
     const judged = data.criteria.criteria.filter((one) => one.value !== null);
     right.append(element("p", `${data.criteria.standard}, ${data.criteria.dummy}`, { class: "hint" }));
     right.append(table([["criterion", false], ["value", true], ["limit", true], ["unit", false], ["verdict", false]], judged.map((one) => [one.criterion, readable(one.value), limit(one), one.unit, met(one)])));
+    const missing = data.criteria.criteria.filter((one) => one.missing);
+    if (missing.length) right.append(element("p", `Not judged: ${missing.map((one) => one.criterion).join(", ")}; see below.`, { class: "hint" }));
   }
   if (data.responses && data.responses.length) {
     right.append(table([["response", false], ["value", true], ["unit", false]], data.responses.map((r) => [r.name, readable(r.value), r.unit || ""])));
@@ -98,7 +100,17 @@ class EnergyPlot {
       keys.append(key);
     });
     const box = element("figure", null, { class: "plot" });
-    box.append(element("figcaption", "Kinetic energy, and what each effect has taken; the top is what was given"), this.canvas, keys);
+    const stage = element("div", null, { class: "stage" }), reading = element("div", null, { class: "reading" });
+    reading.hidden = true;
+    stage.append(this.canvas, reading);
+    box.append(element("figcaption", "Kinetic energy, and what each effect has taken; the top is what was given"), stage, keys);
+    this.canvas.addEventListener("pointermove", (e) => {
+      const { a, b, left, right, x } = this.canvas.places, at = e.clientX - this.canvas.getBoundingClientRect().left;
+      const t = Math.max(a, Math.min(b, a + ((at - left) / (right - left)) * (b - a)));
+      const rows = this.layers.map((layer, k) => ({ colour: COLOURS[k % COLOURS.length], name: layer.name, value: readable(valueAt({ times, values: layer.values }, t), most), unit: "J" }));
+      showReading(reading, this.canvas, x(t), atTime(t), rows);
+    });
+    for (const gone of ["pointerleave", "pointercancel"]) this.canvas.addEventListener(gone, () => { reading.hidden = true; });
     parent.append(box);
     new ResizeObserver(() => this.draw()).observe(this.canvas);
     onPaper(() => this.draw());

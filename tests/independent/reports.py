@@ -110,7 +110,14 @@ def scrolls(browser, url):
             before = page.js("scrollY")
             page.swipe(left + width / 2, top + height / 2, 0, -200)
             page.wait(f"scrollY > {before} + 100")
-        # and one that goes across turns the view, or moves it
+        # one that stays, or goes across a plot, reads it
+        left, top, width, height = page.box("plots[1].canvas")
+        for dx in [0, 60]:
+            page.swipe(left + 0.4 * width, top + height / 2, dx, 0)
+            read = page.js("[plots[1].reading.hidden, plots[1].reading.querySelectorAll('output').length, pointed, plots[1].reading.getBoundingClientRect().right <= innerWidth]")
+            expect(read[:2] == [False, 2] and read[3], f"a finger reads {read}")
+        expect(page.js("zoomed === null"), "a finger zooms where it should read")
+        # one that goes across the motion turns the view, or moves it
         left, top, width, height = page.box("byId('scene')")
         view = "JSON.stringify([camera.yaw, camera.center])"
         before = page.js(view)
@@ -170,6 +177,13 @@ def readings(browser, url, run):
             # samples of peaks are a fifth of a row apart
             expect(abs(time - 1e3 * peak["time_s"]) < 1e3 * run["rows"][1][0] / 4, f"the peak of {peak['output']} is read at {time} ms")
             same(found[peak["output"]][0], peak["value"], f"the peak of {peak['output']}")
+        # energies: together they are what was given
+        left, top, width, height = page.box("document.querySelector('[aria-label^=energy]')")
+        page.hover(left + 0.6 * width, top + 0.5 * height)
+        told = page.js("[...document.querySelectorAll('#verdict .reading output')].map((e) => e.textContent)")
+        t = page.js("Number(document.querySelector('#verdict .reading b').textContent.split(' ')[0]) / 1000")
+        given = page.js(f"data.energy.kinetic_at_start + data.works.effects.reduce((sum, e) => sum + Math.max(0, valueAt({{ times: data.works.times, values: e.values }}, {t})), 0)")
+        expect(len(told) > 2 and abs(sum(number(text)[0] for text in told) - given) < 2e-3 * given, f"{told} is not {given} J")
         whole(page)
 
 
@@ -257,6 +271,9 @@ def parts(browser, url, run):
             same(told[at + 1], row[names.index(name)], name)
             expect(told[at + 2] == people(run["columns"][names.index(name)]["unit"]), f"{name} is in {told[at + 2]}")
         expect(page.js(picture) != before, "the chosen part is not marked")
+        page.press("[...byId('about').querySelectorAll('button')].find((e) => e.textContent === 'head excursion')")
+        page.wait("document.activeElement.ariaLabel.includes('head excursion') && document.activeElement.getBoundingClientRect().top > 0 && document.activeElement.getBoundingClientRect().bottom < innerHeight")
+        left, top, width, height = page.box("byId('scene')")
         page.click(left + x, top + y)
         expect(page.js("chosenPart") is None, "a second click does not let go")
         # a hidden part is not found, and what is behind it is
@@ -271,6 +288,14 @@ def parts(browser, url, run):
         page.press("byId('show-numbers')")
         expect(page.js(f"(render(), {count})") < numbers, "forces have no numbers")
         whole(page)
+
+
+def limits(browser, url):
+    """Limits stand there as the regulation prints them."""
+    with Page(browser, url) as page:
+        cells = page.js("[...byId('result').querySelectorAll('td')].map((e) => e.textContent)")
+        for name, limit in [("femur left", "10008"), ("neck tension", "4170"), ("HIC15", "700")]:
+            expect(cells[cells.index(name) + 2] == limit, f"the limit of {name} is {cells[cells.index(name) + 2]}")
 
 
 def opened(browser, url):
@@ -373,6 +398,8 @@ def printed(browser, url, most):
                 count = pages(page.pdf(paper))
                 expect(1 <= count <= most, f"{count} pages of {paper} inches")
             page.js("paper(true)")
+            across = page.js("[document.body.scrollWidth, document.body.clientWidth, ...[...document.querySelectorAll('.wide')].map((e) => e.scrollWidth - e.clientWidth)]")
+            expect(across[0] <= across[1] and max(across[2:]) <= 0, f"the page is wider than paper: {across}")
             drawn = [colour(page, plot, 0) for plot in range(page.js("typeof plots === 'undefined' ? 0 : plots.length"))]
             expect(min(drawn, default=100) > 20, f"curves are not drawn on paper: {drawn}")
             page.js("paper(false)")
@@ -412,6 +439,7 @@ def main():
         *[(printed, url, 2) for url in [seat, frontal, many]],
         *[(keys, url) for url in [seat, many]],
         (scrolls, seat),
+        (limits, frontal),
         (readings, seat, rows),
         (legend, seat),
         (parts, seat, rows),

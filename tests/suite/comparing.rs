@@ -256,7 +256,7 @@ fn what_cannot_be_compared_is_refused_with_the_remedy() {
         let (_, error) = call(path, &[&["compare"], arguments].concat(), 2);
         assert!(error.contains(told), "{arguments:?}: {error}");
     }
-    call(path, &["compare", "fine.csv", "nowhere.csv"], 1);
+    call(path, &["compare", "fine.csv", "nowhere.csv"], 2);
     call(
         path,
         &["compare", "fine.csv", "coarse.csv", "--resample"],
