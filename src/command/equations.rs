@@ -386,7 +386,7 @@ fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
             "{:first$}  {:>14}  {}",
             variable.name,
             number(*value),
-            typeset(&variable.unit)
+            typeset(variable.unit)
         );
         let _ = writeln!(text, "{}", line.trim_end());
     }

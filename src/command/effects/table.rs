@@ -365,7 +365,7 @@ mod tests {
     fn reasons_fit_the_line() {
         let reason = "all seven elements share the field, so that it enters once";
         let line = ["field", "out", "", "", "", "", reason].map(str::to_owned);
-        let text = |room| Table::of(&[line.clone()], false, Some(room)).line(&line);
+        let text = |room| Table::of(std::slice::from_ref(&line), false, Some(room)).line(&line);
         assert_eq!(
             text(46),
             "field  out    all seven elements share the\n\
