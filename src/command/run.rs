@@ -351,6 +351,7 @@ impl Arguments {
             arguments: &self,
             found: &found,
             job: &job,
+            shown: Shown::new(&found, &job),
             recording: &recording,
             errors: &errors,
             responses: &responses,
@@ -598,6 +599,7 @@ struct Done<'a> {
     arguments: &'a Arguments,
     found: &'a Found,
     job: &'a Job,
+    shown: Shown<'a>,
     recording: &'a Recording,
     errors: &'a ErrorReport,
     responses: &'a Responses,
@@ -611,17 +613,16 @@ impl Done<'_> {
         let Done {
             arguments,
             found,
-            job,
             recording,
+            ref shown,
             ..
         } = *self;
-        let shown = Shown::new(found, job);
-        let mut written = files.write(arguments, &shown, recording, terminal)?;
+        let mut written = files.write(arguments, shown, recording, terminal)?;
         if let Some(path) = &arguments.report {
             let of_run = (recording, self.errors);
             let judged = self.verdict.as_ref().map(judged_json);
             let judged = (self.responses, judged);
-            let page = report::html(arguments, &shown, of_run, judged, terminal)?;
+            let page = report::html(arguments, shown, of_run, judged, terminal)?;
             crate::files::replace(path, |out| out.write_all(page.as_bytes()))
                 .map_err(Error::system)?;
             written.push(path.clone());
@@ -634,10 +635,11 @@ impl Done<'_> {
             written.push(path.clone());
         }
         if let Some(path) = &arguments.animation {
-            let file = animation::animation(&shown, (recording, self.errors), terminal)?;
+            let file = animation::animation(shown, (recording, self.errors), terminal)?;
             crate::files::replace(path, |out| out.write_all(&file)).map_err(Error::system)?;
             written.push(path.clone());
         }
+        shown.tell(terminal);
         Ok(written)
     }
 
@@ -665,7 +667,8 @@ impl Done<'_> {
             }
             return terminal.print_json(&value);
         }
-        files.print(arguments, &Shown::new(self.found, job), recording, terminal)?;
+        files.print(arguments, &self.shown, recording, terminal)?;
+        self.shown.tell(terminal);
         match &self.verdict {
             Some(Some(verdict)) if !arguments.quiet && !files.prints_a_file() => {
                 terminal.print(&format!("\n{}", verdict.remarks()))

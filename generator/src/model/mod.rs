@@ -60,7 +60,7 @@ pub struct Model {
     pub outputs: Vec<Output>,
     /// Duration and sampling of a run.
     pub run: Run,
-    /// Ellipsoids that meet nothing, for pictures; at the default parameters.
+    /// Surfaces that meet nothing, and meshes, for pictures; at the default parameters.
     pub shown: Vec<Shown>,
     /// SHA-256 of all of the above but [`shown`](Model::shown), as lower-case hexadecimal: of what the text means, not of how it is written.
     pub digest: String,
