@@ -266,12 +266,12 @@ class Plain {
     }
     items.sort((a, b) => b[0] - a[0]).forEach(([, paint]) => paint());
   }
-  // Fills the triangles of a mesh from back to front, of many every second, third, …
+  // Fills the triangles of a mesh from back to front.
   mesh({ mesh, origin, turn, colour, alpha }, camera, place, css) {
-    const c = this.context, every = Math.ceil(mesh.corners.length / 3 / 4000), places = [];
+    const c = this.context, places = [];
     for (let i = 0; i < mesh.places.length; i += 3) places.push(add(origin, turned(turn, [mesh.places[i], mesh.places[i + 1], mesh.places[i + 2]])));
     const all = [];
-    for (let i = 0; i < mesh.corners.length; i += 3 * every) {
+    for (let i = 0; i < mesh.corners.length; i += 3) {
       const three = [0, 1, 2].map((k) => places[mesh.corners[i + k]]), normal = cross(sub(three[1], three[0]), sub(three[2], three[0]));
       const seen = three.map(place);
       all.push([seen[0][2] + seen[1][2] + seen[2][2], seen, 0.45 + 0.55 * Math.abs(dot(normal, camera.forward)) / (norm(normal) || 1)]);
@@ -280,8 +280,14 @@ class Plain {
     for (const [, seen, light] of all) {
       c.beginPath();
       seen.forEach((p) => c.lineTo(p[0], p[1]));
+      c.closePath();
       c.fillStyle = css(scale(colour, light), alpha);
       c.fill();
+      if (alpha < 1) continue;
+      // no gap between neighbours
+      c.strokeStyle = c.fillStyle;
+      c.lineWidth = 1;
+      c.stroke();
     }
   }
   ellipse(camera, e, [x, y], pixels, css, alpha) {
