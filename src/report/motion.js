@@ -72,7 +72,7 @@ function ghost(t, shapes) {
   const moment = framesAt(Math.min(t, scene.times[scene.times.length - 1]), scene), { frames } = moment;
   if (byId("show-shapes").checked) {
     for (const e of scene.ellipsoids) {
-      if (e.body < 0) continue;
+      if (e.body < 0 || e.size) continue;
       shapes.ellipsoids.push(solid(frames, e, mixed(grey, [1, 1, 1], 0.35)));
     }
   }
