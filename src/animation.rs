@@ -59,6 +59,7 @@ pub fn glb(title: &str, scene: &Scene) -> Result<Vec<u8>, String> {
     file.ellipsoids();
     file.bones();
     file.planes();
+    file.meshes();
     file.lines();
     file.camera();
     Ok(file.finish())
@@ -95,8 +96,11 @@ struct File<'a> {
     bodies: Vec<usize>,
     /// Meshes of unit size with their colours: spheres and rods.
     meshes: Vec<(Shape, [f64; 4], usize)>,
-    shapes: Vec<(Shape, [usize; 3])>,
+    shapes: Vec<(Shape, Accessors)>,
 }
+
+/// The accessors of places, of normals if there are any, and of indices.
+type Accessors = (usize, Option<usize>, usize);
 
 #[derive(Clone, Copy, PartialEq)]
 enum Shape {
@@ -206,29 +210,27 @@ impl<'a> File<'a> {
         self.add("accessors", accessor)
     }
 
-    fn indices(&mut self, indices: &[u16]) -> usize {
+    fn indices(&mut self, indices: &[u32]) -> usize {
         let bytes: Vec<u8> = indices
             .iter()
             .flat_map(|index| index.to_le_bytes())
             .collect();
         let view = self.view(&bytes, Some(34963));
-        let accessor = json!({ "bufferView": view, "componentType": 5123, "count": indices.len(), "type": "SCALAR" });
+        let accessor = json!({ "bufferView": view, "componentType": 5125, "count": indices.len(), "type": "SCALAR" });
         self.add("accessors", accessor)
     }
 
-    fn triangles(&mut self, places: &[Vec3], normals: &[Vec3], indices: &[u16]) -> [usize; 3] {
-        let flat = |all: &[Vec3]| all.iter().flatten().copied().collect::<Vec<f64>>();
-        [
-            self.floats(&flat(places), 3, Some(34962)),
-            self.floats(&flat(normals), 3, Some(34962)),
-            self.indices(indices),
-        ]
+    /// The accessors of places, normals and indices.
+    fn triangles(&mut self, places: &[Vec3], normals: &[Vec3], indices: &[u32]) -> Accessors {
+        let places = self.floats(places.as_flattened(), 3, Some(34962));
+        let normals = self.floats(normals.as_flattened(), 3, Some(34962));
+        (places, Some(normals), self.indices(indices))
     }
 
     fn mesh(
         &mut self,
         name: &str,
-        [places, normals, indices]: [usize; 3],
+        (places, normals, indices): Accessors,
         colour: [f64; 4],
     ) -> usize {
         let mut material = json!({
@@ -246,11 +248,12 @@ impl<'a> File<'a> {
             Some(index) => index,
             None => self.add("materials", material),
         };
-        let primitive = json!({
-            "attributes": { "POSITION": places, "NORMAL": normals },
-            "indices": indices,
-            "material": material,
-        });
+        let mut attributes = json!({ "POSITION": places });
+        if let Some(normals) = normals {
+            attributes["NORMAL"] = json!(normals);
+        }
+        let primitive =
+            json!({ "attributes": attributes, "indices": indices, "material": material });
         self.add("meshes", json!({ "name": name, "primitives": [primitive] }))
     }
 
@@ -359,10 +362,13 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Adds rods within bodies that have no ellipsoid. Rods between two bodies, of sliding joints, are left out.
+    /// Adds rods within bodies that have no ellipsoid and no mesh. Rods between two bodies, of sliding joints, are left out.
     fn bones(&mut self) {
         let scene = self.scene;
-        let is_round = |body| scene.ellipsoids.iter().any(|e| e.center.body == body);
+        let is_round = |body| {
+            scene.ellipsoids.iter().any(|e| e.center.body == body)
+                || scene.meshes.iter().any(|mesh| mesh.body == body)
+        };
         for [from, to] in &scene.bones {
             let (turn, length) = along(from.at, to.at);
             if from.body != to.body || length == 0.0 || is_round(from.body) {
@@ -389,6 +395,24 @@ impl<'a> File<'a> {
             let mesh = self.mesh(&name, accessors, OF_PLANES);
             let node = json!({ "name": name, "mesh": mesh });
             self.node(self.node_of(plane.body), node);
+        }
+    }
+
+    /// Adds meshes of files. Their corners have no normals: players make triangles flat then.
+    fn meshes(&mut self) {
+        let scene = self.scene;
+        for mesh in &scene.meshes {
+            let places = mesh.triangles.places.as_flattened();
+            let places = self.floats(places, 3, Some(34962));
+            let indices = self.indices(mesh.triangles.corners.as_flattened());
+            let mut colour = self.colour(mesh.body);
+            if scene.system(mesh.body).is_none() {
+                colour[3] = OF_PLANES[3];
+            }
+            let name = self.part(mesh.body, &mesh.name);
+            let shape = self.mesh(&name, (places, None, indices), colour);
+            let node = json!({ "name": name, "mesh": shape });
+            self.node(self.node_of(mesh.body), node);
         }
     }
 
@@ -606,7 +630,7 @@ fn continuous(turns: impl IntoIterator<Item = Quaternion>) -> Vec<Quaternion> {
 }
 
 /// Positions, normals and triangles of Σ |x_i|ⁿ = 1, a sphere if n is 2.
-fn sphere(degree: u32) -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
+fn sphere(degree: u32) -> (Vec<Vec3>, Vec<Vec3>, Vec<u32>) {
     let (rings, sides) = AROUND;
     let n = f64::from(degree);
     let power = |x: f64, to: f64| libm::pow(x.abs(), to).copysign(x);
@@ -628,7 +652,7 @@ fn sphere(degree: u32) -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
         }
     }
     let mut indices = Vec::new();
-    let at = |i: usize, j: usize| (i * (sides + 1) + j) as u16;
+    let at = |i: usize, j: usize| (i * (sides + 1) + j) as u32;
     for i in 0..rings {
         for j in 0..sides {
             indices.extend([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
@@ -639,7 +663,7 @@ fn sphere(degree: u32) -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
 }
 
 /// Positions, normals and triangles of a rod, without its ends.
-fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
+fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u32>) {
     let (mut places, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
     for j in 0..=SIDES {
         let (y, x) = libm::sincos(TAU * j as f64 / SIDES as f64);
@@ -648,7 +672,7 @@ fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u16>) {
             normals.push([x, y, 0.0]);
         }
     }
-    for j in 0..SIDES as u16 {
+    for j in 0..SIDES as u32 {
         let first = 2 * j;
         indices.extend([first, first + 2, first + 3, first, first + 3, first + 1]);
     }
@@ -688,12 +712,12 @@ mod tests {
     fn meshes_look_outward() {
         for (places, normals, indices) in [sphere(2), sphere(8), rod()] {
             for three in indices.chunks(3) {
-                let [a, b, c] = [0, 1, 2].map(|k| places[usize::from(three[k])]);
+                let [a, b, c] = [0, 1, 2].map(|k| places[three[k] as usize]);
                 let sides = [b, c].map(|p| std::array::from_fn(|i| p[i] - a[i]));
                 let area = cross(sides[0], sides[1]);
                 let outward: f64 = three
                     .iter()
-                    .map(|k| normals[usize::from(*k)])
+                    .map(|k| normals[*k as usize])
                     .map(|n| n.iter().zip(area).map(|(n, a)| n * a).sum::<f64>())
                     .sum();
                 assert!(outward >= -1e-12, "{three:?}");

@@ -3,7 +3,10 @@
 pub mod singular;
 pub mod start;
 
-use bryant_generator::model::{Active, Dimension, Direction, ForceKind, JointTorque, Model, Scene};
+use crate::scene::mesh::{missing, place};
+use bryant_generator::model::{
+    Active, Dimension, Direction, ForceKind, JointTorque, Model, Scene, Shown,
+};
 use start::Start;
 use std::f64::consts::FRAC_PI_2;
 
@@ -21,7 +24,32 @@ pub fn cautions(scene: &Scene) -> Vec<String> {
     let start = Start::of_model(model, &defaults);
     all.extend(start.iter().flat_map(|start| start.cautions(scene)));
     all.extend(start::unused(scene));
+    all.extend(meshes(scene));
     all
+}
+
+/// Says which meshes are not shown, because they have no file, or are on a vehicle that nothing uses.
+pub fn meshes(scene: &Scene) -> Vec<String> {
+    let caution = |shown: &Shown| {
+        let Shown::Mesh(written) = shown else {
+            return None;
+        };
+        let why = match scene.model.shown.iter().any(|other| match other {
+            Shown::Mesh(used) => {
+                (used.line, &used.source, &used.file)
+                    == (written.line, &written.source, &written.file)
+            }
+            _ => false,
+        }) {
+            true => missing(written)?,
+            false => "nothing is fixed to its vehicle, which is left out".to_owned(),
+        };
+        Some(format!(
+            "{}: the mesh is not shown: {why}\n  help: the motion is the same without it; paths are relative to the file that names them",
+            place(written)
+        ))
+    };
+    scene.written.shown.iter().filter_map(caution).collect()
 }
 
 /// Says of curves whose files have too many points how far the points that were left out are from the curve.

@@ -366,6 +366,7 @@ impl Arguments {
             arguments: &self,
             found: &found,
             job: &job,
+            shown: Shown::new(&found, &job),
             recording: &recording,
             table: Units::of(&found.model).table(&recording.table),
             errors: &errors,
@@ -626,6 +627,7 @@ struct Done<'a> {
     arguments: &'a Arguments,
     found: &'a Found,
     job: &'a Job,
+    shown: Shown<'a>,
     recording: &'a Recording,
     /// Its table, in the units in which it is shown.
     table: Table,
@@ -641,17 +643,16 @@ impl Done<'_> {
         let Done {
             arguments,
             found,
-            job,
             recording,
+            ref shown,
             ..
         } = *self;
-        let shown = Shown::new(found, job);
-        let mut written = files.write(arguments, &shown, (recording, &self.table), terminal)?;
+        let mut written = files.write(arguments, shown, (recording, &self.table), terminal)?;
         if let Some(path) = &arguments.report {
             let of_run = (recording, &self.table, self.errors);
             let judged = self.verdict.as_ref().map(judged_json);
             let judged = (self.responses, judged);
-            let page = report::html(arguments, &shown, of_run, judged, terminal)?;
+            let page = report::html(arguments, shown, of_run, judged, terminal)?;
             crate::files::replace(path, |out| out.write_all(page.as_bytes()))
                 .map_err(Error::system)?;
             written.push(path.clone());
@@ -664,10 +665,11 @@ impl Done<'_> {
             written.push(path.clone());
         }
         if let Some(path) = &arguments.animation {
-            let file = animation::animation(&shown, (recording, self.errors), terminal)?;
+            let file = animation::animation(shown, (recording, self.errors), terminal)?;
             crate::files::replace(path, |out| out.write_all(&file)).map_err(Error::system)?;
             written.push(path.clone());
         }
+        shown.tell(terminal);
         Ok(written)
     }
 
@@ -701,12 +703,8 @@ impl Done<'_> {
             }
             return terminal.print_json(&value);
         }
-        files.print(
-            arguments,
-            &Shown::new(self.found, job),
-            (recording, &self.table),
-            terminal,
-        )?;
+        files.print(arguments, &self.shown, (recording, &self.table), terminal)?;
+        self.shown.tell(terminal);
         match &self.verdict {
             Some(Some(verdict)) if !arguments.quiet && !files.prints_a_file() => {
                 terminal.print(&format!("\n{}", verdict.remarks()))

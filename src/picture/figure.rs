@@ -2,6 +2,7 @@
 
 use super::view::View;
 use crate::pose::Vec3;
+use crate::scene::mesh::outline;
 use crate::scene::{self, Ellipsoid, Kind, Place, Scene, from_to, length};
 use std::f64::consts::TAU;
 
@@ -25,6 +26,8 @@ pub struct Figure {
     pub ellipses: Vec<Ellipse>,
     /// Rounded boxes, as (system of the body that carries it, outline).
     pub boxes: Vec<(Option<usize>, Vec<Point>)>,
+    /// Meshes, as (system of the body that carries it, closed lines around it).
+    pub meshes: Vec<(Option<usize>, Vec<Vec<Point>>)>,
     /// Bags, as large as their gas.
     pub bags: Vec<Ellipse>,
     /// Whether some of them are in no contact.
@@ -173,6 +176,18 @@ impl Projection<'_> {
             } else {
                 figure.ellipses.push(self.outline(ellipsoid));
             }
+        }
+        for mesh in &scene.meshes {
+            let frame = scene.frame(k, mesh.body);
+            let places = mesh.triangles.places.iter();
+            let places: Vec<Point> = places.map(|at| self.project(frame.point(*at))).collect();
+            let system = scene.system(mesh.body);
+            if system.is_some() {
+                let corners = mesh.corners.map(|at| (self.project(frame.point(at)), 0.0));
+                figure.outer.extend(corners);
+            }
+            let lines = outline(&places, &mesh.triangles.corners);
+            figure.meshes.push((system, lines));
         }
         for (plane, edge) in scene.planes.iter().zip(edges) {
             let frame = scene.frame(k, plane.body);

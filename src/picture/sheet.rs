@@ -47,6 +47,7 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
 .grid{stroke:#e6e6e6;stroke-width:1;fill:none}
 .plane{stroke:#444;stroke-width:2;stroke-linecap:round}
 .face{stroke:#888;stroke-width:1.2;fill:#888;fill-opacity:.06}
+.mesh{fill-opacity:.12;stroke-width:.9;stroke-opacity:.6}
 .bag{stroke:#5c6f82;stroke-width:1.4;fill:#5c6f82;fill-opacity:.10}
 .hatch{stroke:#888;stroke-width:1;fill:none}
 .ellipse{fill-opacity:.08;stroke-width:1.2;stroke-opacity:.75}
@@ -114,13 +115,15 @@ impl Sheet {
         let mut style = STYLE.to_owned();
         for (index, colour) in COLOURS.iter().enumerate() {
             style.push_str(&format!(
-                ".s{index}{{stroke:{colour}}}.ellipse.s{index},.mass.s{index}{{fill:{colour}}}\n"
+                ".s{index}{{stroke:{colour}}}.ellipse.s{index},.mass.s{index}{{fill:{colour}}}.mesh.s{index}{{fill:{colour}}}\n"
             ));
         }
         if plan.fine(&self.figures) {
             style.push_str(".bone{stroke-width:2.2}.joint{stroke-width:1.1}\n");
         }
-        style.push_str(".frame{stroke:#444}.ellipse.frame{fill:#444}\n");
+        style.push_str(
+            ".frame{stroke:#444}.ellipse.frame,.mesh.frame{fill:#444}.mesh.hole{fill:none}\n",
+        );
         let mut drawing = Drawing::new(plan.width(), height, &self.title, &style);
         for (index, line) in plan.title.iter().enumerate() {
             let y = 26.0 + TITLE_LINE * index as f64;
@@ -248,6 +251,17 @@ impl Sheet {
             drawing.lines("hatch", &hatch(from, to, back));
             drawing.line("plane", from, to);
         }
+        let of = |system: Option<usize>| system.map_or("frame".to_owned(), colour);
+        for (system, lines) in &figure.meshes {
+            for line in lines {
+                // around a hole it leads clockwise
+                let pairs = line.windows(2);
+                let area: f64 = pairs.map(|p| p[0][0] * p[1][1] - p[1][0] * p[0][1]).sum();
+                let class = if area < 0.0 { "mesh hole" } else { "mesh" };
+                let line: Vec<Point> = line.iter().map(|point| place(*point)).collect();
+                drawing.polyline(&format!("{class} {}", of(*system)), &line);
+            }
+        }
         for [a, b, c, d] in figure.faces.iter().map(|face| face.map(place)) {
             drawing.polyline("face", &[a, b, c, d, a]);
         }
@@ -256,7 +270,6 @@ impl Sheet {
             let turn = -ellipse.angle.to_degrees();
             drawing.ellipse(class, place(ellipse.centre), semi, turn);
         };
-        let of = |system: Option<usize>| system.map_or("frame".to_owned(), colour);
         for ellipse in &figure.ellipses {
             round(&format!("ellipse {}", of(ellipse.system)), ellipse);
         }

@@ -51,12 +51,28 @@ void main() {
   result = vec4(colour.rgb * light * (0.6 + 0.4 * rim) * cover, cover);
   gl_FragDepth = clamp(0.5 + 0.5 * t / depth, 0.0, 1.0);
 }`;
+const MESH_VERTEX = `#version 300 es
+uniform vec3 center, right, up, forward, origin; uniform vec4 turn; uniform float half_height, aspect, depth;
+in vec3 place; out vec3 seen;
+void main() {
+  vec3 p = place + 2.0 * cross(turn.yzw, cross(turn.yzw, place) + turn.x * place) + origin - center;
+  seen = vec3(dot(p, right), dot(p, up), dot(p, forward));
+  gl_Position = vec4(seen.x / half_height / aspect, seen.y / half_height, seen.z / depth, 1.0);
+}`;
+const MESH_FRAGMENT = `#version 300 es
+precision highp float;
+uniform vec3 tint; uniform float alpha; in vec3 seen; out vec4 result;
+void main() {
+  vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
+  float light = 0.45 + 0.55 * abs(dot(normal, normalize(vec3(-0.35, 0.5, -1.0))));
+  result = vec4(tint * light * alpha, alpha);
+}`;
 const FLAT_VERTEX = `#version 300 es
 in vec3 place; in vec4 colour; out vec4 tint; void main() { tint = colour; gl_Position = vec4(place, 1.0); }`;
 const FLAT_FRAGMENT = `#version 300 es
 precision mediump float; in vec4 tint; out vec4 result; void main() { result = vec4(tint.rgb * tint.a, tint.a); }`;
 
-// Draws lists of shapes: ellipsoids, and bags that one sees through { place, axes: [3 vectors of the lengths of semi-axes], colour, degree }, faces { corners, colour,
+// Draws lists of shapes: meshes, ellipsoids, and bags that one sees through { place, axes: [3 vectors of the lengths of semi-axes], colour, degree }, faces { corners, colour,
 // alpha }, strokes { from, to, colour, width [px], above }.
 class WebGl {
   static of(canvas) {
@@ -68,6 +84,8 @@ class WebGl {
     this.gl = gl;
     this.round = this.program(ELLIPSOID_VERTEX, ELLIPSOID_FRAGMENT);
     this.flat = this.program(FLAT_VERTEX, FLAT_FRAGMENT);
+    this.solid = this.program(MESH_VERTEX, MESH_FRAGMENT);
+    this.kept = new Map();
     this.buffer = gl.createBuffer();
     this.corners = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, this.corners);
@@ -110,6 +128,7 @@ class WebGl {
     gl.uniform1f(uniform("aspect"), aspect);
     gl.uniform1f(uniform("depth"), far * camera.half);
     this.rounds(shapes.ellipsoids, 1);
+    this.meshes(camera, aspect, far, shapes.meshes.filter((m) => m.alpha === 1));
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     this.triangles(camera, aspect, far, shapes.strokes.filter((s) => !s.above).flatMap((s) => this.stroke(camera, aspect, s)));
@@ -117,9 +136,40 @@ class WebGl {
     const flat = shapes.faces.flatMap((face) => [0, 1, 2, 0, 2, 3].map((k) => [face.corners[k], face.colour, face.alpha]));
     this.triangles(camera, aspect, far, flat);
     // one sees through bags: they are drawn after what is in them
-    this.rounds(shapes.bags || [], 0.25);
+    this.rounds(shapes.bags, 0.25);
+    this.meshes(camera, aspect, far, shapes.meshes.filter((m) => m.alpha < 1));
     gl.disable(gl.DEPTH_TEST);
     this.triangles(camera, aspect, far, shapes.strokes.filter((s) => s.above).flatMap((s) => this.stroke(camera, aspect, s)));
+  }
+  // Draws meshes { mesh: { places, corners }, origin, turn, colour, alpha }; the numbers of each are sent once.
+  meshes(camera, aspect, far, all) {
+    const gl = this.gl;
+    if (all.length === 0) return;
+    gl.useProgram(this.solid);
+    const uniform = (name) => gl.getUniformLocation(this.solid, name);
+    for (const name of ["center", "right", "up", "forward"]) gl.uniform3fv(uniform(name), camera[name]);
+    gl.uniform1f(uniform("half_height"), camera.half);
+    gl.uniform1f(uniform("aspect"), aspect);
+    gl.uniform1f(uniform("depth"), far * camera.half);
+    for (const { mesh, origin, turn, colour, alpha } of all) {
+      if (!this.kept.has(mesh)) {
+        const [places, corners] = [gl.createBuffer(), gl.createBuffer()];
+        gl.bindBuffer(gl.ARRAY_BUFFER, places);
+        gl.bufferData(gl.ARRAY_BUFFER, mesh.places, gl.STATIC_DRAW);
+        gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, corners);
+        gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, mesh.corners, gl.STATIC_DRAW);
+        this.kept.set(mesh, [places, corners]);
+      }
+      const [places, corners] = this.kept.get(mesh);
+      gl.uniform3fv(uniform("origin"), origin);
+      gl.uniform4fv(uniform("turn"), turn);
+      gl.uniform3fv(uniform("tint"), colour);
+      gl.uniform1f(uniform("alpha"), alpha);
+      gl.bindBuffer(gl.ARRAY_BUFFER, places);
+      this.attribute(this.solid, "place", 3, 3, 0, 0);
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, corners);
+      gl.drawElements(gl.TRIANGLES, mesh.corners.length, mesh.corners instanceof Uint16Array ? gl.UNSIGNED_SHORT : gl.UNSIGNED_INT, 0);
+    }
   }
   // Draws ellipsoids.
   rounds(all, alpha) {
@@ -180,7 +230,8 @@ class Plain {
     const ratio = height / this.canvas.clientHeight;
     const items = [];
     for (const e of shapes.ellipsoids) items.push([place(e.place)[2], () => this.ellipse(camera, e, place(e.place), pixels, css, 1)]);
-    for (const e of shapes.bags || []) items.push([place(e.place)[2], () => this.ellipse(camera, e, place(e.place), pixels, css, 0.25)]);
+    for (const m of shapes.meshes) items.push([place(m.origin)[2] + (m.alpha < 1 ? 1 : 0), () => this.mesh(m, camera, place, css)]);
+    for (const e of shapes.bags) items.push([place(e.place)[2], () => this.ellipse(camera, e, place(e.place), pixels, css, 0.25)]);
     for (const f of shapes.faces) {
       const corners = f.corners.map(place);
       items.push([Math.max(...corners.map((p) => p[2])), () => {
@@ -214,6 +265,30 @@ class Plain {
       }]);
     }
     items.sort((a, b) => b[0] - a[0]).forEach(([, paint]) => paint());
+  }
+  // Fills the triangles of a mesh from back to front.
+  mesh({ mesh, origin, turn, colour, alpha }, camera, place, css) {
+    const c = this.context, places = [];
+    for (let i = 0; i < mesh.places.length; i += 3) places.push(add(origin, turned(turn, [mesh.places[i], mesh.places[i + 1], mesh.places[i + 2]])));
+    const all = [];
+    for (let i = 0; i < mesh.corners.length; i += 3) {
+      const three = [0, 1, 2].map((k) => places[mesh.corners[i + k]]), normal = cross(sub(three[1], three[0]), sub(three[2], three[0]));
+      const seen = three.map(place);
+      all.push([seen[0][2] + seen[1][2] + seen[2][2], seen, 0.45 + 0.55 * Math.abs(dot(normal, camera.forward)) / (norm(normal) || 1)]);
+    }
+    all.sort((a, b) => b[0] - a[0]);
+    for (const [, seen, light] of all) {
+      c.beginPath();
+      seen.forEach((p) => c.lineTo(p[0], p[1]));
+      c.closePath();
+      c.fillStyle = css(scale(colour, light), alpha);
+      c.fill();
+      if (alpha < 1) continue;
+      // no gap between neighbours
+      c.strokeStyle = c.fillStyle;
+      c.lineWidth = 1;
+      c.stroke();
+    }
   }
   ellipse(camera, e, [x, y], pixels, css, alpha) {
     const c = this.context;

@@ -58,13 +58,21 @@ function solid(frames, e, colour, size = 1) {
   return { place: pointOf(frames, e.body, e.at), axes, colour, degree: e.degree };
 }
 
+// Meshes of files, their numbers as they are drawn.
+const meshes = (scene ? scene.meshes : []).map((m) => {
+  const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
+  const places = Float32Array.from(new Uint16Array(bytes(m.places)), (n, i) => m.low[i % 3] + n * m.step);
+  const corners = bytes(m.corners);
+  return { body: m.body, mesh: { places, corners: m.wide ? new Uint32Array(corners) : new Uint16Array(corners) } };
+});
+
 // The second run, in grey, under the first.
 function ghost(t, shapes) {
   const { scene } = data.beside, grey = rgb("#9aa4b0");
   const moment = framesAt(Math.min(t, scene.times[scene.times.length - 1]), scene), { frames } = moment;
   if (byId("show-shapes").checked) {
     for (const e of scene.ellipsoids) {
-      if (e.body < 0 || !isShown(e.body)) continue;
+      if (e.body < 0 || e.size || !isShown(e.body)) continue;
       shapes.ellipsoids.push(solid(frames, e, mixed(grey, [1, 1, 1], 0.35)));
     }
   }
@@ -93,7 +101,7 @@ const traceable = scene ? [...scene.bodies.map((body, index) => ({ name: body.na
 
 function shapesAt(t) {
   const moment = framesAt(t), { frames, k } = moment;
-  const shapes = { ellipsoids: [], bags: [], faces: [], strokes: [], texts: [] };
+  const shapes = { ellipsoids: [], bags: [], meshes: [], faces: [], strokes: [], texts: [] };
   if (data.beside && byId("show-beside").checked) ghost(t, shapes);
   const ink = rgb(style("--ink").length === 7 ? style("--ink") : "#1a1d21");
   if (byId("show-shapes").checked) {
@@ -101,6 +109,14 @@ function shapesAt(t) {
       if (!isShown(e.body)) continue;
       if (e.size) shapes.bags.push(solid(frames, e, rgb("#5c6f82"), e.size.length ? between(e.size, moment) : 1));
       else shapes.ellipsoids.push(solid(frames, e, mixed(colourOf(e.body), [1, 1, 1], 0.25)));
+    }
+  }
+  if (byId("show-shapes").checked) {
+    // one sees what is in a vehicle
+    for (const { body, mesh } of meshes) {
+      if (!isShown(body)) continue;
+      const { at, turn } = frameOf(frames, body), inside = body < 0 || scene.bodies[body].system < 0;
+      shapes.meshes.push({ mesh, origin: at, turn, colour: mixed(colourOf(body), [1, 1, 1], 0.3), alpha: inside ? 0.35 : 1 });
     }
   }
   for (const p of scene.planes) {
@@ -111,7 +127,7 @@ function shapesAt(t) {
     else corners.forEach((corner, i) => shapes.strokes.push({ from: corner, to: corners[(i + 1) % 4], colour: rgb("#6f7883"), width: 1.5 }));
   }
   const bare = !byId("show-shapes").checked;
-  const round = new Set(scene.ellipsoids.map((e) => e.body));
+  const round = new Set([...scene.ellipsoids, ...meshes].map((e) => e.body));
   for (const [a, p, b, q] of scene.bones) {
     if (!isShown(a)) continue;
     // in space sticks would only stand out of solids
@@ -171,6 +187,10 @@ function frameAll() {
     for (const [a, p, b, q] of scene.bones) { include(pointOf(frames, a, p), 0); include(pointOf(frames, b, q), 0); }
     for (const e of scene.ellipsoids) if (e.body >= 0) include(pointOf(frames, e.body, e.at), Math.max(...e.semi));
     for (const line of scene.lines) { include(pointOf(frames, ...line.from), 0); include(pointOf(frames, ...line.to), 0); }
+    for (const { body, mesh } of meshes) {
+      if (body < 0 || scene.bodies[body].system < 0) continue;
+      for (let i = 0; i < mesh.places.length; i += 3 * Math.ceil(mesh.places.length / 600)) include(pointOf(frames, body, [mesh.places[i], mesh.places[i + 1], mesh.places[i + 2]]), 0);
+    }
   }
   if (!low.every(Number.isFinite)) return;
   home.center = scale(add(low, high), 0.5);
@@ -342,6 +362,7 @@ function startMotion() {
   const usual = speeds.reduce((best, s) => (Math.abs(Math.log(s / natural)) < Math.abs(Math.log(best / natural)) ? s : best));
   for (const s of speeds) byId("speed").append(element("option", s === 1 ? "real time" : `1 : ${Math.round(1 / s)}`, { value: s }));
   byId("speed").value = usual;
+  // a motion in the plane is seen from the side alone: the button shows all of it again
   for (const name of scene.planar ? ["side"] : Object.keys(VIEWS)) {
     const button = element("button", scene.planar ? "whole view" : name);
     button.addEventListener("click", () => view(name));

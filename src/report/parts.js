@@ -25,7 +25,7 @@ function tree() {
       systems.get(body.system).below.push(nodes[part]);
     }
   });
-  const fixed = [...scene.ellipsoids, ...scene.planes].some((shape) => shape.body < 0) ? [{ part: -1, name: nameOf(-1), below: [] }] : [];
+  const fixed = [...scene.ellipsoids, ...scene.planes, ...meshes].some((shape) => shape.body < 0) ? [{ part: -1, name: nameOf(-1), below: [] }] : [];
   const lines = [...new Map(scene.lines.map((line) => [lawOf(line), { part: lawOf(line), name: lawOf(line), below: [] }])).values()];
   const group = lines.length ? [{ part: null, name: "belts and springs", below: lines }] : [];
   return [...systems.values(), ...tops, ...fixed, ...group];
@@ -93,6 +93,21 @@ function tell() {
 }
 
 // The part that is seen at a place of the canvas: the nearest body on the ray, or else a line or a surface.
+// Where a ray from a point in a direction first meets a mesh (Möller and Trumbore 1997); null if it does not.
+function depthOf({ places, corners }, from, along) {
+  let nearest = null;
+  const corner = (i) => [0, 1, 2].map((axis) => places[3 * corners[i] + axis]);
+  for (let i = 0; i < corners.length; i += 3) {
+    const a = corner(i), [u, v] = [sub(corner(i + 1), a), sub(corner(i + 2), a)];
+    const p = cross(along, v), size = dot(u, p);
+    if (Math.abs(size) < 1e-30) continue;
+    const off = sub(from, a), x = dot(off, p) / size, q = cross(off, u), y = dot(along, q) / size;
+    if (x < 0 || y < 0 || x + y > 1) continue;
+    const depth = dot(v, q) / size;
+    if (nearest === null || depth < nearest) nearest = depth;
+  }
+  return nearest;
+}
 function partAt(x, y) {
   const canvas = byId("scene"), [width, height] = [canvas.clientWidth, canvas.clientHeight], unit = (2 * camera.half) / height;
   const start = add(camera.center, add(scale(camera.right, (x - width / 2) * unit), scale(camera.up, (height / 2 - y) * unit)));
@@ -112,6 +127,14 @@ function partAt(x, y) {
         const t = middle + (k / 40) * reach, inside = o.reduce((sum, v, i) => sum + Math.abs(v + t * d[i]) ** e.degree, 0);
         if (inside <= 1) { found(e.body, t); break; }
       }
+    }
+  }
+  if (byId("show-shapes").checked) {
+    // through those of vehicles one sees what is inside
+    for (const { body, mesh } of meshes.filter((one) => one.body >= 0 && scene.bodies[one.body].system >= 0 && isShown(one.body))) {
+      const { at, turn: [w, ...v] } = frameOf(frames, body), back = [w, ...v.map((n) => -n)];
+      const depth = depthOf(mesh, turned(back, sub(start, at)), turned(back, camera.forward));
+      if (depth !== null) found(body, depth);
     }
   }
   // lines are drawn over bodies where the scene is plane

@@ -1,6 +1,7 @@
 //! The moving parts of a report as JSON: bodies, their shapes, and the forces between them, at every sample.
 
 use crate::pose::{Frame, Vec3, quaternion};
+use crate::scene::mesh::Mesh;
 use crate::scene::{Ellipsoid, Kind, Line, Place, Plane, Push, Scene};
 use serde_json::{Value, json};
 
@@ -38,6 +39,7 @@ pub fn json(scene: &Scene) -> Value {
         "ellipsoids": scene.ellipsoids.iter().map(ellipsoid).collect::<Vec<_>>(),
         "planes": scene.planes.iter().map(plane).collect::<Vec<_>>(),
         "lines": scene.lines.iter().flat_map(|line| segments(scene, line)).collect::<Vec<_>>(),
+        "meshes": scene.meshes.iter().map(mesh).collect::<Vec<_>>(),
         "follow": index(scene.followed()),
         "view": scene.view().name(),
         "pushes": scene.pushes.iter().map(|all| all.iter().map(push).collect::<Value>()).collect::<Vec<_>>(),
@@ -66,6 +68,48 @@ fn ellipsoid(ellipsoid: &Ellipsoid) -> Value {
             (0..fill.len()).map(|k| short(ellipsoid.size(k))).collect::<Vec<_>>()
         }),
     })
+}
+
+/// Corners as whole numbers of steps from the low corner, and triangles as indices of corners, 16 bits each, or 32 if there are more corners than that; both in
+/// base64.
+fn mesh(mesh: &Mesh) -> Value {
+    let [low, high] = mesh.triangles.around();
+    let size = (0..3).fold(1e-9f64, |size, i| size.max(high[i] - low[i]));
+    let step = size / f64::from(u16::MAX);
+    let places = mesh.triangles.places.iter();
+    let places = places.flat_map(|place| {
+        (0..3).flat_map(|i| (((place[i] - low[i]) / step).round() as u16).to_le_bytes())
+    });
+    let wide = mesh.triangles.places.len() > usize::from(u16::MAX);
+    let corners = mesh.triangles.corners.iter().flatten();
+    let corners = corners.flat_map(|corner| match wide {
+        true => corner.to_le_bytes().to_vec(),
+        false => (*corner as u16).to_le_bytes().to_vec(),
+    });
+    json!({
+        "body": index(mesh.body),
+        "low": vector(low),
+        "step": short(step),
+        "places": base64(&places.collect::<Vec<u8>>()),
+        "wide": wide,
+        "corners": base64(&corners.collect::<Vec<u8>>()),
+    })
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let byte = |i: usize| u32::from(three.get(i).copied().unwrap_or(0));
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for i in 0..4 {
+            text.push(match i <= three.len() {
+                true => char::from(LETTERS[(bits >> (18 - 6 * i) & 63) as usize]),
+                false => '=',
+            });
+        }
+    }
+    text
 }
 
 fn plane(plane: &Plane) -> Value {

@@ -72,6 +72,13 @@ impl Scene {
         let round = self.ellipsoids.iter();
         let round = round.filter(|e| self.system(e.center.body).is_some());
         let round = round.map(|e| (e.center, e.semi.into_iter().fold(0.0, f64::max)));
+        let meshes = self.meshes.iter();
+        let meshes = meshes.filter(|mesh| self.system(mesh.body).is_some());
+        let meshes = meshes.flat_map(|mesh| {
+            let body = mesh.body;
+            mesh.corners.map(|at| (Place { body, at }, 0.0))
+        });
+        let round = round.chain(meshes);
         let all = bones.chain(ends.map(|place| (*place, 0.0))).chain(round);
         all.map(move |(place, reach)| (self.point(k, place), reach))
     }

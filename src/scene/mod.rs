@@ -3,6 +3,7 @@
 
 mod bones;
 mod camera;
+pub mod mesh;
 mod planes;
 mod route;
 
@@ -11,7 +12,7 @@ use crate::pose::{Frame, Layout, Mismatch, Numbers, Pose, Vec3, bryant_rotation,
 use bryant_generator::law::{self, Look, Round};
 use bryant_generator::model::{
     Active, Attachment, BeltLength, Body, Dimension, ElementId, Force, Model, Number, Output,
-    Quantity, Reference,
+    Quantity, Reference, Shown,
 };
 use planes::Planes;
 
@@ -40,6 +41,8 @@ pub struct Scene {
     pub planes: Vec<Plane>,
     /// Belts, springs and bushings.
     pub lines: Vec<Line>,
+    /// Meshes of files; none at first.
+    pub meshes: Vec<mesh::Mesh>,
     /// By time, the forces on ellipsoids.
     pub pushes: Vec<Vec<Push>>,
 }
@@ -177,10 +180,11 @@ impl<'a> Columns<'a> {
         self.0.next().map_or(&[], Vec::as_slice)
     }
 
-    /// A vector for each time; 0 where it is not known.
-    fn vector(&mut self) -> impl Fn(usize) -> Vec3 + use<'a> {
+    /// A vector for each time, if there are columns.
+    fn vector(&mut self) -> Option<impl Fn(usize) -> Vec3 + use<'a>> {
         let columns = [self.next(), self.next(), self.next()];
-        move |k| columns.map(|column| column.get(k).copied().unwrap_or(0.0))
+        let known = columns.iter().all(|column| !column.is_empty());
+        known.then_some(move |k| columns.map(|column: &[f64]| column[k]))
     }
 }
 
@@ -291,9 +295,10 @@ impl Scene {
             masses,
             points: Vec::new(),
             ellipsoids: Vec::new(),
-            some_meet_nothing: !model.shown.is_empty(),
+            some_meet_nothing: model.shown.iter().any(|s| matches!(s, Shown::Round(..))),
             planes: Vec::new(),
             lines: Vec::new(),
+            meshes: Vec::new(),
             pushes: vec![Vec::new(); times.len()],
             times,
         };
@@ -371,44 +376,15 @@ impl Builder<'_> {
         let mut planes = Planes::default();
         for (index, force) in model.forces.iter().enumerate() {
             for look in force.kind.looks() {
-                match look {
-                    Look::Round(round) => self.ellipsoid(round, None),
-                    Look::Bag(round, _) => {
-                        let volume = columns.next().to_vec();
-                        self.ellipsoid(round, Some(volume));
-                    }
-                    Look::Plane(plane, round) => {
-                        planes.add(
-                            &force.name,
-                            (plane, round),
-                            &self.bodies,
-                            self.numbers,
-                            self.scene,
-                        );
-                    }
-                    Look::Push(round, plane) => {
-                        let normal = plane.map(|plane| {
-                            let body = self.bodies.index(plane.at.on);
-                            (body, self.numbers.vector(&plane.normal))
-                        });
-                        self.pushes(index, round, normal, columns.vector());
-                    }
-                    Look::Line(kind, points) => {
-                        let vectors = (1..points.len()).map(|_| columns.vector());
-                        let vectors: Vec<_> = match forces {
-                            [] => Vec::new(),
-                            _ => vectors.collect(),
-                        };
-                        self.line(&force.name, kind, &points, &vectors);
-                    }
-                }
+                self.look((index, &force.name), look, &mut columns, &mut planes);
             }
+        }
+        for look in model.shown.iter().filter_map(Shown::look) {
+            let none = (model.forces.len(), "surface");
+            self.look(none, look, &mut columns, &mut planes);
         }
         debug_assert!(columns.0.len() == 0);
         self.scene.planes = planes.finish();
-        for shown in &model.shown {
-            self.ellipsoid(shown.round(), None);
-        }
         if !self.scene.planar {
             let scene = &mut *self.scene;
             let ways = |line: &Line| match line.kind {
@@ -421,6 +397,37 @@ impl Builder<'_> {
             }
         }
         self.points();
+    }
+
+    /// Adds a part of the force with this index and name.
+    fn look(
+        &mut self,
+        (index, name): (usize, &str),
+        look: Look<'_>,
+        columns: &mut Columns<'_>,
+        planes: &mut Planes,
+    ) {
+        match look {
+            Look::Round(round) => self.ellipsoid(round, None),
+            Look::Bag(round, _) => self.ellipsoid(round, Some(columns.next().to_vec())),
+            Look::Plane(plane, round) => {
+                planes.add(name, (plane, round), &self.bodies, self.numbers, self.scene);
+            }
+            Look::Push(round, plane) => {
+                let normal = plane.map(|plane| {
+                    let body = self.bodies.index(plane.at.on);
+                    (body, self.numbers.vector(&plane.normal))
+                });
+                if let Some(force) = columns.vector() {
+                    self.pushes(index, round, normal, force);
+                }
+            }
+            Look::Line(kind, points) => {
+                let vectors = (1..points.len()).filter_map(|_| columns.vector());
+                let vectors: Vec<_> = vectors.collect();
+                self.line(name, kind, &points, &vectors);
+            }
+        }
     }
 
     fn place(&self, attachment: &Attachment) -> Place {

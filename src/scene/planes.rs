@@ -24,11 +24,11 @@ struct Piece {
 pub struct Planes(Vec<Piece>);
 
 impl Planes {
-    /// Adds a plane that an ellipsoid meets, of a force of this name.
+    /// Adds a plane, and what meets it, of a force of this name.
     pub fn add(
         &mut self,
         name: &str,
-        (plane, round): (&model::Plane, Round<'_>),
+        (plane, round): (&model::Plane, Option<Round<'_>>),
         bodies: &Bodies<'_>,
         numbers: Numbers<'_>,
         scene: &Scene,
@@ -40,17 +40,19 @@ impl Planes {
         let point = numbers.vector(&plane.at.at);
         let along = directions(normal, numbers.vector(&plane.tangent));
         let mut reach = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-        let semi = numbers.vector(round.semi_axes);
-        let used: &[usize] = if scene.planar { &[0, 2] } else { &[0, 1, 2] };
-        let size = 1.15 * used.iter().fold(0.0, |most, i| semi[*i].max(most));
-        for k in 0..scene.times.len() {
-            let frame = scene.frame(k, body);
-            let carrier = scene.frame(k, bodies.index(round.center.on));
-            let centre = carrier.point(numbers.vector(&round.center.at));
-            let from = from_to(frame.point(point), centre);
-            for (reach, along) in reach.iter_mut().zip(along) {
-                let offset = dot(from, frame.direction(along));
-                *reach = [reach[0].min(offset - size), reach[1].max(offset + size)];
+        if let Some(round) = round {
+            let semi = numbers.vector(round.semi_axes);
+            let used: &[usize] = if scene.planar { &[0, 2] } else { &[0, 1, 2] };
+            let size = 1.15 * used.iter().fold(0.0, |most, i| semi[*i].max(most));
+            for k in 0..scene.times.len() {
+                let frame = scene.frame(k, body);
+                let carrier = scene.frame(k, bodies.index(round.center.on));
+                let centre = carrier.point(numbers.vector(&round.center.at));
+                let from = from_to(frame.point(point), centre);
+                for (reach, along) in reach.iter_mut().zip(along) {
+                    let offset = dot(from, frame.direction(along));
+                    *reach = [reach[0].min(offset - size), reach[1].max(offset + size)];
+                }
             }
         }
         if let Some(extent) = &plane.extent {
@@ -58,6 +60,14 @@ impl Planes {
                 let half = numbers.value(half);
                 *reach = [-half, half];
             }
+        }
+        // a plane without end that nothing meets
+        if !reach[0][0].is_finite() {
+            return;
+        }
+        // in the plane it has an extent along it alone
+        if !reach[1][0].is_finite() {
+            reach[1] = reach[0];
         }
         let same = |known: &&mut Piece| {
             let extends = plane.extent.is_none() || known.reach == reach;

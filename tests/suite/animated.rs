@@ -183,7 +183,7 @@ fn a_belt_shows_its_force() {
     let directory = directory();
     let path = directory.path();
     // a strap that becomes slack, and taut again
-    let scene = SCENE.replace("slack: 0.2 m", "slack: -0.02 m");
+    let scene = SCENE.replace("slack: 0.2 m", "pretension: 20 N");
     fs::write(path.join("swing.yaml"), scene).unwrap();
     let run = [
         "run",

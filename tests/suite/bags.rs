@@ -177,8 +177,24 @@ fn a_slack_bag_fills_at_the_pressure_around_it() {
     let [p, volume] = ["p", "volume"].map(|name| column(&table, name));
     let whole = 4.0 / 3.0 * std::f64::consts::PI * 0.15 * 0.33 * 0.33;
     let begin = 1e-3 * whole;
+    // a report shows it as large as its gas
+    let directory = directory();
+    fs::write(directory.path().join("m.yaml"), &filling).unwrap();
+    let report = ["run", "m.yaml", "--no-files", "--report", "m.html"];
+    call(directory.path(), &report, 0);
+    let page = fs::read_to_string(directory.path().join("m.html")).unwrap();
+    let data = page.split("id=\"data\">").nth(1).unwrap();
+    let data: serde_json::Value =
+        serde_json::from_str(data.split("</script>").next().unwrap()).unwrap();
+    let ellipsoids = data["scene"]["ellipsoids"].as_array().unwrap();
+    let mut bags = ellipsoids.iter().filter_map(|e| e["size"].as_array());
+    let (sizes, none) = (bags.next().unwrap(), bags.next());
+    assert!(none.is_none() && sizes.len() == volume.len());
     for (k, mass) in [(10, 0.0), (20, 0.010), (30, 0.020), (100, 0.0200005)] {
         assert_eq!(p[k], 101_325.0);
+        let size = sizes[k].as_f64().unwrap();
+        let gas = begin + mass * 287.0 * 500.0 / 101_325.0;
+        close("size", size.powi(3) * whole, gas, 1e-4);
         close(
             "volume",
             volume[k],

@@ -14,6 +14,7 @@ mod judged;
 mod last_screen;
 #[cfg(unix)]
 mod long;
+mod meshes;
 mod people;
 mod pictures;
 mod polarity;
@@ -467,12 +468,8 @@ fn a_robot_is_imported_and_runs() {
         written.contains("name: upper_arm") && written.contains("# Imported from arm.urdf."),
         "{written}"
     );
-    for part in [
-        "visual shapes (1), line 4",
-        "--stops",
-        "--right-angles",
-        "line 8",
-    ] {
+    assert!(written.contains("mesh: { file: \"arm.stl\","), "{written}");
+    for part in ["--stops", "--right-angles", "line 8"] {
         assert!(notes.contains(part), "{part}\n{notes}");
     }
     let (nothing, _) = call(

@@ -1,6 +1,7 @@
 //! Elements as written.
 
 use super::joint::Joint;
+use super::mesh::Meshes;
 use super::quantity::{OneOrThree, Quantity};
 use super::shape::{record, words};
 
@@ -27,6 +28,8 @@ record! {
         anatomy: Option<Anatomy>,
         /// Of a head that has the neck in it: what its joint is.
         neck: Option<Neck>,
+        /// How it is shown, beside its surfaces.
+        mesh: Option<Meshes>,
         /// Whether it has a mirror image.
         mirror: Option<bool>,
     }

@@ -7,6 +7,7 @@ use super::expand::instance::rename;
 use super::expand::{Known, expand};
 use super::force::Force;
 use super::mend::{Lost, mend, take_out};
+use super::mesh::Meshes;
 use super::output::Column;
 use super::parameter::ParameterEntry;
 use super::part;
@@ -56,6 +57,8 @@ record! {
         surfaces: Option<Named<Surface>>,
         /// Lists of surfaces by name.
         groups: Option<Named<Vec<String>>>,
+        /// What stands in the absolute frame to be seen.
+        mesh: Option<Meshes>,
         /// Bodies whose motion is given.
         vehicles: Option<Vec<Vehicle>>,
         /// Trees of elements.
@@ -88,6 +91,8 @@ record! {
         surfaces: Option<Named<Surface>>,
         /// Lists of surfaces by name.
         groups: Option<Named<Vec<String>>>,
+        /// What stands in the absolute frame to be seen.
+        mesh: Option<Meshes>,
         /// Bodies whose motion is given.
         vehicles: Option<Vec<Vehicle>>,
         /// Trees of elements.
@@ -484,6 +489,7 @@ impl Reader<'_> {
             mirror: model.mirror,
             surfaces: model.surfaces,
             groups: model.groups,
+            mesh: model.mesh,
             vehicles: model.vehicles,
             systems: model.systems,
             forces: model.forces,

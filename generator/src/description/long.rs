@@ -116,14 +116,37 @@ fn relate_paths(node: &mut Node, file: &str, main: &str) {
             let is_user = entries.iter().any(|e| e.key == "user");
             for Entry { key, value, .. } in entries {
                 if (key == "file" || key == "mme") && names_file || key == "source" && is_user {
-                    let path = beside(file, value.text().unwrap_or_default());
-                    let path = shown(path.strip_prefix(folder).unwrap_or(&path));
-                    *value = value.with_text(path);
+                    relate(value, file, folder);
+                } else if key == "mesh" {
+                    for mesh in items_or_itself(value) {
+                        match mesh.get_mut("file") {
+                            Some(path) => relate(path, file, folder),
+                            None => relate(mesh, file, folder),
+                        }
+                    }
                 } else {
                     relate_paths(value, file, main);
                 }
             }
         }
+    }
+}
+
+/// Makes a path relative to a folder, unless it begins with where it is looked for.
+fn relate(value: &mut Node, file: &str, folder: &Path) {
+    let written = value.text().unwrap_or_default();
+    if !written.contains("://") {
+        let path = beside(file, written);
+        let path = shown(path.strip_prefix(folder).unwrap_or(&path));
+        *value = value.with_text(path);
+    }
+}
+
+/// The items of a list; anything else itself.
+fn items_or_itself(node: &mut Node) -> Vec<&mut Node> {
+    match node.kind {
+        Kind::List(ref mut items) => items.iter_mut().collect(),
+        _ => vec![node],
     }
 }
 

@@ -21,6 +21,7 @@ pub mod joint;
 pub mod load;
 pub mod long;
 pub mod mend;
+pub mod mesh;
 pub mod output;
 pub mod parameter;
 pub mod part;
@@ -71,6 +72,7 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<system::Start>(),
         of::<element::Element>(),
         of::<element::Anatomy>(),
+        of::<mesh::Mesh>(),
         of::<joint::Freedom>(),
         of::<joint::Follows>(),
     ];

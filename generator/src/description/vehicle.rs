@@ -1,6 +1,7 @@
 //! Vehicles as written: bodies whose motion is given.
 
 use super::curve::Function;
+use super::mesh::Meshes;
 use super::quantity::{OneOrThree, Quantity};
 use super::shape::record;
 
@@ -21,6 +22,8 @@ record! {
         angles: Option<OneOrThree<Function>>,
         /// Where its origin starts.
         start: Option<Start>,
+        /// How it is shown.
+        mesh: Option<Meshes>,
     }
 }
 

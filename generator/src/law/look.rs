@@ -11,8 +11,8 @@ pub enum Look<'a> {
     Round(Round<'a>),
     /// A bag with the shape that it has when full, and the volume of its gas.
     Bag(Round<'a>, Asked),
-    /// A plane, and the ellipsoid that meets it.
-    Plane(&'a Plane, Round<'a>),
+    /// A plane, and the ellipsoid that meets it, if one does.
+    Plane(&'a Plane, Option<Round<'a>>),
     /// The force on the body of an ellipsoid, at its deepest point behind a plane, or against the force.
     Push(Round<'a>, Option<&'a Plane>),
     /// Straight lines from point to point, along which a force acts.

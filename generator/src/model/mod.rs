@@ -62,7 +62,7 @@ pub struct Model {
     pub outputs: Vec<Output>,
     /// Duration and sampling of a run.
     pub run: Run,
-    /// Ellipsoids that meet nothing, for pictures; at the default parameters.
+    /// Surfaces that meet nothing, and meshes, for pictures; at the default parameters.
     pub shown: Vec<Shown>,
     /// The units in which outputs are shown.
     pub units: Units,

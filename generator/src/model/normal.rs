@@ -109,6 +109,14 @@ impl Model {
         for_each_vehicle(self, &mut |vehicle| used[*vehicle] = true);
         let new = renumbered(&used);
         for_each_vehicle(self, &mut |vehicle| *vehicle = new[*vehicle]);
+        self.shown.retain_mut(|shown| match shown.body_mut() {
+            Body::Vehicle(vehicle) => {
+                let is_used = used[*vehicle];
+                *vehicle = new[*vehicle];
+                is_used
+            }
+            _ => true,
+        });
         retain(&mut self.vehicles, &used);
     }
 

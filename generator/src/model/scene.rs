@@ -1,7 +1,7 @@
 //! A model together with what its text mentions, and where: what an explanation of the model starts from.
 
 use super::resolve::resolve;
-use super::{Criteria, Model};
+use super::{Criteria, Model, Shown};
 use crate::description::force::Force;
 use crate::description::load::{Loaded, read_file, read_model};
 use crate::description::long::long_form;
@@ -196,6 +196,11 @@ pub fn read(path: &Path) -> Result<Scene, Diagnostics> {
     scene.notes = text.notes().to_vec();
     if !text.is_of_file() {
         scene.places.keep(|line| text.line_of_file(line));
+        for shown in scene.model.shown.iter_mut().chain(&mut scene.written.shown) {
+            if let Shown::Mesh(mesh) = shown {
+                mesh.line = text.line_of_file(mesh.line).unwrap_or_default();
+            }
+        }
     }
     Ok(scene)
 }

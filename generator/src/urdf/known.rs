@@ -93,7 +93,7 @@ const LINK: Element = Element {
                 once("inertia", INERTIA, &[]),
             ],
         ),
-        other("visual", Idle("visual shapes"), &[]),
+        other("visual", Partly, &[]),
         other("collision", Idle("collision shapes"), &[]),
         other("self_collision_checking", Idle("collision shapes"), &[]),
         other("contact", Idle("contacts of links"), &[]),

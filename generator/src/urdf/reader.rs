@@ -2,7 +2,7 @@
 
 use super::inertia;
 use super::known::ROBOT;
-use super::robot::{Frame, Inertial, LeftOut, Link, Mimic, Place, Robot, Why};
+use super::robot::{Frame, Inertial, LeftOut, Link, Mesh, Mimic, Place, Robot, Why};
 use super::xml::{XACRO, Xml};
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
 use crate::rotation::{IDENTITY, Matrix, of_quaternion, of_roll_pitch_yaw};
@@ -230,6 +230,9 @@ impl<'a> Reader<'a> {
         Some(Link {
             place: self.xml.place_of(node, "name"),
             inertial: inertial.and_then(|inertial| self.inertial(inertial, &name)),
+            meshes: (self.xml.children(node, "visual"))
+                .filter_map(|shape| self.mesh(shape))
+                .collect(),
             name,
         })
     }
@@ -304,7 +307,25 @@ impl<'a> Reader<'a> {
         nearest
     }
 
-    /// Checks that a shape is written correctly; it is not imported.
+    /// The mesh that a link is shown by; other shapes are not taken over.
+    fn mesh(&self, node: Node<'a, 'a>) -> Option<Mesh> {
+        let geometry = self.xml.child(node, "geometry");
+        let mesh = geometry.and_then(|geometry| self.xml.child(geometry, "mesh"));
+        let Some((mesh, file)) = mesh.and_then(|mesh| Some((mesh, mesh.attribute("filename")?)))
+        else {
+            let place = self.xml.place(node);
+            self.leave_out(node, place, Why::Idle, "visual shapes that are no meshes");
+            return None;
+        };
+        let scale = mesh.attribute("scale").map(|_| self.numbers(mesh, "scale"));
+        Some(Mesh {
+            file: file.to_owned(),
+            frame: self.origin(node),
+            scale: scale.map_or([1.0; 3], Option::unwrap_or_default),
+        })
+    }
+
+    /// Checks that a shape is written correctly.
     fn shape(&self, node: Node<'a, 'a>) {
         self.origin(node);
         let geometry = self.xml.child(node, "geometry");
@@ -329,7 +350,7 @@ impl<'a> Reader<'a> {
                     self.problem(
                         self.xml.place(shape),
                         "a mesh needs a file",
-                        "add `filename=\"…\"`; it is not read",
+                        "add `filename=\"…\"`",
                     );
                 }
             }

@@ -50,6 +50,15 @@ pub struct Link {
     pub name: String,
     pub place: Place,
     pub inertial: Option<Inertial>,
+    /// By which it is shown.
+    pub meshes: Vec<Mesh>,
+}
+
+/// A file of triangles, in a frame of a link.
+pub struct Mesh {
+    pub file: String,
+    pub frame: Frame,
+    pub scale: Vector,
 }
 
 /// Mass, and inertia tensor about the centre of mass in the axes of `frame`.

@@ -80,6 +80,8 @@ pub struct Forest {
     pub still: Vec<usize>,
     /// Joints that follow others but move no mass.
     pub idle: Vec<usize>,
+    /// Position and orientation of each link.
+    pub placed: Vec<Frame>,
     /// Links that become one element with the name of the first, because some of them are physically impossible bodies.
     pub merged: Vec<(usize, Vec<usize>)>,
 }
@@ -174,12 +176,14 @@ pub fn forest(robot: &Robot, base: Base, uncouple: bool) -> Result<Forest, Vec<P
             still: Vec::new(),
             merged: Vec::new(),
             idle: Vec::new(),
+            placed: Vec::new(),
         },
         uncouple,
         massless: Vec::new(),
         problems: Vec::new(),
     };
     builder.place(root);
+    builder.forest.placed = builder.placed.clone();
     match base {
         Base::Fixed => builder.body(root, Carrier::Frame, Vec::new()),
         Base::Free => builder.free(root, None),

@@ -1,9 +1,9 @@
 //! Writes the model as YAML.
 
 use super::Options;
-use super::robot::{Joint, Kind, Limits, Mimic, Place, Robot};
+use super::robot::{Joint, Kind, Limits, Mesh, Mimic, Place, Robot};
 use super::tree::{Carried, Element, Forest, Freedom};
-use crate::rotation::{Vector, length, subtract};
+use crate::rotation::{Vector, add, apply, bryant_angles, length, product, subtract};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -214,9 +214,18 @@ impl Writer<'_> {
         }
         writeln!(
             text,
-            "model: {}\ndimension: 3\nsystems:",
+            "model: {}\ndimension: 3",
             word(&self.robot.name, '-', "robot")
         )?;
+        let at_rest = self.meshes(None, [0.0; 3]);
+        if !at_rest.is_empty() {
+            writeln!(text, "mesh:")?;
+        }
+        for (link, mesh) in at_rest {
+            self.origin(text, self.robot.links[link].place);
+            writeln!(text, "  - {mesh}")?;
+        }
+        writeln!(text, "systems:")?;
         for (index, system) in self.forest.systems.iter().enumerate() {
             writeln!(text, "  - name: {}", self.system(index))?;
             writeln!(
@@ -378,13 +387,65 @@ impl Writer<'_> {
         let products = [t[0][1], t[0][2], t[1][2]].map(entry);
         let moments = [t[0][0], t[1][1], t[2][2]].map(entry);
         match products == [0.0; 3] {
-            true => writeln!(text, ", inertia: {} }}", list(&moments)),
-            false => writeln!(
-                text,
-                ", inertia: {} }}",
-                list(&[moments, products].concat())
-            ),
+            true => write!(text, ", inertia: {}", list(&moments))?,
+            false => write!(text, ", inertia: {}", list(&[moments, products].concat()))?,
         }
+        let shown = self.meshes(Some(element.link), element.origin);
+        let shown: Vec<String> = shown.into_iter().map(|(_, mesh)| mesh).collect();
+        match &shown[..] {
+            [] => {}
+            [one] => write!(text, ", mesh: {one}")?,
+            all => write!(text, ", mesh: [{}]", all.join(", "))?,
+        }
+        writeln!(text, " }}")
+    }
+
+    /// The meshes of all links of an element, which has the name of this link, or of all links at rest, each with its link.
+    fn meshes(&self, element: Option<usize>, origin: Vector) -> Vec<(usize, String)> {
+        let links = self.robot.links.iter().enumerate();
+        let of = links.filter(|(link, _)| self.carrier(*link) == Some(element));
+        let each = of.flat_map(|(link, of)| of.meshes.iter().map(move |mesh| (link, mesh)));
+        let text = |(link, mesh): (usize, &Mesh)| {
+            let placed = &self.forest.placed[link];
+            let place = add(placed.at, apply(&placed.turn, mesh.frame.at));
+            let size = length(place).max(length(origin));
+            let angles = bryant_angles(&product(&placed.turn, &mesh.frame.turn));
+            let file = mesh
+                .file
+                .replace(['"', '\\'], "/")
+                .replace(char::is_control, " ");
+            let mut text = format!("{{ file: \"{file}\"");
+            if mesh.scale != [1.0; 3] {
+                text += &format!(", scale: {}", list(&mesh.scale));
+            }
+            let at = vector(subtract(place, origin), size);
+            if at != list(&[0.0; 3]) {
+                text += &format!(", at: {at}");
+            }
+            let angles = angles.map(|angle| without_rounding(angle, 1.0));
+            if angles != [0.0; 3] {
+                text += &format!(", angles: {}", list(&angles));
+            }
+            (link, text + " }")
+        };
+        each.map(text).collect()
+    }
+
+    /// The link whose name the element has that a link moves with, `Some(None)` of a link at rest, and `None` of one that is no part of an element.
+    fn carrier(&self, link: usize) -> Option<Option<usize>> {
+        let systems = &self.forest.systems;
+        let mut elements = systems.iter().flat_map(|system| &system.elements);
+        if elements.any(|element| element.link == link) {
+            return Some(Some(link));
+        }
+        let merged = &self.forest.merged;
+        if let Some((main, _)) = merged.iter().find(|(_, others)| others.contains(&link)) {
+            return Some(Some(*main));
+        }
+        if let Some(marker) = self.forest.markers.iter().find(|m| m.link == link) {
+            return Some(marker.on.map(|(s, e)| systems[s].elements[e].link));
+        }
+        self.forest.still.contains(&link).then_some(None)
     }
 
     fn freedom_name(&self, freedom: &Freedom) -> String {

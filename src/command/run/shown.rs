@@ -1,16 +1,17 @@
 //! The scene of a run, with the forces between its bodies: outputs for them are computed at its states.
 
-use super::super::Error;
 use super::super::model_argument::Found;
 use super::super::prepare::{Prepared, prepare_model};
 use super::super::terminal::Terminal;
+use super::super::{Error, caution};
 use crate::picture::Instant;
+use crate::scene::mesh::{Mesh, meshes};
 use crate::scene::{Scene, with_forces};
 use crate::simulation::Recording;
 use bryant_generator::model::Model;
 use bryant_runtime::dynamics::Family;
 use bryant_runtime::program::Job;
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 
 /// Outputs are the same within this share of the largest of them, or this, in SI.
 const SAME: f64 = 1e-3;
@@ -23,6 +24,10 @@ pub struct Shown<'a> {
     /// The run.
     pub job: &'a Job,
     model: Model,
+    /// Its meshes, once a scene needs them.
+    meshes: OnceCell<Vec<Mesh>>,
+    /// What is to be known of them and is not told yet.
+    notes: RefCell<Vec<String>>,
     /// Its equations, once a scene needs them.
     engine: OnceCell<Prepared>,
 }
@@ -34,6 +39,8 @@ impl<'a> Shown<'a> {
             found,
             job,
             model: with_forces(&found.model),
+            meshes: OnceCell::new(),
+            notes: RefCell::default(),
             engine: OnceCell::new(),
         }
     }
@@ -60,6 +67,12 @@ impl<'a> Shown<'a> {
         self.scene_of(recording, instants, &[])
     }
 
+    /// Tells what is to be known of meshes, once.
+    pub fn tell(&self, terminal: &mut Terminal) {
+        let notes = self.notes.take();
+        notes.iter().for_each(|note| terminal.note(note));
+    }
+
     fn scene_of(
         &self,
         recording: &Recording,
@@ -69,7 +82,16 @@ impl<'a> Shown<'a> {
         let parameters = recording.parameters(self.job);
         let model = &self.found.model;
         let scene = Scene::new(model, &recording.coordinates, &parameters, instants, forces);
-        scene.map_err(Error::system)
+        let mut scene = scene.map_err(Error::system)?;
+        let meshes = self.meshes.get_or_init(|| {
+            let (meshes, notes) = meshes(model);
+            let cautions = caution::meshes(&self.found.scene).into_iter();
+            let cautions = cautions.map(|caution| format!("warning: {caution}"));
+            self.notes.borrow_mut().extend(cautions.chain(notes));
+            meshes
+        });
+        scene.meshes.clone_from(meshes);
+        Ok(scene)
     }
 
     /// A column for each output that the scene has to know.

@@ -172,6 +172,7 @@ impl Expander<'_> {
                     image.change(key, |n| self.polar(n));
                 }
                 image.change("axes", |n| self.axial(n));
+                image.change("mesh", |n| self.mesh(n));
                 image.change("inertia", |n| self.tensor(n));
                 if let Some(anatomy) = image.get_mut("anatomy") {
                     for key in ["forward", "up"] {
@@ -539,6 +540,54 @@ impl Expander<'_> {
         Node {
             span: inertia.span,
             kind: Kind::List(pairs.into_iter().zip(items).map(entry).collect()),
+        }
+    }
+
+    /// The image of meshes: the factor on the axis of the mirror has the other sign.
+    fn mesh(&self, mesh: &Node) -> Node {
+        let entry = |key: &str, value: Node| Entry {
+            key: key.to_owned(),
+            span: mesh.span,
+            value,
+        };
+        let list = |items: Vec<Node>| Node {
+            span: mesh.span,
+            kind: Kind::List(items),
+        };
+        let mut image = match &mesh.kind {
+            Kind::List(items) => return list(items.iter().map(|item| self.mesh(item)).collect()),
+            Kind::Map(_) => mesh.clone(),
+            Kind::Scalar { .. } => Node {
+                span: mesh.span,
+                kind: Kind::Map(vec![entry("file", mesh.clone())]),
+            },
+        };
+        image.change("at", |n| self.polar(n));
+        image.change("angles", |n| match n.kind {
+            // the one about y
+            Kind::Scalar { .. } if self.words.axis != 1 => negated(n),
+            Kind::Scalar { .. } => n.clone(),
+            _ => self.three(n, |axis, mirror| axis != mirror),
+        });
+        let scale = match image.get("scale") {
+            Some(scale) if !scale.items().is_empty() => scale.clone(),
+            Some(scale) => list(vec![scale.clone(); 3]),
+            None => list(vec![Node::plain("1", mesh.span); 3]),
+        };
+        image.set("scale", self.three(&scale, |axis, mirror| axis == mirror));
+        image
+    }
+
+    /// Three numbers, also in the plane, those of some axes negated.
+    fn three(&self, list: &Node, which: impl Fn(usize, usize) -> bool) -> Node {
+        let numbers = list.items().iter().enumerate();
+        let numbers = numbers.map(|(axis, item)| match which(axis, self.words.axis) {
+            true => negated(item),
+            false => item.clone(),
+        });
+        Node {
+            span: list.span,
+            kind: Kind::List(numbers.collect()),
         }
     }
 

@@ -6,13 +6,13 @@ use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::short::Surface;
 use crate::diagnostic::quoted;
-use crate::law::Round;
+use crate::law::{Look, Round};
 use crate::model::resolve::hysteresis::Unloading;
 use crate::model::resolve::quantity::{
     ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS,
 };
 use crate::model::resolve::{NOWHERE, Resolver, name::Style};
-use crate::model::{Attachment, Bristle, Friction, Hysteresis, Number, ScaledCurve};
+use crate::model::{Attachment, Body, Bristle, Friction, Hysteresis, Number, ScaledCurve};
 
 /// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
 const FRICTION_SPEED: f64 = 0.01;
@@ -109,13 +109,34 @@ pub struct Ellipsoid {
     pub axes: [Number; 3],
 }
 
-/// An ellipsoid of a body that meets nothing: it is only shown.
+/// What is only shown.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shown {
-    /// The ellipsoid.
-    pub round: Ellipsoid,
-    /// As [`Contact::degree`].
-    pub degree: u32,
+pub enum Shown {
+    /// An ellipsoid that meets nothing, and its [degree](Contact::degree).
+    Round(Ellipsoid, u32),
+    /// A plane that nothing meets.
+    Plane(Plane),
+    /// A mesh.
+    Mesh(Mesh),
+}
+
+/// A file of triangles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// What it is shown with.
+    pub on: Body,
+    /// Its path as written: relative to `source`, or `package://…` as in URDF.
+    pub file: String,
+    /// The file that names it.
+    pub source: String,
+    /// The line of that file.
+    pub line: usize,
+    /// Its origin in the body's frame \[m\].
+    pub at: [f64; 3],
+    /// Bryant angles of its axes relative to the body's frame \[rad\].
+    pub angles: [f64; 3],
+    /// Factors on its coordinates.
+    pub scale: [f64; 3],
 }
 
 /// The finite extent of a plane.
@@ -367,47 +388,76 @@ pub(crate) fn surface(
         Surface::Ellipsoid(written) => {
             let round = ellipsoid(resolver, written, at);
             let degree = degree(resolver, written.degree.as_ref(), at.key("degree"));
-            round.map(|round| Shown { round, degree })
+            round.map(|round| Shown::Round(round, degree))
         }
-        Surface::Plane(written) => {
-            plane(resolver, written, at);
-            None
-        }
+        Surface::Plane(written) => plane(resolver, written, at).map(Shown::Plane),
     }
 }
 
 impl Shown {
-    /// As it is seen.
-    pub fn round(&self) -> Round<'_> {
-        Round {
-            degree: self.degree,
-            ..self.round.round()
+    /// As it is seen; a mesh is no part of a law.
+    pub fn look(&self) -> Option<Look<'_>> {
+        match self {
+            Shown::Round(ellipsoid, degree) => Some(Look::Round(Round {
+                degree: *degree,
+                ..ellipsoid.round()
+            })),
+            Shown::Plane(plane) => Some(Look::Plane(plane, None)),
+            Shown::Mesh(_) => None,
         }
     }
 
-    /// Whether a contact has this ellipsoid.
-    pub(crate) fn is_of(&self, contact: &Contact) -> bool {
-        let Ellipsoid {
-            center,
-            semi_axes,
-            axes,
-        } = &self.round;
-        let first = (&contact.ellipsoid, &contact.semi_axes, &contact.axes);
-        let is_second = match &contact.against {
-            Against::Ellipsoid(second) => *second == self.round,
-            Against::Plane(_) => false,
-        };
-        first == (center, semi_axes, axes) || is_second
+    /// The body that it is shown with.
+    pub(crate) fn body_mut(&mut self) -> &mut Body {
+        match self {
+            Shown::Round(ellipsoid, _) => &mut ellipsoid.center.on,
+            Shown::Plane(plane) => &mut plane.at.on,
+            Shown::Mesh(mesh) => &mut mesh.on,
+        }
+    }
+
+    /// Whether it is this part of a law.
+    pub(crate) fn is_in(&self, look: &Look<'_>) -> bool {
+        match (self, look) {
+            (Shown::Round(ellipsoid, _), Look::Round(round) | Look::Bag(round, _)) => {
+                let own = ellipsoid.round();
+                let shape = |round: &Round<'_>| (round.center.clone(), round.semi_axes.clone());
+                shape(&own) == shape(round) && own.axes == round.axes
+            }
+            (Shown::Plane(plane), Look::Plane(other, _)) => plane == *other,
+            _ => false,
+        }
     }
 
     /// The same at these values of the parameters: it changes with none.
     pub(crate) fn fixed(mut self, parameters: &[f64]) -> Self {
-        let Ellipsoid {
-            center,
-            semi_axes,
-            axes,
-        } = &mut self.round;
-        for number in center.at.iter_mut().chain(semi_axes).chain(axes) {
+        let mut numbers: Vec<&mut Number> = Vec::new();
+        match &mut self {
+            Shown::Round(ellipsoid, _) => {
+                let Ellipsoid {
+                    center,
+                    semi_axes,
+                    axes,
+                } = ellipsoid;
+                numbers.extend(center.at.iter_mut().chain(semi_axes).chain(axes));
+            }
+            Shown::Plane(plane) => {
+                let Plane {
+                    at,
+                    normal,
+                    tangent,
+                    extent,
+                } = plane;
+                numbers.extend(at.at.iter_mut().chain(normal).chain(tangent));
+                if let Some(Extent { half_lengths, rule }) = extent {
+                    numbers.extend(half_lengths);
+                    // how its force fades is not seen
+                    *rule = EdgeRule::Cut;
+                }
+            }
+            Shown::Mesh(_) => {}
+        }
+        for number in numbers {
             *number = Number::Constant(number.value(parameters));
         }
         self

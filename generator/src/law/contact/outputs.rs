@@ -63,7 +63,7 @@ impl Outputs for Contact {
             degree: self.degree,
         };
         let other = match &self.against {
-            Against::Plane(plane) => Look::Plane(plane, round),
+            Against::Plane(plane) => Look::Plane(plane, Some(round)),
             Against::Ellipsoid(ellipsoid) => Look::Round(ellipsoid.round()),
         };
         let push = Look::Push(round, self.against.plane());

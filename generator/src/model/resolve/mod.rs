@@ -17,6 +17,7 @@ pub(crate) mod kinematics;
 mod mobility;
 pub(crate) mod name;
 pub use name::is_keyword;
+mod mesh;
 pub(crate) mod output;
 mod parameter;
 pub(crate) mod quantity;
@@ -30,8 +31,8 @@ mod units;
 mod vehicle;
 
 use super::{
-    Attachment, Body, Coordinates, Criteria, Dimension, ElementId, Force, ForceKind, Model, Number,
-    Output, Parameter, Shown, Switch, System, Vehicle,
+    Attachment, Body, Coordinates, Criteria, Dimension, ElementId, Force, Model, Number, Output,
+    Parameter, Shown, Switch, System, Vehicle,
 };
 use crate::description::force::Attachment as WrittenEnd;
 use crate::description::load::{Header, Loaded, load, read_file, read_model, shown};
@@ -166,7 +167,7 @@ pub struct Resolver<'a> {
     /// Those of them that could be resolved.
     pub(crate) off: Vec<Force>,
     pub(crate) outputs: Vec<Output>,
-    /// Ellipsoids that meet nothing.
+    /// What is only shown.
     pub(crate) shown: Vec<Shown>,
     /// Outputs with a unit of their own.
     units: Vec<(String, Unit)>,
@@ -369,18 +370,13 @@ impl<'a> Resolver<'a> {
                 applied::force(self, written, at.item(index));
             }
         }
-        let contacts = self.forces.iter().filter_map(|force| match &force.kind {
-            ForceKind::Contact(contact) => Some(contact),
-            _ => None,
-        });
-        let contacts: Vec<_> = contacts.collect();
         shown.retain(|shown| {
-            // vehicles that nothing uses are left out
-            let on_element = matches!(shown.round.center.on, Body::Element(_));
-            on_element && !contacts.iter().any(|contact| shown.is_of(contact))
+            let mut looks = self.forces.iter().flat_map(|force| force.kind.looks());
+            !looks.any(|look| shown.is_in(&look))
         });
         let fixed = shown.into_iter().map(|shown| shown.fixed(&self.defaults));
         self.shown = fixed.collect();
+        self.shown.extend(self.meshes(loaded));
     }
 
     /// Enters the outputs; `headings` become those of all, also of outputs that are switched off.

@@ -1,0 +1,103 @@
+//! Meshes: which body shows which file, how large, and where on it. Files are not read here: what is shown has no influence.
+
+use super::Resolver;
+use super::quantity::{ANGLE, Expected, LENGTH, PURE};
+use crate::description::load::Loaded;
+use crate::description::mesh::{Mesh as Written, Meshes};
+use crate::description::place::At;
+use crate::description::quantity::{OneOrThree, Quantity};
+use crate::model::{Body, Mesh, Shown};
+
+impl Resolver<'_> {
+    /// The meshes of all bodies, at the default parameters.
+    pub(super) fn meshes(&self, loaded: &Loaded) -> Vec<Shown> {
+        let mut all = Vec::new();
+        let mut add = |on: Option<Body>, written: &Option<Meshes>, at: At<'_>| {
+            let (Some(on), Some(Meshes(written))) = (on, written) else {
+                return;
+            };
+            let at = at.key("mesh");
+            for (index, mesh) in written.iter().enumerate() {
+                all.extend(self.mesh(on, mesh, at.item(index)).map(Shown::Mesh));
+            }
+        };
+        for file in &loaded.files {
+            let (at, contents) = (file.source.at(), &file.contents);
+            add(Some(Body::Frame), &contents.mesh, at);
+            for (index, written) in contents.vehicles.iter().flatten().enumerate() {
+                let known = self.vehicles.iter().position(|v| v.name == written.name);
+                let at = at.key("vehicles").item(index);
+                add(known.map(Body::Vehicle), &written.mesh, at);
+            }
+            for (index, system) in contents.systems.iter().flatten().enumerate() {
+                let at = at.key("systems").item(index).key("elements");
+                for (index, written) in system.elements.iter().flatten().enumerate() {
+                    let path = format!("{}/{}", system.name, written.name);
+                    let id = self.elements.get(&path).copied();
+                    add(id.map(Body::Element), &written.mesh, at.item(index));
+                }
+            }
+        }
+        all
+    }
+
+    fn mesh(&self, on: Body, written: &Written, at: At<'_>) -> Option<Mesh> {
+        let scale = match &written.scale {
+            Some(scale) => self.three(scale, [true; 3], at.key("scale"), PURE)?,
+            None => [1.0; 3],
+        };
+        if scale.contains(&0.0) {
+            self.problems.add(at.key("scale").problem(
+                "a mesh of no size is not seen",
+                "write a factor that is not 0; below 0 it makes a mirror image",
+            ));
+        }
+        let place = match &written.at {
+            Some(at_body) => self.vector(at_body, at.key("at"), LENGTH),
+            None => super::NOWHERE,
+        };
+        let angles = match &written.angles {
+            Some(angles) => self.three(angles, [false, true, false], at.key("angles"), ANGLE)?,
+            None => [0.0; 3],
+        };
+        let place = place.map(|number| number.value(&self.defaults));
+        let told = at.problem("", "");
+        Some(Mesh {
+            on,
+            file: written.file.clone(),
+            source: at.source.name.clone(),
+            line: told.line,
+            at: place,
+            angles,
+            scale,
+        })
+    }
+
+    /// Three numbers, in the plane too; or one, for some of the axes.
+    fn three(
+        &self,
+        written: &OneOrThree,
+        of_one: [bool; 3],
+        at: At<'_>,
+        expected: Expected,
+    ) -> Option<[f64; 3]> {
+        let value =
+            |quantity: &Quantity, at| self.number(quantity, at, expected).value(&self.defaults);
+        match written {
+            OneOrThree::One(one) => {
+                let one = value(one, at);
+                Some(of_one.map(|is_of| if is_of { one } else { 0.0 }))
+            }
+            OneOrThree::List(list) if list.len() == 3 => Some(std::array::from_fn(|axis| {
+                value(&list[axis], at.item(axis))
+            })),
+            OneOrThree::List(list) => {
+                self.problems.add(at.problem(
+                    format!("a mesh has three axes, but this list has {}", list.len()),
+                    "write one number or three",
+                ));
+                None
+            }
+        }
+    }
+}
