@@ -31,9 +31,9 @@ impl Solid {
         let sum: f64 = self
             .scaled
             .iter()
-            .map(|axis| dot(*axis, from).abs().powf(self.degree))
+            .map(|axis| libm::pow(dot(*axis, from).abs(), self.degree))
             .sum();
-        let distance = sum.powf(1.0 / self.degree);
+        let distance = libm::pow(sum, 1.0 / self.degree);
         let is_in = distance < CLEAR && distance > 1e-6;
         if is_in {
             *point = std::array::from_fn(|i| self.center[i] + from[i] * CLEAR / distance);
