@@ -108,9 +108,8 @@ const EDGE_ON: f64 = 0.02;
 /// Corners of the outline of a rounded box.
 const CORNERS: usize = 64;
 
-/// The figures of a motion, one for each of its times. They move with the body that the [view stays with](Scene::followed).
-pub fn figures(scene: &Scene, view: View) -> Vec<Figure> {
-    let followed = scene.followed();
+/// The figures of a motion, one for each of its times, as one sees them who moves with a body.
+pub fn figures(scene: &Scene, view: View, followed: Option<usize>) -> Vec<Figure> {
     let at = |k| Projection {
         scene,
         k,

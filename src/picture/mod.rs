@@ -41,8 +41,11 @@ pub fn draw(
     arrangement: Arrangement,
     view: View,
 ) -> Drawing {
-    let followed = scene.followed().map(|body| &scene.bodies[body].name);
-    let moves = followed.map(|name| format!("the view moves with {name}"));
+    // of figures on top of each other the way of what moves is what they show, unless a vehicle takes all of it along
+    let is_vehicle = |body: &usize| scene.bodies[*body].system.is_none();
+    let followed = scene.followed();
+    let followed = followed.filter(|body| arrangement == Arrangement::Row || is_vehicle(body));
+    let moves = followed.map(|body| format!("the view moves with {}", scene.bodies[body].name));
     let words = view.words(scene.planar).into_iter().chain(moves);
     let words: Vec<String> = words.collect();
     Sheet::new(
@@ -53,7 +56,7 @@ pub fn draw(
         (!words.is_empty()).then(|| words.join(", ")),
         view.names(),
         model.systems.iter().map(|s| s.name.clone()).collect(),
-        (figure::figures(scene, view), times),
+        (figure::figures(scene, view, followed), times),
         arrangement,
     )
     .drawing()

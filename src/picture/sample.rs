@@ -313,7 +313,7 @@ fn a_plane_is_drawn_as_far_as_it_extends() {
         let mut instants = lurch(3);
         instants[2].coordinates[0] = 4.0;
         let scene = Scene::new(&model, &names(), &[], &instants, &[]).unwrap();
-        let figures = super::figure::figures(&scene, View::Side);
+        let figures = super::figure::figures(&scene, View::Side, None);
         let width = |figure: &super::Figure| {
             let plane = figure.planes[0];
             assert!((plane.normal[1] - 1.0).abs() < 1e-12);

@@ -150,6 +150,14 @@ fn a_picture_looks_at_the_motion() {
     }
 }
 
+/// A stone that falls by 20 m.
+const FALLING: &str = "model: scene
+dimension: 2
+systems: [{ name: stone, elements: [{ name: stone, mass: 1, cg: [0.1, 0], inertia: 0.02 }] }]
+forces: [{ field: gravity, acceleration: [0, -10] }]
+run: { duration: 2 s, every: 1 s }
+";
+
 /// With a vehicle the view moves: a passenger at rest in it stands still in the picture, and the headings say how far it has gone.
 #[test]
 fn a_picture_moves_with_the_vehicle() {
@@ -172,14 +180,10 @@ run: { duration: 1 s, every: 250 ms }
     assert!(!parked.contains("the view moves"));
     assert_eq!(headings(&parked), ["0 ms to 1 s"]);
     // what falls far is followed, too
-    let falling = "model: scene
-dimension: 2
-systems: [{ name: stone, elements: [{ name: stone, mass: 1, cg: [0.1, 0], inertia: 0.02 }] }]
-forces: [{ field: gravity, acceleration: [0, -10] }]
-run: { duration: 2 s, every: 1 s }
-";
-    let falling = svg(falling, &["--figures", "3"]);
+    let falling = svg(FALLING, &["--figures", "3"]);
     assert!(falling.contains("the view moves with stone/stone"));
+    let overlay = svg(FALLING, &["--figures", "3", "--overlay"]);
+    assert!(!overlay.contains("the view moves"));
     assert_eq!(
         headings(&falling),
         ["0 ms", "1 s, gone 5.00 m", "2 s, gone 20.0 m"]
