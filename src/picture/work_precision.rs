@@ -38,9 +38,10 @@ pub struct Line {
     pub points: Vec<[f64; 2]>,
 }
 
-/// Colours that remain distinct in print and for the colour-blind (Okabe and Ito, and three more), in the order of methods.
-const COLOURS: [&str; 8] = [
+/// Colours that remain distinct in print and for the colour-blind (Okabe and Ito, and three more), black last, in the order of methods.
+const COLOURS: [&str; 9] = [
     "#56b4e9", "#8c6d1f", "#e69f00", "#cc79a7", "#0072b2", "#009e73", "#d55e00", "#7a5195",
+    "#1a1a1a",
 ];
 
 const STYLE: &str = "\
@@ -61,7 +62,7 @@ text{font-family:'DejaVu Sans',Verdana,sans-serif;font-size:12px;fill:#222}
 
 /// The frame: left, top, width, height.
 const FRAME: [f64; 4] = [64.0, 58.0, 620.0, 440.0];
-const WIDTH: f64 = 960.0;
+const WIDTH: f64 = 1020.0;
 const LEGEND: f64 = FRAME[0] + FRAME[2] + 24.0;
 const LINE_HEIGHT: f64 = 18.0;
 /// Characters of a line of text below the frame.
