@@ -37,7 +37,7 @@ pub struct Arguments {
     #[arg(long)]
     list: bool,
 
-    /// Write a summary as a page, and a page for each group into the folder of its name, FILE/; - prints all of it instead of the table
+    /// Write a page with a line for each group, and a page for each group into the folder FILE; - prints all of them instead of the table
     #[arg(long, value_name = "FILE.md")]
     markdown: Option<PathBuf>,
 
@@ -80,7 +80,7 @@ impl Arguments {
             outputs.take("--markdown", path, Kind::Markdown)?;
             for case in cases.iter().filter(|_| !is_standard(path)) {
                 // groups have several cases
-                let page = path.with_extension("").join(markdown::file(case.group));
+                let page = folder_of(path).join(markdown::file(case.group));
                 if !pages.contains(&page) {
                     outputs.take("--markdown", &page, Kind::Markdown)?;
                     pages.push(page);
@@ -135,9 +135,17 @@ impl Arguments {
     }
 }
 
+/// The folder of the groups' pages: that of the summary's name without its ending, or with one if it has none.
+fn folder_of(path: &Path) -> PathBuf {
+    path.with_extension(match path.extension() {
+        Some(_) => "",
+        None => "groups",
+    })
+}
+
 /// Writes the summary, and the page of each group beside it.
 fn write_pages(path: &Path, outcomes: &[stability::Outcome], command: &str) -> Result<(), Error> {
-    let folder = path.with_extension("");
+    let folder = folder_of(path);
     let name = |path: &Path| {
         path.file_name()
             .unwrap_or_default()

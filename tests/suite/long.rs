@@ -302,6 +302,22 @@ fn hard_cases_that_are_interrupted_are_not_said_to_have_run() {
     );
 }
 
+/// The summary leads to the page of each group, which leads back, whatever its name.
+#[test]
+fn hard_cases_have_a_summary_and_a_page_for_each_group() {
+    let directory = directory();
+    for (file, folder) in [("page.md", "page"), ("cases", "cases.groups")] {
+        let arguments = ["stability", "spin at", "--markdown", file];
+        call(directory.path(), &arguments, 0);
+        let text = |path: &str| std::fs::read_to_string(directory.path().join(path)).unwrap();
+        let link = format!("[Orientation]({folder}/orientation.md) | 1 | ");
+        assert!(text(file).contains(&link), "{}", text(file));
+        let group = text(&format!("{folder}/orientation.md"));
+        assert!(group.contains(&format!("(../{file})")), "{group}");
+        assert!(group.contains("## Spin at 10 000 rad/s"), "{group}");
+    }
+}
+
 /// The same motion up to rounding, and the name of the engine.
 #[test]
 fn a_run_by_rustc_is_the_same_run() {

@@ -91,7 +91,7 @@ mod tests {
     use super::UnitSystem;
 
     #[test]
-    fn a_family_has_the_units_of_the_trade() {
+    fn engineering_units_are_those_of_crash_tests() {
         let shown = |si: &str, value: f64| {
             let unit = UnitSystem::Engineering.unit(si);
             format!("{} {}", unit.of_si(value), unit.name)
