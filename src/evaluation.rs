@@ -13,7 +13,7 @@ pub(crate) use functions::stop;
 pub use functions::{functions, functions_with};
 
 /// Time, coordinates and velocities, in the order of [`Equations::coordinates`] and [`Equations::velocities`].
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
     /// \[s\]
@@ -34,6 +34,8 @@ pub struct State {
 /// The equations of motion S v̇ = r_s + r_k at one state.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Evaluation {
+    /// Where: what `--at` reads.
+    pub state: State,
     /// Names of q.
     pub coordinates: Vec<String>,
     /// Names of v.
@@ -165,6 +167,7 @@ pub fn at(
     let mut vectors = vectors.chunks(size.max(1)).map(<[f64]>::to_vec);
     let mut vector = || vectors.next().unwrap_or_default();
     Ok(Evaluation {
+        state: state.clone(),
         coordinates,
         velocities,
         mass_matrix: matrix.chunks(size.max(1)).map(<[f64]>::to_vec).collect(),

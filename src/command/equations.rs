@@ -33,8 +33,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 The state is a JSON file {\"t\": 0.01, \"q\": [...], \"v\": [...]} (SI units; - reads it from standard input); q and v stand
-in the order of \"coordinates\" and \"velocities\", which --json prints. Without --at the state is that at the start of a
-run. Functions of user forces are compiled as for `bryant run`.
+in the order of \"coordinates\" and \"velocities\", which --json prints, with the state itself as \"state\". Without
+--at the state is that at the start of a run. Functions of user forces are compiled as for `bryant run`.
 
 Examples:
   bryant equations sled-pendulum
@@ -195,13 +195,13 @@ fn read_state(path: &Path) -> Result<State, Error> {
     })?;
     if text.len() > MAX_BYTES {
         return Err(Error::Input(format!(
-            "{name} is longer than {MAX_BYTES} bytes, and no state is\n  help: give one state, as `--json` prints it"
+            "{name} is longer than {MAX_BYTES} bytes, and no state is\n  help: give one state, as `--json` prints it as \"state\""
         )));
     }
     serde_json::from_str(&text).map_err(|error| {
         Error::Input(format!(
             "{name} is not a state: {error}\n  \
-             help: write {{\"t\": 0.0, \"q\": [...], \"v\": [...]}}, SI units, in the order that `--json` prints"
+             help: write {{\"t\": 0.0, \"q\": [...], \"v\": [...]}}, SI units, as `--json` prints it as \"state\""
         ))
     })
 }

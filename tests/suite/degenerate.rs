@@ -70,6 +70,99 @@ fn scene(system: &str, force: &str, ball: bool, outputs: bool) -> String {
     text + "run: { duration: 0.1 s, every: 50 ms }\n"
 }
 
+/// The same kinds of systems in the plane.
+const PLANAR: [(&str, &str); 6] = [
+    (
+        "fixed",
+        "reference: fixed, elements: [{ name: p, joint: weld, BODY }]",
+    ),
+    (
+        "chain",
+        "reference: fixed, elements: [{ name: p, joint: weld, BODY }, { name: q, on: p, at: [0, 0.5], joint: weld, BODY }]",
+    ),
+    (
+        "riding",
+        "reference: { on: car, at: [0, 1] }, elements: [{ name: p, joint: weld, BODY }]",
+    ),
+    (
+        "driven",
+        "reference: { acceleration: [{ points: [[0, 0], [0.05, 100], [0.1, 0]] }, 0] }, elements: [{ name: p, joint: weld, BODY }]",
+    ),
+    ("free", "elements: [{ name: p, joint: weld, BODY }]"),
+    (
+        "followers",
+        "reference: fixed, elements: [{ name: p, joint: weld, BODY }, { name: q, on: p, at: [0, 0.5], joint: { hinge: y, follows: { joint: r, \
+         ratio: 2 } }, BODY }, { name: r, on: p, at: [0, 0.2], joint: { hinge: y, follows: { joint: q, ratio: 0.5 } }, BODY }]",
+    ),
+];
+
+const PLANAR_FORCES: [&str; 4] = [
+    "",
+    "  - { field: gravity, acceleration: [0, -9.81] }\n",
+    "  - { bushing: s, from: { on: post/p, at: [0, 0.4] }, to: { on: frame, at: [0, 0] }, along: { x: { stiffness: 10, damping: 1 } } }\n",
+    "  - { contact: s, ellipsoid: { on: post/p, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, -0.05], normal: [0, 1] }, stiffness: \
+     1000, damping: 10, friction: 0.3 }\n",
+];
+
+/// A planar scene.
+fn planar(system: &str, force: &str, ball: bool) -> String {
+    let body = "mass: heft, cg: [0.1, 0.2], inertia: 0.12";
+    let mut text = "model: flat\ndimension: 2\nparameters: { heft: 1 kg }\n".to_owned();
+    text += "vehicles: [{ name: car, acceleration: [{ points: [[0, 0], [0.05, 100], [0.1, 0]] }, 0], start: { velocity: [10, 0] } }]\n";
+    text += &format!(
+        "systems:\n  - {{ name: post, {} }}\n",
+        system.replace("BODY", body)
+    );
+    if ball {
+        text += "  - { name: ball, elements: [{ name: b, mass: 1, cg: [0, 0], inertia: 0.1 }], start: { position: [0.05, 1] } }\n";
+    }
+    if !force.is_empty() {
+        text += &format!("forces:\n{force}");
+    }
+    text += "outputs:\n  - { name: x, of: post/p, at: cg, what: position, component: x }\n  - { name: F, of: joint post/p, what: force, component: z }\n";
+    text + "run: { duration: 0.1 s, every: 50 ms }\n"
+}
+
+/// Every command that reads a model.
+const COMMANDS: [&[&str]; 11] = [
+    &["run", "s.yaml", "--no-files"],
+    &["check", "s.yaml"],
+    &["effects", "s.yaml", "--json"],
+    &["equations", "s.yaml"],
+    &["equations", "s.yaml", "--latex"],
+    &["equations", "s.yaml", "--rust"],
+    &["equations", "s.yaml", "--c"],
+    &["equations", "s.yaml", "--json"],
+    &["settle", "s.yaml"],
+    &["gradient", "s.yaml", "--of", "final of x"],
+    &[
+        "accuracy",
+        "s.yaml",
+        "--quick",
+        "--budget",
+        "1 s",
+        "--no-files",
+    ],
+];
+
+/// The values that `equations` prints at the start are printed again where that state is given.
+fn holds_at_its_start(here: &Path, of: &str) {
+    let values = |more: &[&str]| {
+        let output = bryant(here)
+            .args(["equations", "s.yaml", "--json"])
+            .args(more)
+            .output()
+            .unwrap();
+        output
+            .status
+            .success()
+            .then(|| json(&String::from_utf8(output.stdout).unwrap()))
+    };
+    let Some(at_start) = values(&[]) else { return };
+    std::fs::write(here.join("at.json"), at_start["state"].to_string()).unwrap();
+    assert!(values(&["--at", "at.json"]) == Some(at_start), "{of}");
+}
+
 /// Calls the command: it works, or says where and what to do.
 fn holds(here: &Path, arguments: &[&str], of: &str) -> bool {
     let output = bryant(here).args(arguments).output().unwrap();
@@ -93,26 +186,6 @@ fn holds(here: &Path, arguments: &[&str], of: &str) -> bool {
 fn what_cannot_move_by_itself_panics_in_no_command() {
     let directory = directory();
     let here = directory.path();
-    let commands: [&[&str]; 11] = [
-        &["run", "s.yaml", "--no-files"],
-        &["check", "s.yaml"],
-        &["effects", "s.yaml", "--json"],
-        &["equations", "s.yaml"],
-        &["equations", "s.yaml", "--latex"],
-        &["equations", "s.yaml", "--rust"],
-        &["equations", "s.yaml", "--c"],
-        &["equations", "s.yaml", "--json"],
-        &["settle", "s.yaml"],
-        &["gradient", "s.yaml", "--of", "final of x"],
-        &[
-            "accuracy",
-            "s.yaml",
-            "--quick",
-            "--budget",
-            "1 s",
-            "--no-files",
-        ],
-    ];
     let all = SYSTEMS.into_iter().flat_map(|system| {
         let forces = FORCES.into_iter().enumerate();
         forces.flat_map(move |force| [(system, force, false), (system, force, true)])
@@ -122,14 +195,36 @@ fn what_cannot_move_by_itself_panics_in_no_command() {
         let text = scene(system, force, ball, true);
         std::fs::write(here.join("s.yaml"), &text).unwrap();
         // every command with the first two forces, the run with all
-        let commands = &commands[..if k < 2 { commands.len() } else { 3 }];
+        let commands = &COMMANDS[..if k < 2 { COMMANDS.len() } else { 3 }];
         let ran = holds(here, commands[0], &of);
         for command in &commands[1..] {
             holds(here, command, &of);
         }
+        holds_at_its_start(here, &of);
         assert!(ran || matches!(name, "free" | "followers"), "{of}:\n{text}");
         std::fs::write(here.join("s.yaml"), scene(system, force, ball, false)).unwrap();
         holds(here, commands[0], &of);
+    }
+}
+
+#[test]
+fn nor_in_the_plane() {
+    let directory = directory();
+    let here = directory.path();
+    let all = PLANAR.into_iter().flat_map(|system| {
+        let forces = PLANAR_FORCES.into_iter().enumerate();
+        forces.flat_map(move |force| [(system, force, false), (system, force, true)])
+    });
+    for ((name, system), (k, force), ball) in share(4, all) {
+        let of = format!("{name} {k} {ball}");
+        let text = planar(system, force, ball);
+        std::fs::write(here.join("s.yaml"), &text).unwrap();
+        let ran = holds(here, COMMANDS[0], &of);
+        for command in &COMMANDS[1..] {
+            holds(here, command, &of);
+        }
+        holds_at_its_start(here, &of);
+        assert!(ran || matches!(name, "free" | "followers"), "{of}:\n{text}");
     }
 }
 

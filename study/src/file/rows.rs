@@ -8,6 +8,7 @@ use crate::study::{Listed, Plan, Varied};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::open_file;
 use bryant_generator::description::place::At;
+use bryant_generator::description::table::is_unit;
 use bryant_generator::description::tree::Kind;
 use bryant_generator::diagnostic::quoted;
 use std::fmt::Display;
@@ -122,8 +123,8 @@ struct Table<'r> {
     name: &'r str,
 }
 
-/// A column of a table: its parameter, and the unit in its heading, "" if it has none.
-type Column<'f> = (&'f ParameterFact, String);
+/// A column of a table: its parameter, and the unit in its heading.
+type Column<'t> = (&'t ParameterFact, Option<&'t str>);
 
 impl Table<'_> {
     /// Reads the rows of the file at `path`.
@@ -134,89 +135,24 @@ impl Table<'_> {
             self.unreadable(&format!("it is longer than {MOST_BYTES} bytes"));
             return None;
         }
-        let mut csv = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .from_reader(file.take(MOST_BYTES));
-        let headings = csv.headers().inspect_err(|error| self.unreadable(error));
-        let columns = self.columns(headings.ok()?, facts)?;
-        let values = self.values(&mut csv, &columns)?;
-        let shown = columns.iter().map(|(fact, unit)| {
-            reader::shown_in(fact, Some(unit.as_str()).filter(|unit| !unit.is_empty()))
-        });
-        Some((shown.collect(), values))
-    }
-
-    /// The columns, by the names and units in the heading.
-    fn columns<'f>(
-        &self,
-        headings: &csv::StringRecord,
-        facts: &'f ModelFacts,
-    ) -> Option<Vec<Column<'f>>> {
-        if headings.is_empty() {
+        let mut text = String::new();
+        let whole = file.take(MOST_BYTES).read_to_string(&mut text);
+        whole.inspect_err(|error| self.unreadable(error)).ok()?;
+        let lines = Lines {
+            table: self,
+            text: &text,
+        };
+        let table = bryant_table::Table::of(&text).map_err(|fault| lines.fault(fault));
+        let Some(table) = table.ok()? else {
             self.unreadable(&"it is empty");
             return None;
-        }
-        let mut columns: Vec<Column<'f>> = Vec::new();
-        let mut sound = true;
-        for heading in headings {
-            let (parameter, unit) = match heading.strip_suffix(']').and_then(|h| h.split_once('['))
-            {
-                Some((parameter, unit)) => (parameter.trim(), unit.trim()),
-                None => (heading, ""),
-            };
-            let (message, help) = match facts.parameter(parameter) {
-                Some(fact) if columns.iter().any(|(c, _)| c.name == fact.name) => (
-                    format!("two columns are named {}", quoted(parameter)),
-                    "remove one".into(),
-                ),
-                Some(fact) => {
-                    columns.push((fact, unit.to_owned()));
-                    continue;
-                }
-                None if heading.contains([';', '\t']) => (
-                    format!("the heading has a column {}", quoted(heading)),
-                    "separate columns by commas".into(),
-                ),
-                None => facts.no_parameter(parameter),
-            };
-            self.problem(1, message, help);
-            sound = false;
-        }
-        sound.then_some(columns)
-    }
-
-    /// The numbers of all rows, row by row.
-    fn values(
-        &self,
-        csv: &mut csv::Reader<impl std::io::Read>,
-        columns: &[Column<'_>],
-    ) -> Option<Vec<f64>> {
-        let mut values = Vec::new();
-        let mut problems = 0;
-        for record in csv.records() {
-            let record = record.inspect_err(|error| self.unreadable(error)).ok()?;
-            let line = record.position().map_or(0, csv::Position::line);
-            for (text, (fact, unit)) in record.iter().zip(columns) {
-                match cell(text, fact, unit) {
-                    Ok(value) => values.push(value),
-                    Err((message, help)) => {
-                        self.problem(line, format!("\"{}\": {message}", fact.name), help);
-                        problems += 1;
-                    }
-                }
-            }
-            if problems >= MOST_PROBLEMS {
-                return None;
-            }
-            if values.len() / columns.len() > MOST_LISTED {
-                self.unreadable(&format!("it has more than {MOST_LISTED} rows"));
-                return None;
-            }
-        }
-        if values.is_empty() && problems == 0 {
-            self.unreadable(&"it has no rows");
-        }
-        (problems == 0 && !values.is_empty()).then_some(values)
+        };
+        let columns = lines.columns(&table, facts)?;
+        let values = lines.values(&table, &columns)?;
+        let shown = columns
+            .iter()
+            .map(|(fact, unit)| reader::shown_in(fact, *unit));
+        Some((shown.collect(), values))
     }
 
     /// Reports that the file as a whole cannot be read.
@@ -227,13 +163,89 @@ impl Table<'_> {
             "the path is relative to the study; the file is CSV with a heading of parameters",
         ));
     }
+}
 
-    /// Reports a problem in a line of the file.
-    fn problem(&self, line: u64, message: String, help: String) {
-        let mut problem = Diagnostic::of_file(self.name, message, help);
-        problem.line = line as usize;
-        problem.column = 1;
-        self.reader.add(problem);
+/// The text of a table, in which problems are shown.
+struct Lines<'r> {
+    table: &'r Table<'r>,
+    text: &'r str,
+}
+
+impl<'r> Lines<'r> {
+    /// The columns, by the names and units in the heading.
+    fn columns(
+        &self,
+        table: &bryant_table::Table<'r>,
+        facts: &'r ModelFacts,
+    ) -> Option<Vec<Column<'r>>> {
+        let mut columns: Vec<Column<'r>> = Vec::new();
+        let mut sound = true;
+        for heading in table.headings(&is_unit) {
+            // a name may look as if it had a unit
+            let whole = facts.parameter(heading.field.text);
+            let (name, unit) = match whole {
+                Some(_) => (heading.field.text, None),
+                None => (heading.name, heading.unit),
+            };
+            let (message, help) = match facts.parameter(name) {
+                Some(fact) if columns.iter().any(|(c, _)| c.name == fact.name) => (
+                    format!("two columns are named {}", quoted(name)),
+                    "remove one".into(),
+                ),
+                Some(fact) => {
+                    columns.push((fact, unit));
+                    continue;
+                }
+                None => facts.no_parameter(name),
+            };
+            self.fault(heading.field.fault(message, help));
+            sound = false;
+        }
+        sound.then_some(columns)
+    }
+
+    /// The numbers of all rows, row by row.
+    fn values(&self, table: &bryant_table::Table<'r>, columns: &[Column<'r>]) -> Option<Vec<f64>> {
+        let mut values = Vec::new();
+        let mut problems = 0;
+        for fields in table.rows(true) {
+            let fields = fields.map_err(|fault| self.fault(fault)).ok()?;
+            for (field, (fact, unit)) in fields.iter().zip(columns) {
+                match cell(field.text, fact, unit.unwrap_or("")) {
+                    Ok(value) => values.push(value),
+                    Err((message, help)) => {
+                        let message = format!("\"{}\": {message}", fact.name);
+                        self.fault(field.fault(message, help));
+                        problems += 1;
+                    }
+                }
+            }
+            if problems >= MOST_PROBLEMS {
+                return None;
+            }
+            if values.len() / columns.len() > MOST_LISTED {
+                let message = format!("it has more than {MOST_LISTED} rows");
+                self.table.unreadable(&message);
+                return None;
+            }
+        }
+        if values.is_empty() && problems == 0 {
+            self.table.unreadable(&"it has no rows");
+        }
+        (problems == 0 && !values.is_empty()).then_some(values)
+    }
+
+    /// Reports what is wrong in the file.
+    fn fault(&self, fault: bryant_table::Fault) {
+        let place = (fault.line, fault.column, fault.length);
+        let name = self.table.name;
+        self.table.reader.add(Diagnostic::at(
+            name,
+            self.text,
+            place,
+            fault.message,
+            fault.help,
+        ));
     }
 }
 

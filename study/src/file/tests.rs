@@ -6,7 +6,7 @@ use crate::facts::{OutputFact, ParameterFact, RunFact};
 use crate::hash;
 use crate::response::What;
 use crate::store::identity::{Identity, Program};
-use crate::study::{Method, Plan, RandomDesign, RunSettings, TableKind};
+use crate::study::{Listed, Method, Plan, RandomDesign, RunSettings, TableKind};
 
 fn facts() -> ModelFacts {
     let parameter = |name: &str, unit: &str, default, min, max| ParameterFact {
@@ -670,7 +670,12 @@ fn a_file_of_rows_that_has_none_says_so() {
     for (rows, words) in [
         ("", "it is empty"),
         ("lap_slack\n", "it has no rows"),
-        ("lap_slack;friction\n1;2\n", "separate columns by commas"),
+        ("lap_slack;lap_slack\n1;2\n", "two columns are named"),
+        ("lap_slack\n1,5\n", "write decimals behind a point"),
+        (
+            "lap_slack,friction\n0.01,0.2\n0,02,0.2\n",
+            "write decimals behind a point",
+        ),
     ] {
         std::fs::write(folder.path().join("rows.csv"), rows).unwrap();
         let text = "model: seat\ndesign: list\nrows: { csv: rows.csv }\nresponses: [{ of: head excursion, what: peak }]\n";
@@ -678,6 +683,28 @@ fn a_file_of_rows_that_has_none_says_so() {
         let message = problem(file.resolve(&facts(), folder.path()));
         assert!(message.contains(words), "{rows}: {message}");
     }
+}
+
+#[test]
+fn rows_are_read_as_all_tables_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "model: seat\ndesign: list\nrows: { csv: rows.csv }\nresponses: [{ of: head excursion, what: peak }]\n";
+    let mut found = Vec::new();
+    for rows in [
+        "lap_slack [mm],friction\n10,0.2\n20 mm,0.3\n",
+        "\u{feff}# of a test\r\nlap_slack (mm);friction\r\n10;0.2\r\n\r\n20;0.3;\r\n",
+        "lap_slack/mm\tfriction\n10\t0.2\n20\t\"0.3\"\n",
+    ] {
+        std::fs::write(folder.path().join("rows.csv"), rows).unwrap();
+        let file = StudyFile::parse("study.yaml", text).unwrap();
+        let study = file.resolve(&facts(), folder.path()).unwrap();
+        let Plan::List(Listed(values)) = study.plan else {
+            panic!("{rows}");
+        };
+        found.push(values);
+    }
+    let expected = vec![0.01, 0.2, 0.02, 0.3];
+    assert_eq!(found, [expected.clone(), expected.clone(), expected]);
 }
 
 #[test]
