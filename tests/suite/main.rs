@@ -26,6 +26,7 @@ mod prescribed;
 mod robustness;
 mod scipy;
 mod share;
+mod size;
 mod snapshots;
 mod stiffness;
 mod switches;
