@@ -14,6 +14,37 @@ pub struct At<'a> {
     key: Option<Span>,
     /// Whether problems are with the key.
     on_key: bool,
+    /// Where the keys of a [trail](At::trail) begin.
+    base: &'a Node,
+}
+
+/// A step of a trail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step<'a> {
+    /// Into the value of a key.
+    Key(&'a str),
+    /// Into an entry of a list: its index.
+    Item(usize),
+}
+
+/// Whether a value is `wanted` or has it inside; the trail there is added.
+fn leads<'a>(from: &'a Node, wanted: &Node, trail: &mut Vec<Step<'a>>) -> bool {
+    if std::ptr::eq(from, wanted) {
+        return true;
+    }
+    let mut below = |step: Step<'a>, node: &'a Node| {
+        trail.push(step);
+        let found = leads(node, wanted, trail);
+        if !found {
+            trail.pop();
+        }
+        found
+    };
+    match &from.kind {
+        Kind::Map(entries) => entries.iter().any(|e| below(Step::Key(&e.key), &e.value)),
+        Kind::List(items) => items.iter().enumerate().any(|(i, item)| below(Step::Item(i), item)),
+        _ => false,
+    }
 }
 
 impl<'a> At<'a> {
@@ -24,7 +55,23 @@ impl<'a> At<'a> {
             node: &source.root,
             key: None,
             on_key: false,
+            base: &source.root,
         }
+    }
+
+    /// This place, from which the keys of a [trail](At::trail) are counted.
+    pub fn base(self) -> At<'a> {
+        At {
+            base: self.node,
+            ..self
+        }
+    }
+
+    /// The keys and the numbers of entries, from 1, that lead here from the [base](At::base).
+    pub fn trail(self) -> Vec<Step<'a>> {
+        let mut trail = Vec::new();
+        leads(self.base, self.node, &mut trail);
+        trail
     }
 
     /// The value of a key; this place itself where there is none.
@@ -37,6 +84,7 @@ impl<'a> At<'a> {
                 node: &entry.value,
                 key: Some(entry.span),
                 on_key: false,
+                ..self
             };
         }
         self
@@ -50,6 +98,7 @@ impl<'a> At<'a> {
                 node: &items[index],
                 key: None,
                 on_key: false,
+                ..self
             },
             _ => self,
         }

@@ -14,10 +14,11 @@ use crate::diagnostic::{quoted, suggestion};
 use crate::law::joint::check::freedom_named;
 use crate::model::resolve::Resolver;
 use crate::model::{Element, Number};
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// How a degree of freedom follows another: q = ratio · q of the leader + offset. It has no coordinate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Follows {
     /// The element of the leader, in the same system.
     pub element: usize,

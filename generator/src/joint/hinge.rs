@@ -10,9 +10,10 @@ use super::written::{Made, Spelling, Word, key};
 use super::{Coordinate, Joint, Kind};
 use crate::description::joint::Axis;
 use crate::model::Number;
+use serde::Serialize;
 
 /// A joint that turns.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hinge;
 
 /// `hinge: y`

@@ -57,6 +57,7 @@ pub(crate) use follows::{couple, start_followers};
 pub(crate) use list::{freedoms_at_start, joint_of};
 
 use crate::model::Number;
+use serde::Serialize;
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 use written::{Spelling, Word};
@@ -89,7 +90,7 @@ pub trait Kind: fmt::Debug {
 macro_rules! kinds {
     ($($(#[$meta:meta])* $file:ident::$kind:ident,)*) => {
         /// What a degree of freedom does along or about its axis.
-        #[derive(Clone, PartialEq)]
+        #[derive(Clone, Debug, PartialEq, Serialize)]
         pub enum FreedomKind {
             $($(#[$meta])* $kind($file::$kind),)*
         }
@@ -141,15 +142,8 @@ pub(crate) const WORDS: &[Word] = &[
     list::FREE,
 ];
 
-/// The digest of a model is made from this text: the kind as its file prints it.
-impl fmt::Debug for FreedomKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        (**self).fmt(f)
-    }
-}
-
 /// The motion that the joint of an element allows.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Joint {
     /// Free rotation about the joint: a ball in space, a hinge about y in the plane. The orientation is absolute.
     Ball,
@@ -158,7 +152,7 @@ pub enum Joint {
 }
 
 /// One degree of freedom.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Freedom {
     /// Its name, unique in its joint; a Rust identifier once dashes become underscores.
     pub name: String,

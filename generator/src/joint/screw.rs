@@ -12,10 +12,11 @@ use crate::description::joint::Axis;
 use crate::description::quantity::Quantity;
 use crate::model::Number;
 use crate::model::resolve::quantity::LENGTH;
+use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// A joint that turns, and slides by this much per angle \[m/rad\].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Screw(pub Number);
 
 /// `screw: z, pitch: 5 mm`

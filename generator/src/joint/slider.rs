@@ -10,9 +10,10 @@ use super::written::{Made, Spelling, key};
 use super::{Coordinate, Kind};
 use crate::description::joint::Axis;
 use crate::model::Number;
+use serde::Serialize;
 
 /// A joint that slides.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Slider;
 
 /// `slider: x`

@@ -36,6 +36,7 @@ use crate::model::requirement::{Curves, List};
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Component, Dimension, Model, Projection, Quantity};
 pub use look::{Line, Look, Round};
+use serde::Serialize;
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
@@ -127,11 +128,6 @@ pub trait Terms: fmt::Debug {
 
     /// Makes of a planar law one in space that does the same in the plane; numbers are those at these parameters.
     fn embed(&mut self, _defaults: &[f64]) {}
-
-    /// Whether the digest of a model has its fields directly behind the name of the law, as in `Field { … }`, and not `Spring(Spring { … })`.
-    fn is_struct_variant(&self) -> bool {
-        false
-    }
 }
 
 /// How a law becomes forces and moments on bodies.
@@ -232,15 +228,10 @@ pub trait OfLaw: fmt::Debug {
     fn exists_in_plane(&self) -> bool {
         true
     }
-
-    /// Adds its fields to the text that the digest of a model is made of.
-    fn digest(&self, text: &mut fmt::DebugStruct<'_, '_>) {
-        text.field("what", &self);
-    }
 }
 
 /// There is nothing to ask.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Nothing {}
 
 impl OfLaw for Nothing {}
@@ -344,7 +335,7 @@ macro_rules! laws {
         },)*];
 
         /// The law of a force.
-        #[derive(Clone, PartialEq)]
+        #[derive(Clone, Debug, PartialEq, Serialize)]
         pub enum ForceKind {
             $($($(#[$of_law])* $law(Box<$folder::$law>),)*)*
         }
@@ -381,33 +372,10 @@ macro_rules! laws {
             }
         })*)*
 
-        /// The digest of a model is made of this.
-        impl fmt::Debug for ForceKind {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                match self {
-                    $($(ForceKind::$law(law) if law.is_struct_variant() => law.fmt(f),)*)*
-                    $($(ForceKind::$law(law) => f.debug_tuple(stringify!($law)).field(law).finish(),)*)*
-                }
-            }
-        }
-
         /// A quantity of a law.
-        #[derive(Clone, Debug, PartialEq)]
+        #[derive(Clone, Debug, PartialEq, Serialize)]
         pub enum Asked {
             $($(#[$of_keys])* $keys($asked),)*
-        }
-
-        impl Asked {
-            /// The text that the digest of a model is made of.
-            pub(crate) fn digest(&self, force: usize, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                let name = match self {
-                    $(Asked::$keys(_) => stringify!($keys),)*
-                };
-                let mut text = f.debug_struct(name);
-                text.field("force", &force);
-                (**self).digest(&mut text);
-                text.finish()
-            }
         }
 
         impl Deref for Asked {

@@ -7,6 +7,7 @@
 //! the mass matrix is not structurally singular.
 
 mod curve;
+mod digest;
 mod hysteresis;
 mod normal;
 mod number;
@@ -20,7 +21,7 @@ mod thin;
 pub mod units;
 pub(crate) mod unloading;
 
-use std::fmt;
+use serde::Serialize;
 
 pub use crate::joint::{Follows, Freedom, FreedomKind, Joint};
 pub use crate::law::types::*;
@@ -36,7 +37,7 @@ pub use switch::{Active, Switch, SwitchQuantity, Trigger};
 pub use units::Units;
 
 /// A whole scene: systems of elements, the forces between them, what is to be printed.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Model {
     /// Name of the model, kebab-case as in the YAML.
     pub name: String,
@@ -63,36 +64,18 @@ pub struct Model {
     /// Duration and sampling of a run.
     pub run: Run,
     /// Surfaces that meet nothing, and meshes, for pictures; at the default parameters.
+    #[serde(skip)]
     pub shown: Vec<Shown>,
     /// The units in which outputs are shown.
+    #[serde(skip)]
     pub units: Units,
-    /// SHA-256 of all of the above but [`shown`](Model::shown) and [`units`](Model::units), as lower-case hexadecimal: of what the text means, not of how it is written.
+    /// SHA-256 of all of the above that changes a motion or an output, as lower-case hexadecimal: of what the text means, not of how it is written. See [`Model::sha256`].
+    #[serde(skip)]
     pub digest: String,
 }
 
-/// The digest of a model is made of this: what is only shown leaves no trace.
-impl fmt::Debug for Model {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Model")
-            .field("name", &self.name)
-            .field("title", &self.title)
-            .field("dimension", &self.dimension)
-            .field("coordinates", &self.coordinates)
-            .field("parameters", &self.parameters)
-            .field("curves", &self.curves)
-            .field("vehicles", &self.vehicles)
-            .field("systems", &self.systems)
-            .field("forces", &self.forces)
-            .field("switches", &self.switches)
-            .field("outputs", &self.outputs)
-            .field("run", &self.run)
-            .field("digest", &self.digest)
-            .finish()
-    }
-}
-
 /// Number of space dimensions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Dimension {
     /// Motion in the x–z plane, one angle about +y per element (local x axis = (cos φ, −sin φ) in (x, z)).
     Plane,
@@ -101,7 +84,7 @@ pub enum Dimension {
 }
 
 /// How orientation is described in space. In the plane there is one angle either way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Coordinates {
     /// A unit quaternion (w, x, y, z), local to absolute; the velocity is ω in absolute axes. No singularity.
     Quaternion,
@@ -111,7 +94,7 @@ pub enum Coordinates {
 }
 
 /// A number that may be changed without compiling again.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parameter {
     /// A Rust identifier in snake case.
     pub name: String,
@@ -126,7 +109,7 @@ pub struct Parameter {
 }
 
 /// A function through points (SI).
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Curve {
     /// Name in the YAML, or one made of the force it was written in ("belt chest force").
     pub name: String,
@@ -139,28 +122,8 @@ pub struct Curve {
     /// Whether the description says so: a run in which a curve is left that was merely not told otherwise deserves a doubt.
     pub told: bool,
     /// What was left out of its file; `None` if nothing was.
+    #[serde(skip)]
     pub thinned: Option<Thinned>,
-}
-
-/// The digest of a model is made of this: points that were left out leave no trace.
-impl fmt::Debug for Curve {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Curve {
-            name,
-            points,
-            interpolate,
-            extrapolate,
-            told,
-            thinned: _,
-        } = self;
-        f.debug_struct("Curve")
-            .field("name", name)
-            .field("points", points)
-            .field("interpolate", interpolate)
-            .field("extrapolate", extrapolate)
-            .field("told", told)
-            .finish()
-    }
 }
 
 /// Points that a curve does not have, because its file has too many.
@@ -173,7 +136,7 @@ pub struct Thinned {
 }
 
 /// Value of a curve between its points.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum Interpolate {
     /// Straight lines.
     #[default]
@@ -183,7 +146,7 @@ pub enum Interpolate {
 }
 
 /// Value of a curve beyond its first and last point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Extrapolate {
     /// The outermost segment goes on, or the line that touches the outermost point.
     Linear,
@@ -194,7 +157,7 @@ pub enum Extrapolate {
 }
 
 /// A curve scaled: `times · curve(argument / stretch)`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScaledCurve {
     /// Index into [`Model::curves`].
     pub curve: usize,
@@ -207,7 +170,7 @@ pub struct ScaledCurve {
 }
 
 /// A rigid body whose motion is given: it has no mass and no equation. Every vehicle of a model is used by something.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Vehicle {
     /// Name, unique among the vehicles and systems.
     pub name: String,
@@ -224,7 +187,7 @@ pub struct Vehicle {
 }
 
 /// One tree of elements.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct System {
     /// Name, unique among the systems.
     pub name: String,
@@ -240,7 +203,7 @@ pub struct System {
 }
 
 /// Motion of a reference joint.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Reference {
     /// Its coordinates are unknowns.
     Free,
@@ -262,7 +225,7 @@ pub enum Reference {
 /// x = x₀ + c,   x = x₀ + v₀ t + ∫ c   or   x = x₀ + v₀ t + ∬ c
 ///
 /// with a curve of time c, or none, which is 0. All else follows in closed form.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Translation {
     /// Which of the three the curves are.
     pub given: Given,
@@ -273,25 +236,8 @@ pub struct Translation {
     pub stops: Option<ScaledCurve>,
 }
 
-/// The digest of a model is made of this: what does not stop leaves no trace.
-impl fmt::Debug for Translation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Translation {
-            given,
-            curves,
-            stops,
-        } = self;
-        let mut text = f.debug_struct("Translation");
-        text.field("given", given).field("curves", curves);
-        if let Some(stops) = stops {
-            text.field("stops", stops);
-        }
-        text.finish()
-    }
-}
-
 /// What curves give of a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Given {
     /// Displacement from the start \[m\].
     Displacement,
@@ -302,7 +248,7 @@ pub enum Given {
 }
 
 /// One rigid element.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Element {
     /// Name, unique in its system; a Rust identifier once dashes are underscores.
     pub name: String,
@@ -326,38 +272,6 @@ pub struct Element {
     pub angular_velocity: [Number; 3],
 }
 
-/// The digest of a model is made of this: a ball joint leaves no trace.
-impl fmt::Debug for Element {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Element {
-            name,
-            parent,
-            at,
-            joint,
-            mass,
-            cg,
-            inertia,
-            axes,
-            angles,
-            angular_velocity,
-        } = self;
-        let mut text = f.debug_struct("Element");
-        text.field("name", name)
-            .field("parent", parent)
-            .field("at", at)
-            .field("mass", mass)
-            .field("cg", cg)
-            .field("inertia", inertia)
-            .field("axes", axes)
-            .field("angles", angles)
-            .field("angular_velocity", angular_velocity);
-        if *joint != Joint::Ball {
-            text.field("joint", joint);
-        }
-        text.finish()
-    }
-}
-
 impl System {
     /// Whether all its joints are balls, or hinges in the plane: every orientation is absolute then.
     pub fn has_balls_alone(&self) -> bool {
@@ -376,7 +290,7 @@ impl System {
 }
 
 /// Place of an element: system and element index.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct ElementId {
     /// Index into [`Model::systems`].
     pub system: usize,
@@ -385,7 +299,7 @@ pub struct ElementId {
 }
 
 /// What a point or a plane is attached to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Body {
     /// The absolute frame.
     Frame,
@@ -396,7 +310,7 @@ pub enum Body {
 }
 
 /// A point fixed in a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attachment {
     /// The body.
     pub on: Body,
@@ -405,7 +319,7 @@ pub struct Attachment {
 }
 
 /// A named force interaction.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Force {
     /// Name as in the YAML: "chest", or the element's path for a joint ("man/head"). Unique among its kind.
     pub name: String,
@@ -416,7 +330,7 @@ pub struct Force {
 }
 
 /// Coulomb friction with a linear ramp through zero speed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Friction {
     /// Joint: torque \[N m\]. Contact: coefficient μ.
     pub limit: Number,
@@ -425,7 +339,7 @@ pub struct Friction {
 }
 
 /// One component of an acceleration field, or of a given load; the torque of a motor.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum FieldComponent {
     /// Constant.
     Constant(Number),
@@ -434,14 +348,14 @@ pub enum FieldComponent {
 }
 
 /// A bristle by which friction holds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bristle {
     /// Deflection at which friction is fully there \[m\], in joints of what turns \[rad\].
     pub displacement: Number,
 }
 
 /// A column of the output table.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Output {
     /// Heading, unique.
     pub name: String,
@@ -460,11 +374,12 @@ pub struct Output {
 
 /// An output in the axes and signs of SAE J211-1 and ISO 6487: x forward, y to the right, z down; loads are those of the lower part on the
 /// upper one, of a body that stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Channel {
     /// Whether it is the opposite of the quantity.
     pub reversed: bool,
     /// What is to be known of its place.
+    #[serde(skip)]
     pub remark: Option<&'static str>,
 }
 
@@ -483,36 +398,8 @@ pub struct Criteria {
     pub places: Vec<(String, String)>,
 }
 
-/// The digest of a model is made of this: a code, a filter or a reversal that there is not leaves no trace.
-impl fmt::Debug for Output {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Output {
-            name,
-            quantity,
-            unit,
-            code,
-            filter,
-            channel,
-        } = self;
-        let mut text = f.debug_struct("Output");
-        text.field("name", name)
-            .field("quantity", &Digested(quantity))
-            .field("unit", unit);
-        if let Some(code) = code {
-            text.field("code", code);
-        }
-        if let Some(filter) = filter {
-            text.field("filter", filter);
-        }
-        if channel.is_some_and(|channel| channel.reversed) {
-            text.field("reversed", &true);
-        }
-        text.finish()
-    }
-}
-
 /// Component of a vector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Component {
     /// Along x.
     X,
@@ -525,7 +412,7 @@ pub enum Component {
 }
 
 /// One number of a vector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Projection {
     /// Which component.
     pub component: Component,
@@ -556,7 +443,7 @@ impl Projection {
 }
 
 /// What an output measures.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Quantity {
     /// Kinematics of a point of an element or a vehicle.
     Point {
@@ -650,7 +537,7 @@ pub enum Quantity {
 }
 
 /// Arithmetic of quantities, in SI.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Formula {
     /// The arithmetic. Its parameters are not those of the model, but the indices of the leaves.
     pub value: Number,
@@ -659,24 +546,12 @@ pub struct Formula {
 }
 
 /// What stands in a formula.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Leaf {
     /// An expression of the model's parameters.
     Number(Number),
     /// A quantity.
     Quantity(Quantity),
-}
-
-/// As the digest of a model has it: under the name of the law.
-pub(crate) struct Digested<'a>(pub(crate) &'a Quantity);
-
-impl fmt::Debug for Digested<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Quantity::OfForce { force, what } => what.digest(*force, f),
-            quantity => quantity.fmt(f),
-        }
-    }
 }
 
 impl Quantity {
@@ -731,7 +606,7 @@ impl Quantity {
 }
 
 /// What a joint transmits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum JointLoadQuantity {
     /// Force at the joint \[N\].
     Force,
@@ -740,7 +615,7 @@ pub enum JointLoadQuantity {
 }
 
 /// Kinematics of a point, as an observer sees it who rides on a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum PointQuantity {
     /// Position relative to the origin of the observer's frame \[m\].
     Position,
@@ -755,7 +630,7 @@ pub enum PointQuantity {
 }
 
 /// Rotation of a body, as an observer sees it who rides on another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum RotationQuantity {
     /// (Bryant) angle \[rad\].
     Angle,
@@ -766,7 +641,7 @@ pub enum RotationQuantity {
 }
 
 /// Of a freedom of a joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum FreedomQuantity {
     /// Its coordinate \[rad\] or \[m\].
     Position,
@@ -777,7 +652,7 @@ pub enum FreedomQuantity {
 }
 
 /// Of a system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum SystemQuantity {
     /// Kinetic energy \[J\].
     KineticEnergy,
@@ -790,7 +665,7 @@ pub enum SystemQuantity {
 }
 
 /// Duration and sampling of a run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Run {
     /// \[s\], positive.
     pub duration: f64,

@@ -6,7 +6,6 @@
 
 use super::part::Part;
 use super::{Active, Body, Dimension, Given, Model, Number, Quantity, Reference, Translation};
-use sha2::{Digest, Sha256};
 
 impl Model {
     /// Brings the model to its normal form.
@@ -43,21 +42,6 @@ impl Model {
         self.keep_used_curves();
         self.keep_used_parameters();
         self.digest = self.sha256();
-    }
-
-    /// SHA-256 of everything that the model says, as lower-case hexadecimal: two models have the same if and only if
-    /// their modules have the same text.
-    pub fn sha256(&self) -> String {
-        // The form is that of this crate's types: it is complete and in their order, and numbers read back as the same.
-        let text = format!(
-            "{:?}",
-            Model {
-                digest: String::new(),
-                ..self.clone()
-            }
-        );
-        let digest = Sha256::digest(text);
-        digest.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
     /// Axes of what is the same in all directions say nothing.

@@ -1,10 +1,12 @@
 //! A number of a model: known when the code is generated, or an expression of parameters.
 
+use serde::Serialize;
+
 /// A number in SI units.
 ///
 /// Arithmetic on parameters is kept as a tree until the equations are derived; whatever is constant is a
 /// [`Number::Constant`] by then (see the constructors).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Number {
     /// Known now.
     Constant(f64),

@@ -1,10 +1,10 @@
 //! Switches: what happens once in a run, and what waits for it.
 
-use super::{Digested, Number, Quantity};
-use std::fmt;
+use super::{Number, Quantity};
+use serde::Serialize;
 
 /// Something that fires once in a run and from then on has fired.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Switch {
     /// Name, unique among the switches.
     pub name: String,
@@ -13,22 +13,12 @@ pub struct Switch {
     /// Time between its firing and its effect \[s\], not negative; none is 0.
     pub after: Option<Number>,
     /// The unit in which its threshold is written, and its SI value.
+    #[serde(skip)]
     pub shown: (String, f64),
 }
 
-/// The digest of a model is made of this, in which a unit leaves no trace.
-impl fmt::Debug for Switch {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Switch")
-            .field("name", &self.name)
-            .field("trigger", &self.trigger)
-            .field("after", &self.after)
-            .finish()
-    }
-}
-
 /// What makes a switch fire.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Trigger {
     /// A time is reached \[s\].
     Time(Number),
@@ -38,21 +28,8 @@ pub enum Trigger {
     Below(Quantity, Number),
 }
 
-/// The digest of a model is made of this.
-impl fmt::Debug for Trigger {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (name, quantity, threshold) = match self {
-            Trigger::Time(time) => return f.debug_tuple("Time").field(time).finish(),
-            Trigger::Above(quantity, threshold) => ("Above", quantity, threshold),
-            Trigger::Below(quantity, threshold) => ("Below", quantity, threshold),
-        };
-        let mut text = f.debug_tuple(name);
-        text.field(&Digested(quantity)).field(threshold).finish()
-    }
-}
-
 /// When a force acts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Active {
     /// From this switch on: index into [`Model::switches`](super::Model::switches).
     pub since: Option<usize>,
@@ -61,7 +38,7 @@ pub struct Active {
 }
 
 /// Of a switch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum SwitchQuantity {
     /// 1 once it acts, 0 before.
     Acts,

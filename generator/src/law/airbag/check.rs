@@ -9,6 +9,7 @@ use crate::model::resolve::quantity::{
     AREA, GAS_CONSTANT, MASS_FLOW, PRESSURE, PURE, TEMPERATURE, TIME,
 };
 use crate::model::{Curve, Dimension, Ellipsoid, Extrapolate, Number, ScaledCurve};
+use serde::Serialize;
 
 /// Air: its gas constant \[J/(kg K)\] and ratio of specific heats.
 const OF_AIR: [f64; 2] = [287.0, 1.4];
@@ -20,7 +21,7 @@ const AROUND: [f64; 2] = [101_325.0, 293.15];
 pub const FOLDED: f64 = 1e-3;
 
 /// A bag of gas at one pressure.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Airbag {
     /// Its shape when full.
     pub bag: Ellipsoid,
@@ -43,7 +44,7 @@ pub struct Airbag {
 }
 
 /// A source of gas.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Inflow {
     /// Index into [`Model::switches`](crate::model::Model::switches).
     pub fire: usize,
@@ -54,7 +55,7 @@ pub struct Inflow {
 }
 
 /// The gas of a full bag.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Filled {
     /// Absolute pressure \[Pa\].
     pub pressure: Number,

@@ -8,9 +8,10 @@ use crate::expression::vector::Vec3;
 use crate::law::{Asked, Look, Measures, OfLaw, Outputs, Value};
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Quantity};
+use serde::Serialize;
 
 /// Of an airbag.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum AirbagQuantity {
     /// Absolute pressure \[Pa\].
     Pressure,

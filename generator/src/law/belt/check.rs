@@ -18,6 +18,7 @@ use crate::model::resolve::quantity::{
 use crate::model::{
     Attachment, ForceKind, Hysteresis, Number, Reference, Rule, ScaledCurve, System,
 };
+use serde::Serialize;
 
 /// Stretch at which damping is fully there, where none is given \[m\].
 const DAMPING_STRETCH: f64 = 1e-3;
@@ -35,7 +36,7 @@ fn no_force(belt: &str) -> String {
 }
 
 /// A belt between two attachments.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Belt {
     /// One end.
     pub from: Attachment,
@@ -64,7 +65,7 @@ pub struct Belt {
 }
 
 /// How the untensioned length of a belt is given.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum BeltLength {
     /// Directly \[m\].
     Given(Number),
@@ -106,7 +107,7 @@ pub fn must_have_length(belt: &str) -> String {
 }
 
 /// A reel that pays out and takes in webbing under a constant tension until it locks.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Retractor {
     /// Index into [`Model::switches`](crate::model::Model::switches).
     pub lock: usize,
@@ -115,7 +116,7 @@ pub struct Retractor {
 }
 
 /// A ring that a belt slips through.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ring {
     /// Unique in its belt.
     pub name: String,
@@ -128,7 +129,7 @@ pub struct Ring {
 }
 
 /// A device that takes webbing in.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pretensioner {
     /// Index into [`Model::switches`](crate::model::Model::switches).
     pub fire: usize,

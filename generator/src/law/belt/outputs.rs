@@ -10,10 +10,10 @@ use crate::law::{Asked, Line, Look, Measures, OfLaw, Outputs, Value};
 use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
 use crate::model::{Body, Quantity};
-use std::fmt;
+use serde::Serialize;
 
 /// Of a belt.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum BeltQuantity {
     /// Tension \[N\].
     Force,
@@ -32,7 +32,7 @@ pub enum BeltQuantity {
 }
 
 /// Which quantity of a belt, and of which part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct BeltOutput {
     /// The segment, or the ring, counted from the end `from`; 0 where there are no rings.
     pub part: usize,
@@ -40,11 +40,7 @@ pub struct BeltOutput {
     pub what: BeltQuantity,
 }
 
-impl OfLaw for BeltOutput {
-    fn digest(&self, text: &mut fmt::DebugStruct<'_, '_>) {
-        text.field("part", &self.part).field("what", &self.what);
-    }
-}
+impl OfLaw for BeltOutput {}
 
 const TABLE: [(&str, &str, BeltQuantity); 7] = [
     ("force", "N", BeltQuantity::Force),

@@ -9,9 +9,10 @@ use crate::model::resolve::quantity::{
 };
 use crate::model::resolve::{AXES, NOWHERE, Resolver};
 use crate::model::{Attachment, Number, ScaledCurve};
+use serde::Serialize;
 
 /// Springs and dampers in six directions between frames of two bodies.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bushing {
     /// The frame in whose axes the laws are.
     pub from: Mount,
@@ -26,7 +27,7 @@ pub struct Bushing {
 }
 
 /// A frame on a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mount {
     /// Its origin.
     pub on: Attachment,
@@ -35,7 +36,7 @@ pub struct Mount {
 }
 
 /// The law of one direction.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Direction {
     /// Force as a function of the displacement \[m\] → \[N\], or moment of the angle \[rad\] → \[N m\].
     pub elastic: Option<ScaledCurve>,

@@ -8,9 +8,10 @@ use crate::expression::vector::Vec3;
 use crate::law::{Asked, Line, Look, Measures, OfLaw, Outputs, Value};
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Component, Projection, Quantity};
+use serde::Serialize;
 
 /// Of a bushing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum BushingQuantity {
     /// Force on a body \[N\]; whether that is the second, which feels the opposite of the first.
     Force(bool, Projection),

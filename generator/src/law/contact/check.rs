@@ -13,6 +13,7 @@ use crate::model::resolve::quantity::{
 };
 use crate::model::resolve::{NOWHERE, Resolver, name::Style};
 use crate::model::{Attachment, Body, Bristle, Friction, Hysteresis, Number, ScaledCurve};
+use serde::Serialize;
 
 /// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
 const FRICTION_SPEED: f64 = 0.01;
@@ -24,7 +25,7 @@ const DAMPING_DEPTH: f64 = 1e-3;
 const MAX_DEGREE: f64 = 100.0;
 
 /// Contact of an ellipsoid with a plane or another ellipsoid.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contact {
     /// Centre of the ellipsoid.
     pub ellipsoid: Attachment,
@@ -51,7 +52,7 @@ pub struct Contact {
 }
 
 /// What an ellipsoid meets.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Against {
     /// A plane.
     Plane(Plane),
@@ -86,7 +87,7 @@ impl Against {
 }
 
 /// A plane that an ellipsoid meets.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plane {
     /// A point of it.
     pub at: Attachment,
@@ -99,7 +100,7 @@ pub struct Plane {
 }
 
 /// An ellipsoid that an ellipsoid meets.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ellipsoid {
     /// Its centre.
     pub center: Attachment,
@@ -140,7 +141,7 @@ pub struct Mesh {
 }
 
 /// The finite extent of a plane.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Extent {
     /// From the point of the plane to its edges, along the tangent and, in space, along normal × tangent \[m\].
     pub half_lengths: Vec<Number>,
@@ -149,7 +150,7 @@ pub struct Extent {
 }
 
 /// What becomes of a contact's force at the edge of a plane.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum EdgeRule {
     /// It is there while the deepest point projects inside, and nowhere else.
     Cut,

@@ -9,9 +9,10 @@ use crate::law::{Asked, Look, Measures, OfLaw, Outputs, Round, Value};
 use crate::model::Quantity;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
+use serde::Serialize;
 
 /// Of a contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum ContactQuantity {
     /// Resultant force \[N\].
     Force,

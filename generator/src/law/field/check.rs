@@ -6,9 +6,10 @@ use crate::diagnostic::{quoted, suggestion};
 use crate::model::resolve::Resolver;
 use crate::model::resolve::quantity::ACCELERATION;
 use crate::model::{ElementId, FieldComponent};
+use serde::Serialize;
 
 /// Uniform acceleration field: a force m·a at the centre of gravity of every element of `on`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Field {
     /// Elements that feel it.
     pub on: Vec<ElementId>,

@@ -6,10 +6,6 @@ use crate::model::part::{Field, components};
 use crate::model::{Body, Dimension, FieldComponent, Number};
 
 impl Terms for Law {
-    fn is_struct_variant(&self) -> bool {
-        true
-    }
-
     fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Law { on, acceleration } = self;
         fields.extend(on.iter().map(|&id| Field::Body(Body::Element(id))));

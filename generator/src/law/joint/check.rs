@@ -19,7 +19,7 @@ use crate::model::{
     Bristle, ElementId, FieldComponent, ForceKind, Freedom as KinematicFreedom, Friction,
     Hysteresis, Joint as KinematicJoint, Number, ScaledCurve,
 };
-use std::fmt;
+use serde::Serialize;
 
 /// Speed at which joint friction is fully there, where none is given \[rad/s\].
 const FRICTION_SPEED: f64 = 0.1;
@@ -149,7 +149,7 @@ impl<'w> Law<'w> {
 }
 
 /// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Joint {
     /// The element outboard of the joint.
     pub child: ElementId,
@@ -162,21 +162,9 @@ pub struct Joint {
     pub bending: Option<Box<Bending>>,
 }
 
-/// The digest of a model is made of this: the usual order is not named.
-impl fmt::Debug for Joint {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut text = f.debug_struct("Joint");
-        text.field("child", &self.child).field("about", &self.about);
-        if self.order != Order::default() {
-            text.field("order", &self.order);
-        }
-        text.field("bending", &self.bending).finish()
-    }
-}
-
 /// The axes of three turns one after the other, which make a relative rotation: the first is an axis of the carrier, the third one of the
 /// element. 0 is x, 1 is y, 2 is z; each stands there once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Order(pub [usize; 3]);
 
 /// x, y, z: Bryant angles.
@@ -202,7 +190,7 @@ impl Order {
 }
 
 /// Torque or force of one freedom of the joint that carries `child`, on its own coordinate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Freedom {
     /// The element outboard of the joint.
     pub child: ElementId,
@@ -213,7 +201,7 @@ pub struct Freedom {
 }
 
 /// Torque about one relative rotation.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct JointTorque {
     /// Elastic torque as a function of the relative angle less `neutral`: resists with −curve. \[rad\] → \[N m\].
     pub elastic: Option<ScaledCurve>,
@@ -238,7 +226,7 @@ pub struct JointTorque {
 }
 
 /// The ends of a relative rotation: N(δ) = max(0, stiffness δ + damping min(δ/fade, 1) δ̇) back, at depth δ > 0 beyond.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Stop {
     /// Smallest angle that is free \[rad\].
     pub from: Option<Number>,
@@ -253,7 +241,7 @@ pub struct Stop {
 }
 
 /// Holds the relative angle that there was when a switch began to act.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Lock {
     /// Index into [`Model::switches`](crate::model::Model::switches).
     pub by: usize,
@@ -264,7 +252,7 @@ pub struct Lock {
 }
 
 /// Drives the coordinate to one that is given: N = stiffness (c(t) − θ) + damping (ċ(t) − θ̇), kept within ± limit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Drive {
     /// c, constant or a curve of time \[rad\].
     pub to: FieldComponent,
@@ -285,7 +273,7 @@ impl Bending {
 }
 
 /// Flexion and torsion of a ball joint, in space.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bending {
     /// Which local axis is the long one, of both bodies.
     pub axis: usize,

@@ -7,10 +7,10 @@ use crate::expression::Expr;
 use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
 use crate::model::Quantity;
 use crate::model::resolve::Resolver;
-use std::fmt;
+use serde::Serialize;
 
 /// Of a joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum JointQuantity {
     /// Generalised torque on the child about the relative rotation \[N m\].
     Torque,
@@ -25,7 +25,7 @@ pub enum JointQuantity {
 }
 
 /// Which quantity of a joint force, and about what.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct JointOutput {
     /// Which of the three relative rotations (1 in the plane); 3 is flexion, 4 torsion. Of a freedom 0.
     pub about: usize,
@@ -36,10 +36,6 @@ pub struct JointOutput {
 impl OfLaw for JointOutput {
     fn exists_in_plane(&self) -> bool {
         self.about == 1
-    }
-
-    fn digest(&self, text: &mut fmt::DebugStruct<'_, '_>) {
-        text.field("about", &self.about).field("what", &self.what);
     }
 }
 

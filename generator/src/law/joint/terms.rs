@@ -13,10 +13,6 @@ const RETURNS: &str =
     "must be 0 at the neutral angle and push back to it everywhere, to have a hysteresis";
 
 impl Terms for Joint {
-    fn is_struct_variant(&self) -> bool {
-        true
-    }
-
     fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Joint {
             child,
@@ -93,10 +89,6 @@ impl Terms for Joint {
 }
 
 impl Terms for Freedom {
-    fn is_struct_variant(&self) -> bool {
-        true
-    }
-
     fn fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
         let Freedom {
             child,

@@ -6,9 +6,10 @@ use crate::diagnostic::quoted;
 use crate::model::resolve::quantity::{FORCE, MOMENT};
 use crate::model::resolve::{AXES, NOWHERE, Resolver};
 use crate::model::{Attachment, Body, ElementId, FieldComponent, Number};
+use serde::Serialize;
 
 /// A given force and moment, absolute axes: thrust, actuation, a reaction known from a test.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Load {
     /// Where the force acts.
     pub on: Attachment,

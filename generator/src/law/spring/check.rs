@@ -6,9 +6,10 @@ use crate::diagnostic::quoted;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::quantity::{FORCE, LENGTH, LINEAR_DAMPING, STIFFNESS};
 use crate::model::{Attachment, Number, ScaledCurve};
+use serde::Serialize;
 
 /// A spring and a damper side by side between two attachments, which pull and push.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Spring {
     /// One end.
     pub from: Attachment,

@@ -9,9 +9,10 @@ use crate::law::{Asked, Line, Look, Measures, OfLaw, Outputs, Value};
 use crate::model::Quantity;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
+use serde::Serialize;
 
 /// Of a spring.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum SpringQuantity {
     /// Force, positive where it pulls \[N\].
     Force,

@@ -20,13 +20,14 @@ use crate::model::resolve::rust::{self, Fault, Place, Wanted};
 use crate::model::{
     Attachment, Body, Dimension, ElementId, FieldComponent, ForceKind, Joint, Number, ScaledCurve,
 };
+use serde::Serialize;
 use std::path::{Component, Path, PathBuf};
 
 /// Most entries of one kind.
 const MAX_PORTS: usize = 100;
 
 /// A force computed by a Rust function of the user's.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct User {
     /// What is called.
     pub function: UserFunction,
@@ -49,7 +50,7 @@ pub struct User {
 }
 
 /// A function, and what it is given whatever the motion.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UserFunction {
     /// Its name in its source; its path (`crate::aero::drag`) where there is none; empty where it is left out.
     pub name: String,
@@ -62,7 +63,7 @@ pub struct UserFunction {
 }
 
 /// Rust text of the user's.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UserSource {
     /// Path of the file, relative to that of the model.
     pub name: String,
@@ -71,7 +72,7 @@ pub struct UserSource {
 }
 
 /// Something under a name that the user gave it; the name, dashes as underscores, is an identifier.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Port<T> {
     /// As in the YAML.
     pub name: String,
@@ -80,7 +81,7 @@ pub struct Port<T> {
 }
 
 /// A straight line between two points.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UserLine {
     /// One end.
     pub from: Attachment,
@@ -89,7 +90,7 @@ pub struct UserLine {
 }
 
 /// A freedom of a joint with coordinates of its own.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UserFreedom {
     /// The element that the joint carries.
     pub element: ElementId,
@@ -100,7 +101,7 @@ pub struct UserFreedom {
 }
 
 /// A number or a curve of time, in SI units.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UserParameter {
     /// The value.
     pub value: FieldComponent,
@@ -109,7 +110,7 @@ pub struct UserParameter {
 }
 
 /// A state variable.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UserState {
     /// Value at the start of a run.
     pub initial: Number,

@@ -10,9 +10,10 @@ use crate::law::joint::JointMeasures;
 use crate::law::{Asked as OfForce, Measures, OfLaw, Outputs, Value};
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Component, Projection, Quantity};
+use serde::Serialize;
 
 /// Of a user force; indices are into its points, bodies, lines, joints, states.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum UserQuantity {
     /// Force on a point \[N\].
     Force(usize, Projection),

@@ -443,13 +443,12 @@ impl Resolver<'_> {
         &mut self,
         function: &Function,
         at: At<'_>,
-        owner: &str,
         x: Expected,
         y: Expected,
     ) -> Option<ScaledCurve> {
         match function {
             Function::Inline(written) => {
-                let measured = self.curve(owner.to_owned(), written, at);
+                let measured = self.curve(self.name_at(at), written, at);
                 self.curves.push(measured);
                 let index = self.curves.len() - 1;
                 self.scaled(index, None, at, x, y)
@@ -462,7 +461,7 @@ impl Resolver<'_> {
                 let index = match curve {
                     NameOrCurve::Name(name) => self.find_curve(name, at.key("curve"))?,
                     NameOrCurve::Inline(written) => {
-                        let measured = self.curve(owner.to_owned(), written, at.key("curve"));
+                        let measured = self.curve(self.name_at(at), written, at.key("curve"));
                         self.curves.push(measured);
                         self.curves.len() - 1
                     }
@@ -490,21 +489,17 @@ impl Resolver<'_> {
     }
 
     /// A vector whose components are constants or curves of time: \[x, z\] in the plane, \[x, y, z\] in space.
-    ///
-    /// A curve written in place is named after `owner` and its axis.
     pub fn components(
         &mut self,
         written: &[Function],
         at: At<'_>,
-        owner: &str,
         y: Expected,
     ) -> [FieldComponent; 3] {
         let mut components = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
         if self.has_length(written.len(), at) {
             for (index, component) in written.iter().enumerate() {
                 let axis = self.axis(index);
-                let owner = format!("{owner} {}", AXES[axis]);
-                components[axis] = self.component(component, at.item(index), &owner, y);
+                components[axis] = self.component(component, at.item(index), y);
             }
         }
         components
@@ -515,7 +510,6 @@ impl Resolver<'_> {
         &mut self,
         function: &Function,
         at: At<'_>,
-        owner: &str,
         y: Expected,
     ) -> FieldComponent {
         let zero = FieldComponent::Constant(Number::ZERO);
@@ -547,28 +541,28 @@ impl Resolver<'_> {
                 return FieldComponent::Constant(self.number(quantity, at, y));
             }
         }
-        match self.function(function, at, owner, super::quantity::TIME, y) {
+        match self.function(function, at, super::quantity::TIME, y) {
             Some(curve) => FieldComponent::Curve(curve),
             None => zero,
         }
     }
 
     /// A curve that is `value` at all abscissae.
-    pub fn constant_curve(&mut self, name: String, value: Number) -> ScaledCurve {
-        self.straight(name, [1.0, 1.0], Extrapolate::Hold, value)
+    pub fn constant_curve(&mut self, at: At<'_>, value: Number) -> ScaledCurve {
+        self.straight(at, [1.0, 1.0], Extrapolate::Hold, value)
     }
 
     /// The line from 0 to 1, held there.
-    pub fn part_that_is_over(&mut self, name: String) -> ScaledCurve {
-        self.straight(name, [0.0, 1.0], Extrapolate::Hold, Number::Constant(1.0))
+    pub fn part_that_is_over(&mut self, at: At<'_>) -> ScaledCurve {
+        self.straight(at, [0.0, 1.0], Extrapolate::Hold, Number::Constant(1.0))
     }
 
     /// The line through 0 of this slope; `None` where that is 0.
-    pub fn line(&mut self, name: String, slope: Number) -> Option<ScaledCurve> {
+    pub fn line(&mut self, at: At<'_>, slope: Number) -> Option<ScaledCurve> {
         if slope.is_zero() {
             return None;
         }
-        let line = self.straight(name, [0.0, 1.0], Extrapolate::Linear, slope);
+        let line = self.straight(at, [0.0, 1.0], Extrapolate::Linear, slope);
         Some(ScaledCurve {
             stiffness: true,
             ..line
@@ -578,7 +572,7 @@ impl Resolver<'_> {
     /// `times` the straight line with these ordinates at 0 and 1, entered as a curve.
     fn straight(
         &mut self,
-        name: String,
+        at: At<'_>,
         [from, to]: [f64; 2],
         extrapolate: Extrapolate,
         times: Number,
@@ -609,7 +603,6 @@ impl Resolver<'_> {
         (key, curve): (&str, Option<&Function>),
         stiffness: Option<&Quantity>,
         at: At<'_>,
-        owner: &str,
         [x, y, slope]: [Expected; 3],
     ) -> Option<ScaledCurve> {
         let place = at.key("stiffness");
@@ -621,10 +614,10 @@ impl Resolver<'_> {
                 ));
                 None
             }
-            (Some(curve), None) => self.function(curve, at.key(key), owner, x, y),
+            (Some(curve), None) => self.function(curve, at.key(key), x, y),
             (None, Some(stiffness)) => {
                 let slope = self.number(stiffness, place, slope);
-                self.line(owner.to_owned(), slope)
+                self.line(place, slope)
             }
             (None, None) => None,
         }

@@ -175,6 +175,8 @@ pub struct Resolver<'a> {
     /// In the order of their names; `None` for what is wrong.
     pub(crate) switches: Vec<Option<Switch>>,
     pub(crate) loaded: &'a Loaded,
+    /// What is being resolved, after which its curves are called: "belt lap".
+    pub(crate) owner: String,
 }
 
 impl<'a> Resolver<'a> {
