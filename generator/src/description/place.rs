@@ -42,7 +42,10 @@ fn leads<'a>(from: &'a Node, wanted: &Node, trail: &mut Vec<Step<'a>>) -> bool {
     };
     match &from.kind {
         Kind::Map(entries) => entries.iter().any(|e| below(Step::Key(&e.key), &e.value)),
-        Kind::List(items) => items.iter().enumerate().any(|(i, item)| below(Step::Item(i), item)),
+        Kind::List(items) => items
+            .iter()
+            .enumerate()
+            .any(|(i, item)| below(Step::Item(i), item)),
         _ => false,
     }
 }

@@ -311,7 +311,7 @@ fn a_constant_acceleration_of_the_reference_is_a_held_curve() {
     assert_eq!(constant.points, [[0.0, 1.0], [1.0, 1.0]]);
     assert_eq!(
         (constant.extrapolate, constant.name.as_str()),
-        (Extrapolate::Hold, "reference man x")
+        (Extrapolate::Hold, "reference man acceleration x")
     );
     assert_eq!(x.times.value(&[5.0]), -10.0);
     assert_eq!(model.curves[z.curve].extrapolate, Extrapolate::Error);

@@ -457,10 +457,10 @@ fn one_law_serves_several_rotations_and_scales_a_curve() {
         )
     };
     let inline = of_short(&format!("{head}{}", about(curve)), &Files::new());
-    let name = "joint-a-b-elastic-y";
+    let name = "joint-a-b-about-y-elastic";
     let named = format!("{head}curves: {{ {name}: {curve} }}\n{}", about(name));
     let named = of_short(&named, &Files::new());
-    let inline = inline.replace("joint a/b elastic y", name);
+    let inline = inline.replace("joint a/b about y elastic", name);
     let line = inline.lines().zip(named.lines()).find(|(a, b)| a != b);
     assert!(inline == named, "{line:?}");
     let twice = format!("{head}forces: [{{ joint: a/b, about: {{ xz: {law}, z: {law} }} }}]");

@@ -94,9 +94,8 @@ pub(crate) fn airbag(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>)
         ));
     }
     let inflow = written.inflow.as_ref();
-    let inflow = inflow.and_then(|written_inflow| {
-        inflow_of(resolver, written_inflow, at.key("inflow"), &written.airbag)
-    });
+    let inflow =
+        inflow.and_then(|written_inflow| inflow_of(resolver, written_inflow, at.key("inflow")));
     // a flow that is 0 everywhere is none, and a folded bag without one does nothing
     if inflow.is_none() && written.start.is_none() {
         return None;
@@ -189,16 +188,10 @@ fn jet(resolver: &Resolver<'_>, written: &Vent, at: At<'_>) -> Option<Number> {
 }
 
 /// The source of the gas; `None` where nothing flows.
-fn inflow_of(
-    resolver: &mut Resolver<'_>,
-    written: &WrittenInflow,
-    at: At<'_>,
-    name: &str,
-) -> Option<Inflow> {
+fn inflow_of(resolver: &mut Resolver<'_>, written: &WrittenInflow, at: At<'_>) -> Option<Inflow> {
     let fire = resolver.switch_id(&written.fire, at.key("fire"));
     let place = at.key("flow");
-    let owner = format!("airbag {name} inflow");
-    let flow = resolver.function(&written.flow, place, &owner, TIME, MASS_FLOW);
+    let flow = resolver.function(&written.flow, place, TIME, MASS_FLOW);
     let temperature = resolver.number(&written.temperature, at.key("temperature"), TEMPERATURE);
     let flow = flow?;
     let negative = |(curve, _): (&Curve, _)| {

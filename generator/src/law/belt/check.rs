@@ -163,7 +163,6 @@ pub(crate) fn belt(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -
             slope: written.unloading_slope.as_ref(),
             loading: ("force", true),
             at,
-            owner: format!("belt {name} unloading"),
             expected: [PURE, FORCE, SLOPE],
         },
     );
@@ -173,11 +172,11 @@ pub(crate) fn belt(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -
         .map(|l| limiter(resolver, l, at.key("limiter"), force.as_ref()));
     let reel = written.retractor.as_ref();
     let retractor = reel.map(|r| retractor(resolver, r, at, force.as_ref()));
-    let film_spool = reel.and_then(|r| film_spool(resolver, r, at.key("retractor"), name));
+    let film_spool = reel.and_then(|r| film_spool(resolver, r, at.key("retractor")));
     let pretensioner = written
         .pretensioner
         .as_ref()
-        .and_then(|p| pretensioner(resolver, p, at.key("pretensioner"), name));
+        .and_then(|p| pretensioner(resolver, p, at.key("pretensioner")));
     Some(Belt {
         from: from?,
         to: to?,
@@ -273,12 +272,10 @@ fn film_spool(
     resolver: &mut Resolver<'_>,
     written: &WrittenRetractor,
     at: At<'_>,
-    name: &str,
 ) -> Option<ScaledCurve> {
     let place = at.key("film_spool");
-    let owner = format!("belt {name} film spool");
     let before = resolver.problems.count();
-    let film = resolver.function(written.film_spool.as_ref()?, place, &owner, LENGTH, FORCE);
+    let film = resolver.function(written.film_spool.as_ref()?, place, LENGTH, FORCE);
     // a curve that is 0 everywhere is none
     if film.is_none() && resolver.problems.count() > before {
         return None;
@@ -291,10 +288,7 @@ fn film_spool(
     });
     if ends != Some(true) {
         resolver.problems.add(place.problem(
-            format!(
-                "`retractor.film_spool` of belt {} must come to an end",
-                quoted(name)
-            ),
+            "a film spool must come to an end",
             "begin the curve with [0, 0], let no ordinate be smaller than the one before, and the last be more than 0; leave `film_spool` out for a reel that holds at once",
         ));
     }
@@ -331,7 +325,6 @@ fn acting_tension(
 
 /// The tension against the relative elongation; `None` where it is wrong, missing, or 0 everywhere.
 fn tension(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<ScaledCurve> {
-    let owner = format!("belt {} force", written.belt);
     if written.force.is_none() && written.stiffness.is_none() {
         resolver.problems.add(at.problem(
             format!("belt {} has no force", quoted(&written.belt)),
@@ -342,13 +335,12 @@ fn tension(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option
     if let (None, Some(stiffness)) = (&written.force, &written.stiffness)
         && let Some(slope) = per_length(resolver, written, stiffness, at)
     {
-        return resolver.line(owner, slope);
+        return resolver.line(at.key("stiffness"), slope);
     }
     resolver.elastic(
         ("force", written.force.as_ref()),
         written.stiffness.as_ref(),
         at,
-        &owner,
         [PURE, FORCE, SLOPE],
     )
 }
@@ -426,12 +418,10 @@ fn pretensioner(
     resolver: &mut Resolver<'_>,
     written: &WrittenPretensioner,
     at: At<'_>,
-    name: &str,
 ) -> Option<Pretensioner> {
     let fire = resolver.switch_id(&written.fire, at.key("fire"));
     let place = at.key("retract");
-    let owner = format!("belt {name} retract");
-    let retract = resolver.function(&written.retract, place, &owner, TIME, LENGTH)?;
+    let retract = resolver.function(&written.retract, place, TIME, LENGTH)?;
     let first = resolver
         .curve_of(&retract)
         .map(|(curve, _)| curve.points[0]);

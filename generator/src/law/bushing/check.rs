@@ -72,9 +72,9 @@ pub(crate) fn bushing(
     }
     let along = written.along.as_ref().map(|w| [&w.x, &w.y, &w.z]);
     let about = written.about.as_ref().map(|w| [&w.x, &w.y, &w.z]);
-    let along = directions(resolver, along, (name, "along"), ALONG, at);
-    let about = directions(resolver, about, (name, "about"), ABOUT, at);
-    let turn = turn(resolver, written.about.as_ref(), name, at.key("about"));
+    let along = directions(resolver, along, "along", ALONG, at);
+    let about = directions(resolver, about, "about", ABOUT, at);
+    let turn = turn(resolver, written.about.as_ref(), at.key("about"));
     Some(Bushing {
         from: from?,
         to: to?,
@@ -85,12 +85,7 @@ pub(crate) fn bushing(
 }
 
 /// The law of the whole rotation.
-fn turn(
-    resolver: &mut Resolver<'_>,
-    written: Option<&Rotations>,
-    name: &str,
-    at: At<'_>,
-) -> Direction {
+fn turn(resolver: &mut Resolver<'_>, written: Option<&Rotations>, at: At<'_>) -> Direction {
     let Some((about, law)) = written.and_then(|about| Some((about, about.turn.as_ref()?))) else {
         return Direction::default();
     };
@@ -113,13 +108,7 @@ fn turn(
         stiffness: law.stiffness.clone(),
         damping: law.damping.clone(),
     };
-    direction(
-        resolver,
-        &written,
-        &format!("bushing {name} turn"),
-        ABOUT,
-        place,
-    )
+    direction(resolver, &written, ABOUT, place)
 }
 
 fn mount(resolver: &Resolver<'_>, written: &End, at: At<'_>) -> Option<Mount> {
@@ -139,7 +128,7 @@ fn mount(resolver: &Resolver<'_>, written: &End, at: At<'_>) -> Option<Mount> {
 fn directions(
     resolver: &mut Resolver<'_>,
     written: Option<[&Option<WrittenDirection>; 3]>,
-    (name, key): (&str, &str),
+    key: &str,
     measures: Measures,
     at: At<'_>,
 ) -> [Direction; 3] {
@@ -154,8 +143,7 @@ fn directions(
             ));
             continue;
         }
-        let owner = format!("bushing {name} {key} {}", AXES[axis]);
-        laws[axis] = direction(resolver, law, &owner, measures, place);
+        laws[axis] = direction(resolver, law, measures, place);
     }
     laws
 }
@@ -163,13 +151,12 @@ fn directions(
 fn direction(
     resolver: &mut Resolver<'_>,
     written: &WrittenDirection,
-    owner: &str,
     (curve, damping): Measures,
     at: At<'_>,
 ) -> Direction {
     let elastic = ("elastic", written.elastic.as_ref());
     Direction {
-        elastic: resolver.elastic(elastic, written.stiffness.as_ref(), at, owner, curve),
+        elastic: resolver.elastic(elastic, written.stiffness.as_ref(), at, curve),
         damping: resolver.coefficient(written.damping.as_ref(), at.key("damping"), damping),
     }
 }

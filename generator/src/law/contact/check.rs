@@ -179,7 +179,6 @@ pub(crate) fn contact(
         ("elastic", written.elastic.as_ref()),
         written.stiffness.as_ref(),
         at,
-        &format!("contact {} elastic", written.contact),
         [LENGTH, FORCE, STIFFNESS],
     );
     let hysteresis = resolver.hysteresis(
@@ -192,7 +191,6 @@ pub(crate) fn contact(
                 written.elastic.is_some() || written.stiffness.is_some(),
             ),
             at,
-            owner: format!("contact {} unloading", written.contact),
             expected: [LENGTH, FORCE, STIFFNESS],
         },
     );

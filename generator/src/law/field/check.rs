@@ -19,12 +19,8 @@ pub struct Field {
 
 /// The checked form of a field.
 pub(crate) fn field(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<Field> {
-    let acceleration = resolver.components(
-        &written.acceleration,
-        at.key("acceleration"),
-        &format!("field {}", written.field),
-        ACCELERATION,
-    );
+    let acceleration =
+        resolver.components(&written.acceleration, at.key("acceleration"), ACCELERATION);
     Some(Field {
         on: elements_of(resolver, written.on.as_deref(), at.key("on"))?,
         acceleration,

@@ -290,7 +290,6 @@ pub(crate) fn joint(
     at: At<'_>,
 ) -> Option<ForceKind> {
     let child = resolver.element_id(&written.joint, at.key("joint"));
-    let owner = format!("joint {} elastic", written.path());
     if let Some(id) = child
         && let joint @ KinematicJoint::Freedoms(_) = joint_at(resolver, id)
     {
@@ -312,10 +311,10 @@ pub(crate) fn joint(
         ));
     }
     let (about, bending) = match resolver.planar {
-        true => (in_plane(resolver, written, at, &owner), None),
+        true => (in_plane(resolver, written, at), None),
         false => (
-            about_axes(resolver, written, at, &owner),
-            bending(resolver, written, at, &owner),
+            about_axes(resolver, written, at),
+            bending(resolver, written, at),
         ),
     };
     Some(ForceKind::from(Joint {
@@ -327,12 +326,7 @@ pub(crate) fn joint(
 }
 
 /// In the plane: the law of the one rotation, which is about y.
-fn in_plane(
-    resolver: &mut Resolver<'_>,
-    written: &Written,
-    at: At<'_>,
-    owner: &str,
-) -> [JointTorque; 3] {
+fn in_plane(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> [JointTorque; 3] {
     for key in of_several_rotations(written) {
         resolver.problems.add(at.key(key).key_problem(
             "in the plane a joint has one rotation",
@@ -340,17 +334,12 @@ fn in_plane(
         ));
     }
     let mut about: [JointTorque; 3] = Default::default();
-    about[1] = torque(resolver, Law::of_joint(written, at, OF_ANGLE), owner);
+    about[1] = torque(resolver, Law::of_joint(written, at, OF_ANGLE));
     about
 }
 
 /// In space: the laws about the Bryant angles.
-fn about_axes(
-    resolver: &mut Resolver<'_>,
-    written: &Written,
-    at: At<'_>,
-    owner: &str,
-) -> [JointTorque; 3] {
+fn about_axes(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> [JointTorque; 3] {
     for key in OF_ONE_ROTATION {
         if at.node.get(key).is_some() {
             resolver.problems.add(at.key(key).key_problem(
@@ -365,7 +354,7 @@ fn about_axes(
         for (law, (written, axis)) in about.iter_mut().zip(axes) {
             if let Some(written) = written {
                 let written = Law::of(written, at.key("about").key(axis));
-                *law = torque(resolver, written, &format!("{owner} {axis}"));
+                *law = torque(resolver, written);
             }
         }
     }
@@ -427,8 +416,7 @@ fn law_of_freedom(
         true => OF_ANGLE,
         false => OF_LENGTH,
     };
-    let owner = format!("joint {} elastic", written.path());
-    let law = torque(resolver, Law::of_joint(written, at, measures), &owner);
+    let law = torque(resolver, Law::of_joint(written, at, measures));
     Some(Freedom {
         child,
         freedom,
@@ -489,12 +477,7 @@ pub(crate) fn freedom_named(
 }
 
 /// Flexion and torsion; `None` where neither has a law.
-fn bending(
-    resolver: &mut Resolver<'_>,
-    written: &Written,
-    at: At<'_>,
-    owner: &str,
-) -> Option<Bending> {
+fn bending(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<Bending> {
     if written.axis.is_some() && written.flexion.is_none() && written.torsion.is_none() {
         resolver.problems.add(at.key("axis").key_problem(
             "a long axis means nothing without flexion and torsion",
@@ -508,13 +491,13 @@ fn bending(
             Some(LongAxis::Z) | None => 2,
         },
         flexion: match &written.flexion {
-            Some(written) => flexion(resolver, written, at.key("flexion"), owner),
+            Some(written) => flexion(resolver, written, at.key("flexion")),
             None => JointTorque::default(),
         },
         torsion: match &written.torsion {
             Some(torsion) => {
                 let law = Law::of(torsion, at.key("torsion"));
-                torque(resolver, law, &format!("{owner} torsion"))
+                torque(resolver, law)
             }
             None => JointTorque::default(),
         },
@@ -525,7 +508,7 @@ fn bending(
 
 /// The law of the angle between the long axes. Where it is 0 the plane of bending is not determined, and so there
 /// must be no elastic torque.
-fn flexion(resolver: &mut Resolver<'_>, written: &Flexion, at: At<'_>, owner: &str) -> JointTorque {
+fn flexion(resolver: &mut Resolver<'_>, written: &Flexion, at: At<'_>) -> JointTorque {
     let law = Law {
         elastic: written.elastic.as_ref(),
         stiffness: written.stiffness.as_ref(),
@@ -543,7 +526,7 @@ fn flexion(resolver: &mut Resolver<'_>, written: &Flexion, at: At<'_>, owner: &s
         at,
         measures: OF_ANGLE,
     };
-    let torque = torque(resolver, law, &format!("{owner} flexion"));
+    let torque = torque(resolver, law);
     let curve = torque.elastic.as_ref().and_then(|e| resolver.curve_of(e));
     if curve.is_some_and(|(curve, _)| !curve.points.contains(&[0.0, 0.0])) {
         resolver.problems.add(at.key("elastic").problem(
@@ -564,13 +547,12 @@ fn flexion(resolver: &mut Resolver<'_>, written: &Flexion, at: At<'_>, owner: &s
 }
 
 /// The law of one coordinate.
-fn torque(resolver: &mut Resolver<'_>, law: Law<'_>, owner: &str) -> JointTorque {
+fn torque(resolver: &mut Resolver<'_>, law: Law<'_>) -> JointTorque {
     let (at, of) = (law.at, law.measures);
     let elastic = resolver.elastic(
         ("elastic", law.elastic),
         law.stiffness,
         at,
-        owner,
         [of.coordinate, of.force, of.stiffness],
     );
     let neutral = law
@@ -589,7 +571,6 @@ fn torque(resolver: &mut Resolver<'_>, law: Law<'_>, owner: &str) -> JointTorque
             slope: law.unloading_slope,
             loading: ("elastic", law.elastic.is_some() || law.stiffness.is_some()),
             at,
-            owner: owner.replacen(" elastic", " unloading", 1),
             expected: [of.coordinate, of.force, of.stiffness],
         },
     );
@@ -605,13 +586,12 @@ fn torque(resolver: &mut Resolver<'_>, law: Law<'_>, owner: &str) -> JointTorque
         at,
         of.coordinate,
     );
-    let motor = law.motor.map(|motor| {
-        let owner = owner.replacen(" elastic", " motor", 1);
-        resolver.component(motor, at.key("motor"), &owner, of.force)
-    });
+    let motor = law
+        .motor
+        .map(|motor| resolver.component(motor, at.key("motor"), of.force));
     let drive = law
         .drive
-        .and_then(|d| drive(resolver, d, at.key("drive"), owner, of));
+        .and_then(|d| drive(resolver, d, at.key("drive"), of));
     JointTorque {
         neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
         elastic,
@@ -631,11 +611,9 @@ fn drive(
     resolver: &mut Resolver<'_>,
     written: &WrittenDrive,
     at: At<'_>,
-    owner: &str,
     of: Measures,
 ) -> Option<Drive> {
-    let owner = owner.replacen(" elastic", " drive", 1);
-    let to: FieldComponent = resolver.component(&written.to, at.key("to"), &owner, of.coordinate);
+    let to: FieldComponent = resolver.component(&written.to, at.key("to"), of.coordinate);
     let place = at.key("stiffness");
     let stiffness = resolver.coefficient(Some(&written.stiffness), place, of.stiffness);
     let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);

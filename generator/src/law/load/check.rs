@@ -4,7 +4,7 @@ use super::keys::Load as Written;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::resolve::quantity::{FORCE, MOMENT};
-use crate::model::resolve::{AXES, NOWHERE, Resolver};
+use crate::model::resolve::{NOWHERE, Resolver};
 use crate::model::{Attachment, Body, ElementId, FieldComponent, Number};
 use serde::Serialize;
 
@@ -33,17 +33,12 @@ pub(crate) fn load(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -
     }
     let mut force = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
     if let Some(components) = &written.force {
-        let owner = format!("load {} force", written.load);
-        force = resolver.components(components, at.key("force"), &owner, FORCE);
+        force = resolver.components(components, at.key("force"), FORCE);
     }
     let mut moment = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
     if let Some(components) = &written.moment {
         for (axis, component, at) in resolver.about_axes(components, at.key("moment"), MOMENT) {
-            let owner = match resolver.planar {
-                true => format!("load {} moment", written.load),
-                false => format!("load {} moment {}", written.load, AXES[axis]),
-            };
-            moment[axis] = resolver.component(component, at, &owner, MOMENT);
+            moment[axis] = resolver.component(component, at, MOMENT);
         }
     }
     let element = element?;

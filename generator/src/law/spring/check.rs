@@ -40,7 +40,6 @@ pub(crate) fn spring(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>)
         ("elastic", written.elastic.as_ref()),
         written.stiffness.as_ref(),
         at,
-        &format!("spring {name} elastic"),
         [LENGTH, FORCE, STIFFNESS],
     );
     if written.length.is_some() && written.elastic.is_none() && written.stiffness.is_none() {

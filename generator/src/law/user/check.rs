@@ -306,7 +306,6 @@ impl<'w> Entries<'w> {
 
     /// The user force with the entries that are right; `None` where its function is wrong.
     fn checked(self, resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<User> {
-        let name = &written.user;
         let points = each(self.points, |_, point, at| user_point(resolver, point, at));
         let bodies = each(self.bodies, |_, path, at| acted_on(resolver, path, at));
         let joints = each(self.joints, |_, path, at| acted_on(resolver, path, at));
@@ -315,12 +314,11 @@ impl<'w> Entries<'w> {
         });
         let lines = each(self.lines, |_, line, at| user_line(resolver, line, at));
         let states = each(self.states, |_, state, at| user_state(resolver, state, at));
-        let parameters = each(self.parameters, |key, function, at| {
-            user_parameter(resolver, function, at, &format!("user {name} {key}"))
+        let parameters = each(self.parameters, |_, function, at| {
+            user_parameter(resolver, function, at)
         });
-        let curves = each(self.curves, |key, function, at| {
-            let owner = format!("user {name} {key}");
-            Some(resolver.function(function, at, &owner, ANY, ANY))
+        let curves = each(self.curves, |_, function, at| {
+            Some(resolver.function(function, at, ANY, ANY))
         });
         let (function, source) = user_function(resolver, written, at)?;
         let scale = written.scale.as_ref();
@@ -481,10 +479,9 @@ fn user_parameter(
     resolver: &mut Resolver<'_>,
     written: &Function,
     at: At<'_>,
-    owner: &str,
 ) -> Option<UserParameter> {
     let before = resolver.problems.count();
-    let value = resolver.component(written, at, owner, ANY);
+    let value = resolver.component(written, at, ANY);
     if resolver.problems.count() > before {
         return None;
     }

@@ -28,7 +28,8 @@ pub(super) fn force(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) 
     if called {
         check_twice(resolver, &name, law, at.key(law.key));
     }
-    let resolved = written.check(resolver, at);
+    resolver.owner = format!("{} {name}", law.key);
+    let resolved = written.check(resolver, at.base());
     let off = enabled == Some(false);
     if off || resolved.is_none() {
         resolver.disabled.push((law.key, name.clone()));

@@ -8,7 +8,7 @@ use crate::description::curve::{
     Interpolate as WrittenInterpolate, NameOrCurve, ScaledCurve as WrittenScaled,
 };
 use crate::description::load::{beside, channel_key};
-use crate::description::place::At;
+use crate::description::place::{At, Step};
 use crate::description::quantity::Quantity;
 use crate::description::slip;
 use crate::description::table::{Column, Columns, Fault, Table, is_unit};
@@ -438,6 +438,25 @@ impl Resolver<'_> {
         }
     }
 
+    /// What a curve written in place is called: after what it belongs to, and the keys that lead to it from there.
+    fn name_at(&self, at: At<'_>) -> String {
+        let mut trail = at.trail();
+        if trail.last() == Some(&Step::Key("curve")) {
+            trail.pop();
+        }
+        let mut name = self.owner.clone();
+        for (i, step) in trail.iter().enumerate() {
+            name.push(' ');
+            match step {
+                Step::Key(key) => name.push_str(&key.replace('_', " ")),
+                // curves that stand in a list are components
+                Step::Item(index) if i + 1 == trail.len() => name.push_str(AXES[self.axis(*index)]),
+                Step::Item(index) => name.push_str(&(index + 1).to_string()),
+            }
+        }
+        name
+    }
+
     /// The curve that a key asks for, as a function \[`x`\] → \[`y`\]; `None` where it is zero everywhere, or wrong.
     pub fn function(
         &mut self,
@@ -506,12 +525,7 @@ impl Resolver<'_> {
     }
 
     /// A constant or a curve of time.
-    pub fn component(
-        &mut self,
-        function: &Function,
-        at: At<'_>,
-        y: Expected,
-    ) -> FieldComponent {
+    pub fn component(&mut self, function: &Function, at: At<'_>, y: Expected) -> FieldComponent {
         let zero = FieldComponent::Constant(Number::ZERO);
         if let Function::Quantity(quantity) = function {
             let curve = match quantity {
@@ -577,6 +591,7 @@ impl Resolver<'_> {
         extrapolate: Extrapolate,
         times: Number,
     ) -> ScaledCurve {
+        let name = self.name_at(at);
         self.curves.push(Some(Measured {
             curve: Curve {
                 name,

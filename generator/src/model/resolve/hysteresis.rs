@@ -21,8 +21,6 @@ pub struct Unloading<'w> {
     pub loading: (&'static str, bool),
     /// Where the force stands.
     pub at: At<'w>,
-    /// What a curve written in place is called.
-    pub owner: String,
     /// Abscissa, ordinate and slope.
     pub expected: [Expected; 3],
 }
@@ -49,9 +47,7 @@ impl Resolver<'_> {
             }
         }
         let before = self.problems.count();
-        let curve = written
-            .curve
-            .and_then(|u| self.function(u, curve_at, &written.owner, x, y));
+        let curve = written.curve.and_then(|u| self.function(u, curve_at, x, y));
         let slope = written
             .slope
             .and_then(|s| self.coefficient(Some(s), slope_at, of_slope));

@@ -189,6 +189,7 @@ impl<'a> Resolver<'a> {
             defaults: Vec::new(),
             measures: Vec::new(),
             failed_parameters: Vec::new(),
+            owner: String::new(),
             curves: Vec::new(),
             curve_names: Vec::new(),
             vehicles: Vec::new(),

@@ -306,9 +306,9 @@ fn prescribed(
             "give one of `displacement`, `velocity`, `acceleration`, or write `free` or `fixed`",
         ));
     }
-    let owner = format!("reference {}", system.name);
     let start = start.map(|at| at.key("velocity"));
-    let translation = translation(resolver, &ways, at, &owner, &mut system.velocity, start);
+    resolver.owner = format!("reference {}", system.name);
+    let translation = translation(resolver, &ways, at.base(), &mut system.velocity, start);
     let still = translation.curves.iter().all(Option::is_none)
         && system.velocity.iter().all(Number::is_zero);
     if still {

@@ -3,8 +3,8 @@
 //! What a curve says of the start, the start must not say otherwise: a displacement is measured from the start position, and
 //! its slope is the velocity there; a velocity begins as its curve does.
 
+use super::Resolver;
 use super::quantity::{ACCELERATION, LENGTH, SPEED};
-use super::{AXES, Resolver};
 use crate::description::curve::Function;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
@@ -54,7 +54,6 @@ pub(super) fn translation(
     resolver: &mut Resolver<'_>,
     ways: &Ways<'_>,
     at: At<'_>,
-    owner: &str,
     velocity: &mut [Number; 3],
     start: Option<At<'_>>,
 ) -> Translation {
@@ -77,6 +76,7 @@ pub(super) fn translation(
     let Some((key, given, list)) = ways.written() else {
         return still;
     };
+    let stops = at.key("stops");
     let at = at.key(key);
     if ways.count() > 1 {
         resolver.problems.add(at.key_problem(
@@ -91,7 +91,7 @@ pub(super) fn translation(
         Given::Acceleration => ACCELERATION,
     };
     let before = resolver.problems.count();
-    let components = resolver.components(list, at, owner, expected);
+    let components = resolver.components(list, at, expected);
     if resolver.problems.count() > before {
         return still;
     }
@@ -107,12 +107,11 @@ pub(super) fn translation(
         if let (Some(begins), Some(start)) = (begins, start) {
             check_start(resolver, begins, &velocity[axis], key, start.item(index));
         }
-        let owner = format!("{owner} {}", AXES[axis]);
-        curves[axis] = along_axis(resolver, component, given, owner, &mut velocity[axis]);
+        curves[axis] = along_axis(resolver, component, given, here, &mut velocity[axis]);
     }
     let accelerated = given == Given::Acceleration && curves.iter().any(Option::is_some);
-    let stops = (ways.stops == Some(true) && accelerated)
-        .then(|| resolver.part_that_is_over(format!("{owner} stops")));
+    let stops =
+        (ways.stops == Some(true) && accelerated).then(|| resolver.part_that_is_over(stops));
     Translation {
         given,
         curves,
@@ -125,7 +124,7 @@ fn along_axis(
     resolver: &mut Resolver<'_>,
     component: FieldComponent,
     given: Given,
-    owner: String,
+    at: At<'_>,
     velocity: &mut Number,
 ) -> Option<ScaledCurve> {
     match (component, given) {
@@ -140,7 +139,7 @@ fn along_axis(
             None
         }
         (FieldComponent::Constant(number), Given::Acceleration) if !number.is_zero() => {
-            Some(resolver.constant_curve(owner, number))
+            Some(resolver.constant_curve(at, number))
         }
         (FieldComponent::Constant(_), _) => None,
     }

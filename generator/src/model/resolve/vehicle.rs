@@ -3,7 +3,7 @@
 use super::name::Style;
 use super::quantity::{ANGLE, LENGTH, SPEED};
 use super::translation::{Ways, is_smooth, translation};
-use super::{AXES, NOWHERE, Resolver};
+use super::{NOWHERE, Resolver};
 use crate::description::place::At;
 use crate::description::vehicle::Vehicle as Written;
 use crate::diagnostic::{quoted, suggestion};
@@ -43,14 +43,14 @@ pub(super) fn vehicle(
         acceleration: written.acceleration.as_deref(),
         stops: written.stops,
     };
-    let owner = format!("vehicle {}", written.name);
-    let translation = translation(resolver, &ways, at, &owner, &mut velocity, start);
+    resolver.owner = format!("vehicle {}", written.name);
+    let at = at.base();
+    let translation = translation(resolver, &ways, at, &mut velocity, start);
     let mut angles = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
     let mut angles_at_start = NOWHERE;
     if let Some(written) = &written.angles {
         for (axis, function, here) in resolver.about_axes(written, at.key("angles"), ANGLE) {
-            let owner = format!("{owner} angle {}", AXES[axis]);
-            let angle = resolver.component(function, here, &owner, ANGLE);
+            let angle = resolver.component(function, here, ANGLE);
             angles_at_start[axis] = angle_at_start(resolver, &angle, here);
             angles[axis] = angle;
         }
