@@ -444,7 +444,7 @@ impl<'g> Strategy<'g> {
     }
 }
 
-/// The child of a floating root whose joint makes most components of the other children's offsets 0.
+/// The child of a floating root whose joint gives the other children's offsets from it the most zero components.
 fn center(graph: &Graph, elements: &[Element], children: &[usize]) -> Option<usize> {
     let at = |k: usize| vector(graph, &elements[k].at);
     let numbers = |&center: &usize| {

@@ -1,7 +1,6 @@
 //! Eliminates an element without elements outboard. If it were free, Euler's equations would give α_e = −I⁻¹(ω × Iω),
 //! its centre of gravity would not accelerate, and its joint would accelerate by −a_e, where a_e = α_e × g + γ(g).
 //! Relative to this motion the joint acts on a body at rest: with J = I + m (g²·1 − g gᵀ) and b = m g,
-//! a body at rest: with J = I + m (g²·1 − g gᵀ) and b = m g,
 //!
 //! f = μ a − Q (a + a_e) + m a_e,   Q = −b̃ J⁻¹ b̃,   α = α_e − J⁻¹ (b × (a + a_e)),   μ = m
 //!

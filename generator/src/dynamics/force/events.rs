@@ -10,7 +10,7 @@ use crate::model::{Contact, Curve, Extrapolate, Model, ScaledCurve};
 
 /// The events of all laws.
 pub struct Events<'g> {
-    /// Functions whose change of sign is where a law changes its branch, by name.
+    /// Functions that change sign where a law changes its branch, by name.
     pub event_functions: Vec<(String, Expr<'g>)>,
     /// Functions that change sign where a law is not smooth, by name. Their expressions are made after all others, so
     /// that they do not change the equations.

@@ -37,8 +37,8 @@ const APART: f64 = 1e-6;
 /// `owner` names the force that the memory belongs to ("contact seat"), `unit` is the unit of the abscissa, and
 /// `loading` is f at the abscissa. The `abscissa` must be one at which the curves have values in every state, such as
 /// max(δ, 0), because the memory must be finite. `below` makes the same abscissa later, without the bound at 0.
-/// [`watch_turns`] must be called, too. While the force waits for its switch (`gate`), the memory keeps its initial
-/// value.
+/// [`watch_turns`] must be called, too. While the force waits for its switch (`gate`), earlier loading leaves no trace
+/// in the memory.
 #[expect(
     clippy::too_many_arguments,
     reason = "whose, what law, when, and where on it"
@@ -77,7 +77,8 @@ pub fn apply<'g>(
         None => furthest.max(kept),
     };
     applied.states.memory[index].next = renewed;
-    // the line is above a curve that drags the foot, and below that curve after a reversal
+    // While the loading curve drags the foot, the line is above it by APART; after a reversal the line is below it. The
+    // unloading curve has the opposite signs.
     applied.kink(
         format!("{owner}: the line meets the loading curve"),
         move || (1.0 + APART) * below() - loading / slope - foot,
@@ -116,7 +117,7 @@ pub fn watch_turns<'g>(
 ///
 /// `owner` names the law that the memory belongs to ("joint man/head"), and `unit` is the unit of the abscissa, which
 /// `argument` makes. `loading` is f at the abscissa, `rate` the rate of the abscissa. While the force waits for its
-/// switch, the memory keeps its initial value.
+/// switch, earlier loading leaves no trace in the memory.
 #[expect(
     clippy::too_many_arguments,
     reason = "whose, what law, when, and where on it"

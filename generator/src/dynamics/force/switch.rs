@@ -1,11 +1,11 @@
-//! Switches: each remembers two times, at which it fired and from which on it acts.
+//! Switches: each remembers two times, the one at which it fired and the one from which on it acts.
 //!
 //! fired ← t where the trigger's event function G < 0 after an accepted step,   acts ← t where t ≥ fired + delay
 //!
 //! G is positive until the quantity passes its threshold. The change of its sign ends a step, so a step ends at the
-//! crossing. Both times are constant during a step, so a force that waits for a switch never jumps inside a step. A
-//! quantity that itself depends on the switch, such as an acceleration, is therefore no circular definition. A switch
-//! fires only once; afterwards its event function stays at 1.
+//! crossing. Both times are constant during a step, so a force that waits for a switch never jumps inside a step. For
+//! the same reason the quantity may itself depend on the switch, as an acceleration does, without a circular
+//! definition. A switch fires only once; afterwards its event function stays at 1.
 
 use super::onset::{FAR, Onset};
 use super::{AppliedForces, NEVER, choose};

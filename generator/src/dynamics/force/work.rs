@@ -5,7 +5,7 @@ use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::model::ElementId;
 
-/// How one effect does work.
+/// The power of one effect.
 pub struct Work<'g> {
     /// Name for people: "contact seat: friction".
     pub name: String,

@@ -15,7 +15,7 @@ pub struct Wrench<'g> {
 }
 
 impl Wrench<'_> {
-    /// True where nothing acts.
+    /// True if force and moment are 0.
     pub fn is_zero(&self) -> bool {
         self.force.is_zero() && self.moment.is_zero()
     }

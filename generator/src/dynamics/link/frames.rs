@@ -42,8 +42,8 @@ pub struct LinkChoice {
     pub by_inertia: bool,
     /// The order of the axes along which the bodies that the link carries are moved to its origin.
     pub order: [usize; 3],
-    /// The child that keeps a component of the first moment of this link in the reference motion
-    /// ([`keep`](super::keep)), and the index of the component.
+    /// The child that keeps a component of the first moment of this link in the reference motion (`keep`), and the
+    /// index of the component.
     pub keep: Option<(usize, usize)>,
     /// True if the pass inwards multiplies U by u/D; otherwise it multiplies G = U/D by u.
     pub scales_bias: bool,

@@ -384,7 +384,7 @@ impl<'g> Tree<'g> {
             let passed = link.body.unfelt(&link.joint);
             let (parent, place) = (link.parent, link.place);
             let moved = match link.joint.slides_alone() {
-                // Σ moves with the parent unchanged, wherever the slider is
+                // Σ without mass and first moment is the same about every origin
                 true => passed,
                 false => passed.moved(place),
             };
