@@ -10,8 +10,8 @@ use crate::expression::{Graph, Node, NodeId, Symbol};
 use crate::method::inputs::{Input, Inputs};
 use rustc_hash::FxHashMap;
 
-/// The values of a method that depend on parameters alone and are used by other operations: each node of the method
-/// with its copy in the equations.
+/// The values of a method that depend on parameters alone, and that are roots or operands of operations that depend on
+/// more: each node of the method with its copy in the equations.
 pub(crate) fn found(
     equations: &Graph,
     method: &Graph,

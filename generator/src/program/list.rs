@@ -15,7 +15,7 @@ pub enum Input {
     State(u32),
     /// An acceleration, for a method that starts from accelerations.
     Acceleration(u32),
-    /// An event function, for the method that renews the memory by their signs.
+    /// An event function, for the method that renews the memory by its sign.
     EventFunction(u32),
     /// A parameter, by its index in the model.
     Parameter(u32),

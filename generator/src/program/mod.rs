@@ -58,14 +58,14 @@ pub struct Options {
     /// Whether to generate the methods `mass_matrix`, `velocity_forces` and `applied_forces`, which need the runtime's
     /// feature `nalgebra`.
     pub matrices: bool,
-    /// Most statements of one function, not counting those that read inputs. Longer functions are cut into pieces,
-    /// which release builds merge again unless there are too many. Subroutines shared by like elements, and the
+    /// Largest number of statements of one function, not counting those that read inputs. Longer functions are cut into
+    /// pieces, which release builds merge again unless there are too many. Subroutines shared by like elements, and the
     /// function that calls them, are not cut.
     pub statements: usize,
-    /// Most statements of a method that is compiled as one function. That makes the code faster, by 3 % with `f64` and
-    /// by 5 to 15 % with eight lanes, but compile time grows more than proportionally, and the code may exceed the
-    /// processor's caches. In longer methods, like elements share functions; if few elements are alike, each piece
-    /// becomes a function.
+    /// Largest number of statements of a method that is compiled as one function. That makes the code faster, by 3 %
+    /// with `f64` and by 5 to 15 % with eight lanes, but compile time grows more than proportionally, and the code may
+    /// exceed the processor's caches. In longer methods, like elements share functions; if few elements are alike, each
+    /// piece becomes a function.
     pub merged: usize,
 }
 

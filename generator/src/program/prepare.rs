@@ -21,12 +21,12 @@ use crate::method::table::Specification;
 use rustc_hash::FxHashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Number of operations that `outputs` must save to call `accelerations` instead of computing them again itself.
+/// Number of operations that a method must save to receive the accelerations instead of computing them itself.
 const REPEATED_OPERATIONS: usize = 50;
 
 /// A method after the factoring pass, in one or two forms.
 pub(crate) struct Factored {
-    /// The form that computes everything itself.
+    /// The form that computes the accelerations itself.
     alone: Rewritten,
     /// The form that starts from accelerations, if the method allows it.
     short: Option<Rewritten>,

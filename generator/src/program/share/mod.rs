@@ -46,13 +46,13 @@ use std::ops::Range;
 
 pub(crate) use live_through::LiveThrough;
 
-/// Fewest lines of a block; a shorter one is not worth a call.
+/// Smallest number of lines of a block; a shorter one is not worth a call.
 const SHORT: usize = 8;
-/// Fewest like blocks that become a subroutine.
+/// Smallest number of like blocks that become a subroutine.
 const MANY: usize = 3;
 
-/// Most steps that may be left outside of subroutines. They form one function, which takes rustc a fifth longer than
-/// pieces of 900 steps.
+/// Largest number of steps that may be left outside of subroutines. They form one function, which takes rustc a fifth
+/// longer than pieces of 900 steps.
 const LEFT: usize = 3000;
 
 /// Maps each function to one that represents all functions that are called alike.
