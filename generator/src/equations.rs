@@ -43,7 +43,7 @@ pub struct Equations {
     pub renewed_velocities: Vec<NodeId>,
     /// Functions whose change of sign ends a step: where a force law changes its branch.
     pub event_functions: Vec<Named>,
-    /// Functions whose change of sign is where a force law is not smooth without renewing a memory.
+    /// Functions that change sign where a force law is not smooth, but on which no memory depends.
     pub kinks: Vec<Named>,
     /// The onsets of laws that do not act, then the corners of curves.
     pub onsets: Vec<Onset>,

@@ -16,7 +16,7 @@ use std::hash::{Hash, Hasher};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
 
-/// The graph. It only grows, and is cheap to share by reference.
+/// The graph. Nodes are only added, unless all are cleared. It is cheap to share by reference.
 #[derive(Clone, Default)]
 pub struct Graph {
     inner: RefCell<Inner>,

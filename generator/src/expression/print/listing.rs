@@ -12,7 +12,8 @@ use crate::expression::node::{Function, Node, NodeId, Symbol};
 use rustc_hash::FxHashSet;
 use std::mem::take;
 
-/// The length in characters above which a part of a line gets a line of its own.
+/// Largest total length of a node's operands on one line, in characters; beyond, the longest operands get lines of
+/// their own.
 const LONGEST: usize = 160;
 
 /// The notation of a language.
