@@ -1,8 +1,8 @@
 //! Derivatives of expressions, as expressions of the same graph: forward mode, node by node, each node once.
 //!
 //! ```text
-//! (a b)' = a' b + a b'     (a/b)' = (a' − (a/b) b') / b     √a' = a' / (2 √a)     atan2(y, x)' = (x y' − y x') / (x² +
-//! y²)
+//! (a b)' = a' b + a b'     (a/b)' = (a' − (a/b) b') / b     √a' = a' / (2 √a)
+//! atan2(y, x)' = (x y' − y x') / (x² + y²)
 //! ```
 //!
 //! The derivative is along a direction: with ẋ for the symbols x, ḟ = Σ ∂f/∂x ẋ. A derivative with respect to one
