@@ -4,8 +4,9 @@
 //!
 //! For the accelerations of its element, the bodies outboard of a joint need the wrench
 //!
-//! f = K Δa + Bᵀ Δα + f₀,   n = B Δa + J Δα + n₀      (K, J symmetric; of a body alone K = m 1, B = ŵ, with û the
-//! matrix of u ×)
+//! f = K Δa + Bᵀ Δα + f₀,   n = B Δa + J Δα + n₀
+//!
+//! K and J are symmetric. Of a body alone K = m 1 and B = ŵ, where û is the matrix of u ×.
 //!
 //! | leaves to root, with the columns H = (s, e) of a joint and the generalised forces Q on its coordinates | |
 //! |---|---|
