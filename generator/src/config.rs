@@ -1,7 +1,7 @@
-//! The front door for build scripts: which models to read, where to write their modules, what to tell cargo.
+//! The entry point for build scripts: the models to read, the files to write, and the messages to cargo.
 //!
-//! [`Config::generate_str`] is the pure core, text in, text out; [`Config::generate`] the shell around it with files and
-//! messages. Files are replaced as a whole and only where their text changes.
+//! [`Config::generate_str`] is the core without files: text in, text out. [`Config::generate`] adds files and messages.
+//! A file is replaced as a whole, and only if its text changes.
 
 use crate::description::load::read_bytes;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -12,7 +12,7 @@ use crate::{Error, dynamics};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// What to generate, and where.
+/// The models to generate, with options and directories.
 ///
 /// ```no_run
 /// # fn main() -> Result<(), bryant_generator::Error> {
@@ -33,16 +33,16 @@ pub struct Config {
 /// A generated module.
 #[derive(Clone, Debug)]
 pub struct Generated {
-    /// What `include_model!` is given: the name of the YAML file without its extension.
+    /// The name to give to `include_model!`: that of the YAML file without its extension.
     pub name: String,
     /// The model.
     pub model: Model,
     /// The text of the module.
     pub source: String,
-    /// Files read: the YAML first, then what it includes.
+    /// The files read: the YAML first, then the files that it includes.
     pub read: Vec<PathBuf>,
-    /// Where [`Config::generate`] wrote the text; empty where nothing was written. In cargo's `OUT_DIR` files of the user's are included by
-    /// their path instead of pasted, so that the compiler shows what is wrong with them where they are.
+    /// The file to which [`Config::generate`] wrote the text; empty if nothing was written. In cargo's `OUT_DIR`, the
+    /// user's own Rust files are included by path instead of pasted, so that compiler messages point to these files.
     pub written: PathBuf,
 }
 
@@ -71,42 +71,44 @@ impl Config {
         self
     }
 
-    /// Adds every `*.yaml` in a directory, not in directories below it.
+    /// Adds every `*.yaml` of a directory, without its subdirectories.
     pub fn models_in(&mut self, directory: impl Into<PathBuf>) -> &mut Self {
         self.directories.push(directory.into());
         self
     }
 
-    /// Where the modules go, each as `NAME.rs`, instead of to `OUT_DIR`.
+    /// Sets the directory to which the modules are written, each as `NAME.rs`, instead of `OUT_DIR`.
     pub fn out_dir(&mut self, directory: impl Into<PathBuf>) -> &mut Self {
         self.out_dir = Some(directory.into());
         self
     }
 
-    /// Where [`generate`](Self::generate) writes each model as C99, too: `NAME.h` and `NAME.c`, whose functions have the names of the
-    /// model's methods behind that of the model. They need nothing but `math.h`.
+    /// Sets a directory to which [`generate`](Self::generate) also writes each model as C99: `NAME.h` and `NAME.c`. The
+    /// functions are named after the model and its methods. They need nothing but `math.h`.
     pub fn emit_c(&mut self, directory: impl Into<PathBuf>) -> &mut Self {
         self.c_dir = Some(directory.into());
         self
     }
 
-    /// Whether there are methods for S, r_s and r_k, which need the runtime's feature `nalgebra`. There are by default. A crate that turns
-    /// this feature off (`bryant-runtime = { …, default-features = false, features = ["libm"] }`) asks for `matrices(false)`; if it does not,
-    /// the compiler says so.
+    /// Whether to generate the methods for S, r_s and r_k, which need the runtime's feature `nalgebra`; the default is
+    /// true. A crate that turns this feature off
+    /// (`bryant-runtime = { …, default-features = false, features = ["libm"] }`) must set `matrices(false)`; otherwise
+    /// the compiler reports it.
     pub fn matrices(&mut self, matrices: bool) -> &mut Self {
         self.options.matrices = matrices;
         self
     }
 
-    /// Statements up to which a method is compiled as one function; 3000 unless said otherwise. Longer ones are calls: of functions that
-    /// like elements share, where half of a method is such and not too much is left, of its pieces otherwise. Calls compile faster, and
-    /// cost some time.
+    /// Sets the largest number of statements of a method that is compiled as one function; the default is 3000. A
+    /// longer method consists of calls: of subroutines that like elements share, if they cover half of the method and
+    /// not too much is left; otherwise of its pieces. Calls compile faster, but take some run time.
     pub fn merged(&mut self, statements: usize) -> &mut Self {
         self.options.merged = statements;
         self
     }
 
-    /// Describes orientation by these coordinates, whatever the models say. In the plane there is no choice.
+    /// Describes orientations by these coordinates, in place of those that the models state. In the plane there is no
+    /// choice.
     pub fn coordinates(&mut self, coordinates: Coordinates) -> &mut Self {
         self.coordinates = Some(coordinates);
         self
@@ -121,10 +123,10 @@ impl Config {
         rust::module(model, &dynamics::derive_with(model, options), &self.options)
     }
 
-    /// A model as C99, with the operations of [`Self::source`].
+    /// A model as C99, with the same operations as [`Self::source`].
     ///
     /// # Errors
-    /// A model that calls functions of the user's, which are Rust.
+    /// If the model calls functions of the user, which are Rust.
     pub fn c_source(&self, model: &Model) -> Result<c::Source, c::NoC> {
         let options = dynamics::Options {
             matrices: self.options.matrices,
@@ -135,7 +137,7 @@ impl Config {
         c::source(&lists, &program::about(model, &equations))
     }
 
-    /// The methods of a model as lists, with the operations of [`Self::source`] to the last bit.
+    /// The methods of a model as lists, with the same operations as [`Self::source`], bit for bit.
     pub fn lists(&self, model: &Model) -> Lists {
         let options = dynamics::Options {
             matrices: self.options.matrices,
@@ -145,11 +147,11 @@ impl Config {
         program::lists(model, &equations, &self.options)
     }
 
-    /// The module of the model in a YAML text. `name` stands for the file in messages; included files are asked for by
-    /// their path relative to it.
+    /// The module of the model in a YAML text. `name` stands for the file in messages; `loader` is asked for included
+    /// files by their path relative to it.
     ///
     /// # Errors
-    /// Every problem of the text.
+    /// All problems found in the text.
     pub fn generate_str(
         &self,
         name: &str,
@@ -160,11 +162,11 @@ impl Config {
         Ok(self.generated(Path::new(name), model, read))
     }
 
-    /// Reads the models and writes one file for each; tells cargo which files it read and, if there are any, which
-    /// problems it found.
+    /// Reads the models and writes one file for each. Tells cargo which files were read and which problems were found.
     ///
     /// # Errors
-    /// Every problem of every model; a file that cannot be read or written. Nothing is written if a model is wrong.
+    /// All problems of all models, or a file that cannot be read or written. If a model has a problem, nothing is
+    /// written.
     pub fn generate(&self) -> Result<Vec<Generated>, Error> {
         let result = self.read_and_write();
         if let Err(error) = &result
@@ -175,12 +177,13 @@ impl Config {
         result
     }
 
-    /// [`generate`](Self::generate) for build scripts that do nothing else: problems are cargo's to show, without the
-    /// remains of a failed program around them. Outside of cargo they go to standard error, and the process ends.
+    /// Calls [`generate`](Self::generate), for build scripts that do nothing else. Cargo shows the problems, without
+    /// the traces of a failed program around them. Outside of cargo, the problems go to standard error, and the process
+    /// ends.
     pub fn generate_or_report(&self) -> Vec<Generated> {
         match self.generate() {
             Ok(generated) => generated,
-            // Cargo fails the build because of the problems reported.
+            // Cargo fails the build because problems have been reported.
             Err(_) if under_cargo() => Vec::new(),
             Err(error) => {
                 eprintln!("{error}");
@@ -199,7 +202,7 @@ impl Config {
                     read.iter().for_each(|path| rerun_if_changed(path));
                     all.push(self.generated(&path, model, read));
                 }
-                // Which files it includes is not known; cargo runs a script that failed again in any case.
+                // The files that it includes are unknown; but cargo always runs a failed script again.
                 Err(found) => {
                     rerun_if_changed(&path);
                     problems.extend(found.problems);
@@ -262,7 +265,7 @@ impl Config {
         Ok(all)
     }
 
-    /// All models as C, where that is asked for.
+    /// All models as C, if C is wanted.
     fn all_as_c(&self, all: &[Generated]) -> Result<Vec<c::Source>, Vec<Diagnostic>> {
         let mut problems = Vec::new();
         let mut sources: Vec<c::Source> = Vec::new();
@@ -329,11 +332,11 @@ impl Config {
             })
     }
 
-    /// The models named, then those of the directories by name.
+    /// The models that were named, then those of the directories, sorted by name.
     fn paths(&self) -> Result<Vec<PathBuf>, Error> {
         let mut paths = self.models.clone();
         for directory in &self.directories {
-            // A directory is watched too: a model added to it is to be found.
+            // The directory itself is watched, too, so that a model added to it is found.
             rerun_if_changed(directory);
             let error = |source| Error::File {
                 path: directory.clone(),
@@ -357,14 +360,15 @@ impl Config {
     }
 }
 
-/// What `include_model!` looks a name up in.
+/// The file in which `include_model!` looks up names.
 const INDEX: &str = "bryant-models.rs";
 
-/// A variable of this name and that of the model has the path of its module, where the crate is compiled.
+/// Prefix of an environment variable: followed by the name of a model, it holds the path of the model's module while
+/// the crate is compiled.
 const VARIABLE: &str = "BRYANT_MODEL_";
 
-/// The macro that `include_model!` calls: it takes in a model that a build script wrote to this directory, by whichever call, or is an error
-/// that lists them.
+/// The text of the macro that `include_model!` calls. The macro includes a model that any call of a build script wrote
+/// to this directory; for another name it is an error that lists the models there.
 fn index(directory: &Path) -> io::Result<String> {
     let mut names = Vec::new();
     for entry in std::fs::read_dir(directory)? {
@@ -399,11 +403,11 @@ fn index(directory: &Path) -> io::Result<String> {
     Ok(text)
 }
 
-/// How the text of every module begins.
+/// The beginning of every module.
 const HEAD: &str = "// @generated by bryant-generator";
 
-/// The text of a module with files of the user's included by path. One that begins with documentation or attributes of the file itself
-/// (`//!`, `#![…]`) cannot be included, and stays pasted.
+/// The text of a module in which the user's Rust files are included by path. A file that begins with documentation or
+/// attributes of its own (`//!`, `#![…]`) cannot be included, so it stays pasted.
 #[doc(hidden)]
 pub fn including(generated: &Generated) -> String {
     let mut text = generated.source.clone();
@@ -416,14 +420,14 @@ pub fn including(generated: &Generated) -> String {
             continue;
         };
         let path = beside.map_or(PathBuf::from(&source.name), |at| at.join(&source.name));
-        // As the compiler finds it: from the directory of the package, where build scripts run.
+        // The path as the compiler finds it: relative to the package's directory, in which build scripts run.
         let included = syn::parse_file(&source.text)
             .is_ok_and(|file| file.attrs.is_empty() && file.shebang.is_none())
             && path.is_file();
         if included {
             let shown = path.display().to_string();
             let place = match path.is_absolute() {
-                // such a path may begin with `\\?\` on Windows, which needs backslashes
+                // an absolute path may begin with `\\?\` on Windows, which needs backslashes
                 true => format!("{shown:?}"),
                 false => format!(
                     "::core::concat!(::core::env!(\"CARGO_MANIFEST_DIR\"), {:?})",
@@ -439,7 +443,7 @@ pub fn including(generated: &Generated) -> String {
     text
 }
 
-/// Two models that would be written to one file.
+/// A problem for each two models that would be written to one file.
 fn same_names(all: &[Generated]) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
     for (i, generated) in all.iter().enumerate() {
@@ -460,7 +464,7 @@ fn same_names(all: &[Generated]) -> Vec<Diagnostic> {
     problems
 }
 
-/// Cargo sets both for build scripts, and not both for anything else.
+/// True in a build script: only there does cargo set both variables.
 fn under_cargo() -> bool {
     std::env::var_os("CARGO_MANIFEST_DIR").is_some() && std::env::var_os("OUT_DIR").is_some()
 }
@@ -471,7 +475,7 @@ fn rerun_if_changed(path: &Path) {
     }
 }
 
-/// One line for cargo per problem.
+/// Reports each problem to cargo on one line.
 fn report(error: &Error) {
     match error {
         Error::Description(problems) => {
@@ -483,16 +487,16 @@ fn report(error: &Error) {
     }
 }
 
-/// Replaces a file as a whole, unless it has this text already.
+/// Replaces a file as a whole, unless it has the same text already.
 fn write(path: &Path, text: &str) -> io::Result<()> {
     if read_bytes(path, text.len() as u64).is_ok_and(|old| old == text.as_bytes()) {
         return Ok(());
     }
-    // In the same directory, so that renaming stays within one file system.
+    // The temporary file is in the same directory, so that renaming stays within one file system.
     let temporary = path.with_extension(format!("{}.tmp", std::process::id()));
     std::fs::write(&temporary, text)?;
     std::fs::rename(&temporary, path).inspect_err(|_| {
-        // The first error is the one to tell.
+        // The first error is returned, so a second one is ignored.
         let _ = std::fs::remove_file(&temporary);
     })
 }

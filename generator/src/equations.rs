@@ -1,7 +1,7 @@
 //! The equations of motion of one model: S(q) q̈ = r_s(q, q̇) + r_k(t, q, q̇)   \[MADYMO 1980, eq. 2\]
 //!
-//! The one type between derivation and emission: a graph with named outputs. v stands for q̇ in the plane and in Bryant
-//! coordinates; in space with quaternions v holds ẋ and ω, and S, r_s, r_k belong to v̇.
+//! This type connects derivation and code generation: a graph with named results. v is q̇ in the plane and with Bryant
+//! angles; in space with quaternions v holds ẋ and ω, and S v̇ = r_s + r_k.
 
 use crate::expression::{Graph, NodeId};
 use crate::model::Rule;
@@ -20,67 +20,68 @@ pub struct Equations {
     pub initial_velocities: Vec<NodeId>,
     /// q̇ as functions of q and v.
     pub coordinate_rates: Vec<NodeId>,
-    /// S, V×V, symmetric, by rows.
+    /// S, a symmetric matrix of the size of v, by rows.
     pub mass_matrix: Vec<Vec<NodeId>>,
-    /// r_s, V.
+    /// r_s, of the length of v.
     pub velocity_forces: Vec<NodeId>,
-    /// r_k, V.
+    /// r_k, of the length of v.
     pub applied_forces: Vec<NodeId>,
-    /// v̇, V, by the route that counts fewest operations.
+    /// v̇, by `route`.
     pub accelerations: Vec<NodeId>,
-    /// Which route that is.
+    /// The route by which v̇ is computed.
     pub route: Route,
     /// The states z that force laws add to q and v, integrated with them.
     pub auxiliaries: Vec<LawState>,
-    /// The charts of Bryant angles, and what force laws remember, m: constant during a step, renewed from the state reached
-    /// when a step is accepted.
+    /// m: the charts of Bryant angles, and the memories of force laws. They are constant during a step, and are renewed
+    /// after an accepted step from the state that it has reached.
     pub memory: Vec<LawState>,
-    /// How many of m, the first, are charts: one for each element in Bryant angles, else none.
+    /// Number of charts, the first entries of m: one for each element with Bryant angles.
     pub charts: usize,
-    /// q after a step that was accepted with a state: other angles where a chart changes, else q itself.
+    /// q after an accepted step: other angles if a chart changes, otherwise q itself.
     pub renewed_coordinates: Vec<NodeId>,
-    /// v after a step that was accepted with a state.
+    /// v after an accepted step.
     pub renewed_velocities: Vec<NodeId>,
     /// Functions whose change of sign ends a step: where a force law changes its branch.
     pub event_functions: Vec<Named>,
-    /// Functions whose change of sign is where a force law is not smooth, though no memory depends on it.
+    /// Functions that change sign where a force law is not smooth, but on which no memory depends.
     pub kinks: Vec<Named>,
-    /// When laws that do not act begin to, and behind them how far the corners of curves are.
+    /// The onsets of laws that do not act, then the corners of curves.
     pub onsets: Vec<Onset>,
-    /// How many of the onsets are corners, the last ones.
+    /// Number of corners, the last ones of the onsets.
     pub corners: usize,
     /// The curves of the state, with their arguments.
     pub curves: Vec<CurveOfState>,
-    /// What parameters must keep.
+    /// The conditions that parameters must satisfy.
     pub conditions: Vec<Condition>,
-    /// Pivots of the elimination that may vanish in some position, as shares of what stands in their place before; those of an
-    /// element behind each other.
+    /// Pivots of the elimination that may vanish in some position, each divided by its diagonal entry of S; the pivots
+    /// of an element follow one another.
     pub pivots: Vec<Named>,
     /// T, the kinetic energy of all elements \[J\].
     pub kinetic_energy: NodeId,
-    /// Power of each effect \[W\]: together the rate of the kinetic energy.
+    /// Power of each effect \[W\]; their sum is the rate of the kinetic energy.
     pub powers: Vec<Named>,
-    /// Linear \[N s\] and angular momentum about the origin \[N m s\] of all systems whose reference joint is free, absolute
-    /// axes; nothing where there is none.
+    /// Linear \[N s\] and angular momentum about the origin \[N m s\] of all systems whose reference joint is free, in
+    /// absolute axes; empty if there is no such system.
     pub momentum: Vec<NodeId>,
-    /// The resultant \[N\] and the moment about the origin \[N m\] of what acts on them: the rate of the momentum.
+    /// The resultant force \[N\] and moment about the origin \[N m\] on these systems: the rate of the momentum.
     pub external_wrench: Vec<NodeId>,
     /// The model's outputs, in its order.
     pub outputs: Vec<NodeId>,
-    /// Curves of time: the index of each, and the factor that makes its abscissa of time.
+    /// Curves of time: for each its index, and the factor of time in its abscissa.
     pub curves_of_time: Vec<(usize, NodeId)>,
     /// Groups of coordinates (index ranges) that form unit quaternions.
     pub quaternions: Vec<std::ops::Range<usize>>,
 }
 
-/// When a law that does not act begins to.
+/// The onset of a law, or a corner of a curve.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Onset {
-    /// Which law, and what begins ("contact hit: touches").
+    /// The law and the event ("contact hit: touches").
     pub name: String,
-    /// Positive while the law certainly does not act; of a corner how far it is, on one side positive, on the other negative.
+    /// For a law: positive while it certainly does not act. For a corner: the distance of the abscissa from it,
+    /// positive on one side and negative on the other.
     pub gap: NodeId,
-    /// How fast the gap changes at most, in its unit per second, never negative.
+    /// Upper bound of the rate of change of the gap, in the gap's unit per second; never negative.
     pub speed: NodeId,
 }
 
@@ -106,12 +107,12 @@ pub struct LawState {
     pub unit: &'static str,
     /// Value at the start of a run (a function of parameters).
     pub initial: NodeId,
-    /// Of an auxiliary its rate, of a memory its value after an accepted step; functions of t, q, v, z, m.
+    /// For an auxiliary state its rate, for a memory its value after an accepted step; functions of t, q, v, z, m.
     pub next: NodeId,
 }
 
 impl Equations {
-    /// The curves of time that parameters stretch, each with its rate.
+    /// The curves of time whose rate depends on parameters, each with its rate.
     pub fn stretched_curves_of_time(&self) -> impl Iterator<Item = (usize, NodeId)> + '_ {
         let curves = self.curves_of_time.iter().copied();
         curves.filter(|(_, rate)| self.graph.expr(*rate).as_constant().is_none())
@@ -127,51 +128,53 @@ pub struct Named {
     pub value: NodeId,
 }
 
-/// What stands for the bearing of a joint that is bent by less than 90° \[rad\], and for the direction of a contact that does not push.
+/// The value in place of the bearing of a joint that is bent by less than 90° \[rad\], and of the direction of a
+/// contact that does not push.
 pub const NO_BEARING: f64 = 10.0;
-/// Least share of its volume that is left to the gas of an airbag.
+/// Smallest share of its volume that is left to the gas of an airbag.
 pub const LEAST_VOLUME: f64 = 0.02;
 
-/// A curve at an argument that depends on the state, or the bearing of a bent joint or the direction of a contact, which are watched like one.
+/// A curve whose argument depends on the state, or another quantity that is watched like such an argument.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CurveOfState {
-    /// Whose it is, for people: "joint man/head: elastic curve".
+    /// Owner and curve, for people: "joint man/head: elastic curve".
     pub name: String,
-    /// What it is.
+    /// The kind of quantity.
     pub what: Watched,
-    /// Its argument, as the abscissa of its points; or the bearing \[rad\], or a component of the direction.
+    /// The argument of a curve, as an abscissa of its points; otherwise the watched quantity itself.
     pub argument: NodeId,
 }
 
-/// What is watched like the argument of a curve.
+/// A quantity that is watched during a run: the argument of a curve, or one that is treated like it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Watched {
     /// The argument of a curve, by its index in [`Model::curves`](crate::model::Model::curves).
     Curve(usize),
-    /// To which side a joint is bent.
+    /// The side to which a joint is bent, as an angle.
     Bearing,
-    /// On which side of ±180° an angle is, where a torque jumps.
+    /// The distance of an angle from ±180°, with its sign; a torque jumps there.
     HalfTurn,
-    /// A component of the direction in which two ellipsoids push each other, or a bushing turns; all components of one follow each other.
+    /// A component of the direction in which two ellipsoids push each other, or about which a bushing turns; the
+    /// components of a direction follow one another.
     Direction(u8),
-    /// The share of the volume of an airbag that what it meets takes.
+    /// The share of an airbag's volume that penetrating bodies take up.
     Volume,
-    /// The push of a fading edge of a plane over the force of the plane.
+    /// The ratio of the push of a fading edge to the force of its plane.
     Edge,
 }
 
-/// What parameters must keep: a function of them, and what it may be.
+/// A condition on parameters: a function of them, and its allowed values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Condition {
     /// For people: "`mass` of man/head must be positive".
     pub name: String,
     /// The function.
     pub value: NodeId,
-    /// What it may be.
+    /// The values that the function may have.
     pub rule: Rule,
 }
 
-/// How accelerations are computed.
+/// The route by which accelerations are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Route {
     /// Elimination from the leaves to the root with 3×3 blocks; S is never assembled.

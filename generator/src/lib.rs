@@ -2,17 +2,20 @@
 //!
 //! ## From a build script
 //!
-//! `Cargo.toml` has this crate among the `[build-dependencies]` and `bryant-runtime` among the `[dependencies]`. In the `main` of `build.rs`,
+//! `Cargo.toml` has this crate among the `[build-dependencies]` and `bryant-runtime` among the `[dependencies]`. In the
+//! `main` of `build.rs`,
 //!
 //! ```no_run
 //! bryant_generator::Config::new().model("models/arm.yaml").generate_or_report();
 //! ```
 //!
-//! and in the crate `mod arm { bryant_runtime::include_model!("arm"); }`. What is wrong with a model is an error of the build, with its place in
-//! the YAML. [`Config`] has the other options: whole directories, coordinates, no matrices for `no_std`.
+//! and in the crate `mod arm { bryant_runtime::include_model!("arm"); }`. Problems of a model are errors of the build,
+//! with their places in the YAML. [`Config`] has the other options: whole directories, coordinates, no matrices for
+//! `no_std`.
 //!
-//! The module has a struct `Mechanism` with its `Parameters`, methods such as `accelerations`, constants for the place of each coordinate,
-//! velocity and output, and `INFO` with names and units. The first page of `bryant_runtime` shows what to do with it.
+//! The module has a struct `Mechanism` with its `Parameters`, methods such as `accelerations`, constants for the index
+//! of each coordinate, velocity and output, and `INFO` with names and units. The first page of `bryant_runtime` shows
+//! how to use it.
 //!
 //! ## As a function
 //!
@@ -34,8 +37,8 @@
 //! # Ok::<(), bryant_generator::Diagnostics>(())
 //! ```
 //!
-//! The steps in between are functions, too: [`model::read`] checks a description, [`dynamics::derive`] makes its equations, [`target::rust::module`]
-//! writes them.
+//! The steps in between are functions, too: [`model::read`] checks a description, [`dynamics::derive`] makes its
+//! equations, [`target::rust::module`] writes them.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod car_part;
@@ -63,24 +66,24 @@ pub mod urdf;
 pub use config::{Config, Generated};
 pub use diagnostic::{Diagnostic, Diagnostics};
 
-/// Why there is no source.
+/// The reason why no source was generated.
 #[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// The description is wrong; every problem with its place and remedy.
     #[error("{0}")]
     Description(#[from] Diagnostics),
-    /// A file could not be written, or a directory not be found.
+    /// A file could not be read or written, or a directory was not found.
     #[error("{}: {source}", path.display())]
     File {
         /// The file.
         path: std::path::PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         source: std::io::Error,
     },
 }
 
-/// As `Display`: what a build script shows that hands the error on by `?`.
+/// The same as `Display`, because a build script that returns the error by `?` prints it by `Debug`.
 impl std::fmt::Debug for Error {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{self}")

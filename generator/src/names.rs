@@ -1,4 +1,4 @@
-//! Identifiers: from the words of a model to names that Rust accepts, each used once.
+//! Identifiers: turns the words of a model into names that Rust accepts, each used once.
 
 use rustc_hash::FxHashSet;
 
@@ -9,7 +9,7 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// A scope in which these names mean something already.
+    /// A scope in which these names are already taken.
     pub(crate) fn with(reserved: &[&str]) -> Self {
         Self {
             taken: reserved.iter().map(|name| name.to_string()).collect(),
@@ -28,7 +28,7 @@ impl Names {
     }
 }
 
-/// Text of the user's on one line: nothing in it can end a comment.
+/// The user's text on one line, so that it cannot end a comment.
 pub(crate) fn plain(text: &str) -> String {
     let printable = |c: char| {
         if c.is_control() || matches!(c, '\u{2028}' | '\u{2029}') {
@@ -40,8 +40,8 @@ pub(crate) fn plain(text: &str) -> String {
     text.chars().map(printable).collect()
 }
 
-/// Words that a target keeps for itself: the keywords of Rust, in lower case. Some cannot even be raw identifiers there, so such a name gets a
-/// trailing underscore instead.
+/// Words that get a trailing underscore: the keywords of Rust, in lower case. Some keywords are not allowed even as raw
+/// identifiers.
 const RESERVED: &[&str] = &[
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
     "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
@@ -50,7 +50,7 @@ const RESERVED: &[&str] = &[
     "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-/// An identifier in snake case for words such as "man/head.angle"; `value` where nothing of the words is left.
+/// An identifier in snake case from words such as "man/head.angle"; `value` if the words contain no letter or digit.
 pub(crate) fn snake(words: &str) -> String {
     let mut name = String::with_capacity(words.len());
     for c in words.chars() {
@@ -69,12 +69,12 @@ pub(crate) fn snake(words: &str) -> String {
     }
 }
 
-/// The same for constants.
+/// The same in the case of constants.
 pub(crate) fn screaming(words: &str) -> String {
     snake(words).trim_end_matches('_').to_ascii_uppercase()
 }
 
-/// The same for types.
+/// The same in the case of types.
 pub(crate) fn camel(words: &str) -> String {
     snake(words)
         .split('_')

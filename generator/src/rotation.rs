@@ -1,15 +1,17 @@
-//! Vectors, rotations and tensors of plain numbers: where bodies are while a model is read, and the principal axes of a tensor.
+//! Vectors, rotations and tensors of plain numbers: for the places of bodies while a model is read, and for principal
+//! axes.
 
 /// A vector \[x, y, z\].
 pub type Vector = [f64; 3];
 
-/// A matrix by rows. Of a rotation: local → outer frame.
+/// A matrix by rows. A rotation matrix turns the local frame to the outer frame.
 pub type Matrix = [[f64; 3]; 3];
 
-/// The matrix that changes nothing.
+/// The unit matrix.
 pub const IDENTITY: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Angles closer than this to a multiple of 90° are that multiple, written with all digits of `f64` \[rad\].
+/// An angle that is closer than this to a multiple of 90° counts as that multiple, written with all digits of `f64`
+/// \[rad\].
 const RIGHT_ANGLE_TO: f64 = 1e-15;
 
 /// a·b.
@@ -92,7 +94,7 @@ pub fn of_roll_pitch_yaw([roll, pitch, yaw]: Vector) -> Matrix {
     ]
 }
 
-/// The rotation of a quaternion (x, y, z, w), whose length does not matter; `None` for one of zero length.
+/// The rotation of a quaternion (x, y, z, w) of any length; `None` if the length is zero or not finite.
 pub fn of_quaternion(q: [f64; 4]) -> Option<Matrix> {
     let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
     if !(norm > 0.0 && norm.is_finite()) {
@@ -121,7 +123,7 @@ pub fn of_quaternion(q: [f64; 4]) -> Option<Matrix> {
 /// Bryant angles of a rotation, A = Rx(φ₁) Ry(φ₂) Rz(φ₃).
 pub fn bryant_angles(a: &Matrix) -> Vector {
     let across = libm::hypot(a[0][0], a[0][1]);
-    // close to φ₂ = ±90° only φ₁ ± φ₃ is known: φ₃ = 0
+    // close to φ₂ = ±90° only φ₁ ± φ₃ is determined, so φ₃ is set to 0
     if across < 1e-12 {
         let first = libm::atan2(a[2][1], a[1][1]);
         return [first, libm::atan2(a[0][2], across), 0.0];
@@ -133,10 +135,11 @@ pub fn bryant_angles(a: &Matrix) -> Vector {
     ]
 }
 
-/// Principal values of a symmetric tensor, and the rotation from its principal axes to those that it is given in.
+/// The principal values of a symmetric tensor, and the rotation from its principal axes to the axes in which it is
+/// given.
 ///
-/// Jacobi's method: each step makes one entry outside the diagonal zero. Entries that are zero stay so where they can: a
-/// tensor that is diagonal is not turned.
+/// Jacobi's method: each step makes one off-diagonal entry zero. Entries that are zero stay zero if possible; a
+/// diagonal tensor is not turned.
 pub fn principal(tensor: &Matrix) -> (Vector, Matrix) {
     let mut a = *tensor;
     let mut axes = IDENTITY;

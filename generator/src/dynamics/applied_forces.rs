@@ -2,9 +2,9 @@
 //!
 //! r_x = F_out,root,   r_k = E_kᵀ (τ_k + Σ_c u_c × F_out,c)
 //!
-//! F_out = F + Σ_c F_out,c is summed from the leaves to the root. τ_k is the moment about joint k of the forces that act on element k. A field a
-//! that is common to a whole system needs no sum: it acts as M a on the reference joint, and as w_k × a on element k. A given acceleration of the
-//! reference joint acts as a field with the opposite sign.
+//! F_out = F + Σ_c F_out,c is summed from the leaves to the root. τ_k is the moment about joint k of the forces that
+//! act on element k. A field a that is common to a whole system needs no sum: it acts as M a on the reference joint,
+//! and as w_k × a on element k. A given acceleration of the reference joint acts as a field with the opposite sign.
 //!
 //! Systems with other joints get r_k from the [power of wrenches](super::spatial).
 

@@ -1,9 +1,11 @@
-//! The augmented body of each element, for trees of ball joints: the masses outboard of it act as points on its joints.   \[Wittenburg 1977\]
+//! The augmented body of each element, for trees of ball joints: the masses outboard of it act as points on its joints.
+//! \[Wittenburg 1977\]
 //!
 //! M_k = Σ m_i,   b_k = m_k g_k + Σ_c M_c s_c,   J_k = I_k + m_k (g²·1 − g gᵀ) + Σ_c M_c (s_c²·1 − s_c s_cᵀ)
 //!
-//! The first sum is over element k and all elements outboard of it; the others are over its children c. M is mass, b first moment, and J inertia
-//! about the joint. All three are constant in the frame of the element, in every motion. The equations use w = A b and A J Aᵀ in absolute axes.
+//! The first sum is over element k and all elements outboard of it; the others are over its children c. M is mass, b
+//! first moment, and J inertia about the joint. All three are constant in the frame of the element, in every motion.
+//! The equations use w = A b and A J Aᵀ in absolute axes.
 
 use super::kinematics::{Motion, children, constant_rotation, identifier, path};
 use super::numbers::{number, vector};
@@ -23,12 +25,13 @@ pub struct AugmentedBody<'g> {
     pub gyroscopic: bool,
 }
 
-/// The gyroscopic moment ω × Jω of an element that is left out, to measure what it costs. No real body has the equations without it.
+/// The element whose gyroscopic moment ω × Jω is left out of the equations, to measure the cost of that moment. Such
+/// equations describe no real body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Omitted(pub ElementId);
 
 impl Omitted {
-    /// Leaves this moment out.
+    /// Leaves out the gyroscopic moment of this element.
     pub fn omit(self, trees: &mut [AugmentedTree<'_>]) {
         let Omitted(id) = self;
         trees[id.system].bodies[id.element].gyroscopic = false;
@@ -77,7 +80,7 @@ impl<'g> AugmentedTree<'g> {
         graph.section("augmented bodies");
         let carried = match model.systems[system].has_balls_alone() {
             true => children.clone(),
-            // the carried body is no point of its carrier
+            // ball joints only: a body on any other joint cannot be lumped as a point mass
             false => vec![Vec::new(); elements.len()],
         };
         let constants = constants(graph, model.dimension, elements, &carried);
@@ -122,7 +125,8 @@ pub fn constants<'g>(
     bodies
 }
 
-/// M, b and J of an element with additional point masses, about an origin in its local frame. The points are given from that origin.
+/// M, b and J of an element with additional point masses, about an origin in its local frame. The points are given from
+/// that origin.
 pub fn with_points<'g>(
     graph: &'g Graph,
     dimension: Dimension,
@@ -187,8 +191,9 @@ fn congruent<'g>(a: &Mat3<'g>, m: &Sym3<'g>) -> Sym3<'g> {
     Sym3::from_fn(|i, j| Vec3(a.0[i]).dot(half[j]))
 }
 
-/// A J Aᵀ of a constant J in fewer operations. With its smallest eigenvalue λ, J − λ·1 = d p pᵀ + e r rᵀ has at most rank two, so A J Aᵀ = λ·1 + d (A
-/// p)(A p)ᵀ + e (A r)(A r)ᵀ. An axisymmetric body has only one of the terms, a spherical one none.
+/// A J Aᵀ of a constant J, in fewer operations than two matrix products. With the smallest eigenvalue λ of J, J − λ·1 =
+/// d p pᵀ + e r rᵀ has at most rank two, so A J Aᵀ = λ·1 + d (A p)(A p)ᵀ + e (A r)(A r)ᵀ. An axisymmetric body has only
+/// one of these terms, a spherical one none.
 pub fn rotated<'g>(graph: &'g Graph, rotation: &Mat3<'g>, inertia: &Sym3<'g>) -> Sym3<'g> {
     if is_spherical(inertia) {
         return *inertia;
@@ -217,8 +222,9 @@ fn numbers(matrix: &Sym3<'_>) -> Option<[[f64; 3]; 3]> {
     Some(values)
 }
 
-/// Writes the symmetric matrix `values` − `smallest`·1 as d p pᵀ + e r rᵀ. `smallest` is the smallest eigenvalue of `values`, so the rank is at most
-/// two. Returns d and p, e and r. The largest component of each vector is 1, and the second vector has a zero.
+/// Writes the symmetric matrix `values` − `smallest`·1 as d p pᵀ + e r rᵀ. `smallest` is the smallest eigenvalue of
+/// `values`, so the rank is at most two. Returns d and p, e and r. The largest component of each vector is 1, and the
+/// second vector has a zero.
 pub fn terms_of_rank_two(values: [[f64; 3]; 3], smallest: f64) -> Vec<(f64, [f64; 3])> {
     let mut rest = values;
     for (i, row) in rest.iter_mut().enumerate() {
@@ -231,7 +237,7 @@ pub fn terms_of_rank_two(values: [[f64; 3]; 3], smallest: f64) -> Vec<(f64, [f64
             .max_by(|&a, &b| rest[a][a].total_cmp(&rest[b][b]).then(b.cmp(&a)))
             .unwrap_or(0);
         let d = rest[pivot][pivot];
-        // A rest below rounding is no direction of the body.
+        // A remainder below rounding counts as 0: the matrix has no further term.
         if d <= 8.0 * f64::EPSILON * scale {
             break;
         }
@@ -245,7 +251,7 @@ pub fn terms_of_rank_two(values: [[f64; 3]; 3], smallest: f64) -> Vec<(f64, [f64
         });
         for (i, row) in rest.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                // Exactly zero in spite of rounding: the pivot's row and column are finished.
+                // Set to exactly 0 in spite of rounding: this row and column are eliminated.
                 *entry = if i == pivot || j == pivot {
                     0.0
                 } else {
@@ -258,7 +264,7 @@ pub fn terms_of_rank_two(values: [[f64; 3]; 3], smallest: f64) -> Vec<(f64, [f64
     terms
 }
 
-/// λ·1 + Σ d p pᵀ, given its trace, so that two entries of the diagonal are sufficient.
+/// λ·1 + Σ d p pᵀ. The third diagonal entry follows from the given trace.
 pub fn sum_of_squares<'g>(
     isotropic: Expr<'g>,
     terms: &[(Expr<'g>, Vec3<'g>)],
@@ -276,7 +282,8 @@ pub fn sum_of_squares<'g>(
     sum
 }
 
-/// The smallest eigenvalue of a symmetric matrix, by Jacobi rotations. They use square roots only, so every machine gives the same bits.
+/// The smallest eigenvalue of a symmetric matrix, by Jacobi rotations. They use square roots only, so every machine
+/// gives the same bits.
 fn smallest_eigenvalue(mut a: [[f64; 3]; 3]) -> f64 {
     for _ in 0..32 {
         let mut off = 0.0;

@@ -1,5 +1,5 @@
-//! The bias forces with the sign reversed, r_s in the paper: minus the forces that the bodies need when v̇ = 0 and no force acts. They follow from
-//! Newton's and Euler's equations of the augmented bodies, for trees of ball joints.
+//! The bias forces with the sign reversed, r_s in the paper: minus the forces that the bodies need when v̇ = 0 and no
+//! force acts. They follow from Newton's and Euler's equations of the augmented bodies, for trees of ball joints.
 //!
 //! r_x = −G_root,   r_k = −E_kᵀ (A J Aᵀ ε + ω × A J Aᵀ ω + Σ_c u_c × G_c + w_k × B_k)   \[MADYMO 1980\]
 //!

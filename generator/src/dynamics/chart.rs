@@ -1,13 +1,15 @@
-//! Two charts of Bryant angles, so that no orientation is singular: A = R(φ) P_c, where c is the chart of the element, 0 or 1.
+//! Two charts of Bryant angles, so that no orientation is singular: A = R(φ) P_c, where c is the chart of the element,
+//! 0 or 1.
 //!
 //! P₀ = 1,   P₁ = Ry(−90°)   ⇒   sin φ₂ = a₁₃ in chart 0, a₁₁ in chart 1
 //!
-//! Bryant angles are singular where sin φ₂ = ±1. A row of a rotation has the length 1. So if |sin φ₂| exceeds [`LIMIT`] in one chart,
-//! it is at most √(1 − LIMIT²) in the other. P₁ is constant in the element, so ω = W(φ) φ̇ is the same function in both charts, and
-//! so is everything that follows from ω. Only where A is used, the columns of R have another order.
+//! Bryant angles are singular where sin φ₂ = ±1. A row of a rotation has the length 1. So if |sin φ₂| exceeds [`LIMIT`]
+//! in one chart, it is at most √(1 − LIMIT²) in the other. P₁ is constant in the element, so ω = W(φ) φ̇ is the same
+//! function in both charts, and so is everything that follows from ω. Only where A is used, the columns of R have
+//! another order.
 //!
-//! The chart is a discrete state, constant during a step, so all stages of a step, its error and its interpolant use one chart. After
-//! an accepted step, [`renewed`] gives the new q, v and c.
+//! The chart is a discrete state, constant during a step, so all stages of a step, its error and its interpolant use
+//! one chart. After an accepted step, [`renewed`] gives the new q, v and c.
 
 use super::force::{LawState, choose};
 use super::kinematics::{Motion, State, inverse_rates};
@@ -17,8 +19,8 @@ use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{ElementId, Model};
 
-/// The |sin φ₂| beyond which the chart changes. It is then at most 0.6 in the new chart, so a body turns by at least 16° before the
-/// chart changes again. Rates are divided by cos φ₂, which is never below 0.6 where a step begins.
+/// The |sin φ₂| beyond which the chart changes. It is then at most 0.6 in the new chart, so a body turns by at least
+/// 16° before the chart changes again. Rates are divided by cos φ₂, which is never below 0.6 where a step begins.
 pub const LIMIT: f64 = 0.8;
 
 /// Angles, their rates, and their chart.
@@ -41,14 +43,14 @@ fn in_second<'g>(chart: Expr<'g>, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'
     choose(chart.graph().constant(0.5), chart, then, otherwise)
 }
 
-/// `then` where a second angle is too near to ±90° in its chart, `otherwise` elsewhere.
+/// `then` if the second angle is too near to ±90° for its chart, `otherwise` elsewhere.
 fn near_pole<'g>(second: Expr<'g>, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
     let limit = second.graph().constant(LIMIT * LIMIT);
     choose(limit, second.sin().squared(), then, otherwise)
 }
 
-/// The angles, rates and chart at the start, for an orientation that is given by Bryant angles in chart 0 and turns with ω (absolute
-/// axes). The chart is the one in which the angles are not near ±90°.
+/// The angles, rates and chart at the start, for an orientation that is given by Bryant angles in chart 0 and turns
+/// with ω (absolute axes). The chart is the one in which the angles are not near ±90°.
 pub fn start<'g>(graph: &'g Graph, angles: [Expr<'g>; 3], omega: Vec3<'g>) -> Charted<'g> {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let (r, [_, second, third]) = bryant(graph, angles);
@@ -103,7 +105,8 @@ pub fn renewed<'g>(
     renewed
 }
 
-/// The charts as discrete states, for all elements in order. [`renewed`] gives their new values, once everything else is derived.
+/// The charts as discrete states, for all elements in order. [`renewed`] gives their new values, once everything else
+/// is derived.
 pub fn memory<'g>(
     model: &Model,
     layout: &Layout,
@@ -127,8 +130,8 @@ pub fn memory<'g>(
         .collect()
 }
 
-/// The same orientation and angular velocity, in the other chart if the second angle is too near to ±90°, otherwise unchanged; `r` is
-/// R(φ).
+/// The same orientation and angular velocity, in the other chart if the second angle is too near to ±90°, otherwise
+/// unchanged; `r` is R(φ).
 ///
 /// R' = A P'ᵀ has the columns (−r₃, r₂, r₁) of R where the chart was 0, and (r₃, r₂, −r₁) where it was 1.
 fn changed<'g>(charted: &Charted<'g>, r: &Mat3<'g>, omega: Vec3<'g>) -> Charted<'g> {
@@ -147,7 +150,7 @@ fn changed<'g>(charted: &Charted<'g>, r: &Mat3<'g>, omega: Vec3<'g>) -> Charted<
         s2.atan2(cosine),
         (-first_row[1]).atan2(first_row[0]),
     ];
-    // the other chart may be singular where it is not used
+    // the other chart may be singular in states where it is not chosen; the divisor 1 keeps its values finite there
     let divisor = near_pole(second, cosine, one);
     let second_axis = Vec3([zero, c1_c2 / divisor, -minus_s1_c2 / divisor]);
     let rates = inverse_rates(second_axis, third, divisor, omega);

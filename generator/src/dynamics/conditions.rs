@@ -1,8 +1,8 @@
-//! The conditions that parameters must satisfy so that the model is valid: the requirements on its numbers, as far as parameters
-//! decide them.
+//! The conditions that parameters must satisfy so that the model is valid: the requirements on its numbers, as far as
+//! parameters decide them.
 //!
-//! The default values were checked by the same requirements when the description was read. The values of a run are checked before
-//! it begins.
+//! The default values were checked by the same requirements when the description was read. The values of a run are
+//! checked before it begins.
 
 use super::kinematics::Motion;
 use super::numbers::number;

@@ -3,8 +3,8 @@
 use crate::expression::live::{Dependence, Live};
 use crate::expression::{Function, Graph, Node, NodeId, Symbol};
 
-/// The curves that some results evaluate at multiples of time, each with its factor. Each pair occurs once, in the order
-/// of the graph.
+/// The curves that the roots evaluate at multiples of time: for each the index of the curve and the node of the factor.
+/// Each pair occurs once, in the order of the graph.
 pub fn of(graph: &Graph, roots: &[NodeId]) -> Vec<(usize, NodeId)> {
     let live = Live::new(graph, roots);
     let mut found = Vec::new();

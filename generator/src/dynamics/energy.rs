@@ -1,11 +1,11 @@
 //! The energy balance: dT/dt = Σ P, where T is the kinetic energy of all elements and P the power of each effect.
 //!
-//! A force between two bodies has the power F·(velocity of one point minus that of the other), so the power of a contact or a
-//! belt does not depend on the observer. A field has the power Σ m a·v over the elements on which it acts. A prescribed
-//! reference joint exerts R = Σ m p̈ − Σ F, the force that the elements of its system need in addition to the forces on them,
-//! with the power R·ẋ. If a vehicle turns a root that is not on a ball joint, the power M·ω is added, where M is the moment
-//! that their joint transmits. The drive of a vehicle overcomes the forces F on it and their moment M about its origin, with
-//! the power −F·ẋ − M·ω.
+//! A force between two bodies has the power F·(velocity of one point minus that of the other), so the power of a
+//! contact or a belt does not depend on the observer. A field has the power Σ m a·v over the elements on which it acts.
+//! A prescribed reference joint exerts R = Σ m p̈ − Σ F, the force that the elements of its system need in addition to
+//! the forces on them, with the power R·ẋ. If a vehicle turns a root that is not on a ball joint, the power M·ω is
+//! added, where M is the moment that the root's joint transmits. The drive of a vehicle overcomes the forces F on it
+//! and their moment M about its origin, with the power −F·ẋ − M·ω.
 
 use super::force::Product;
 use super::numbers::{number, vector};

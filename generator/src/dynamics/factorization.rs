@@ -1,13 +1,14 @@
 //! Factorisation of the mass matrix, S = L D Lᵀ, and the accelerations by it: v̇ = L⁻ᵀ D⁻¹ L⁻¹ (r_s + r_k).
 //!
-//! Rows go from the leaves to the root. So entries that the tree leaves empty stay empty: entry (i, j) is not 0 only if one of the two elements
-//! carries the other.   \[Featherstone 2008, ch. 6.5\]   There is no square root and one division per row. The pivots D are positive because S is
-//! positive definite.
+//! Rows go from the leaves to the root. So entries that the tree leaves empty stay empty: entry (i, j) is not 0 only if
+//! one of the two elements carries the other.   \[Featherstone 2008, ch. 6.5\]   There is no square root and one
+//! division per row. The pivots D are positive because S is positive definite.
 //!
-//! [`Ldl`] also factorises the small matrices of single joints in the articulated-body algorithm, such as the 3×3 matrix of a ball joint. No inverse
-//! is formed.
+//! [`Ldl`] also factorises the small matrices of single joints in the articulated-body algorithm, such as the 3×3
+//! matrix of a ball joint. No inverse is formed.
 //!
-//! A pivot is the articulated inertia of its degree of freedom: the rest of S_ii when the degrees of freedom further out are free to move.
+//! A pivot is the articulated inertia of its degree of freedom: the rest of S_ii when the degrees of freedom further
+//! out are free to move.
 
 use super::layout::Layout;
 use crate::expression::{Expr, Graph};
@@ -101,9 +102,10 @@ impl<'g> Ldl<'g> {
     }
 }
 
-/// For each rotation, the share of its diagonal entry of S that remains after the rotations of the elements further out are eliminated, with the path
-/// of its element. It is 0 where nothing resists a rotation while the elements outboard move freely. If all moments of inertia are positive, that is
-/// impossible.
+/// For each velocity of an element: the ratio of its pivot to its diagonal entry of S, i.e. the share of the inertia
+/// that remains after the velocities further out are eliminated, with the path of the element. The ratio is 0 if
+/// nothing resists this velocity while the elements outboard move freely. If all moments of inertia are positive, that
+/// is impossible.
 pub fn pivots<'g>(
     graph: &'g Graph,
     model: &Model,
@@ -125,7 +127,8 @@ pub fn pivots<'g>(
     pivots
 }
 
-/// The largest number of degrees of freedom for which [`pivots`] are worth their statements.
+/// The largest number of degrees of freedom for which the [`pivots`] are derived; beyond, they would take too many
+/// statements.
 pub const MOST_PIVOTS: usize = 60;
 
 /// Whether an element has a moment of inertia of 0.

@@ -2,9 +2,9 @@
 //!
 //! p_c = p + u_c,   ṗ_c = ṗ + ω × u_c,   γ(v) = ω × (ω × v) + ε × v
 //!
-//! u_c = A s_c is the position of the joint of child c on a ball joint. ε is the part of the angular acceleration that remains when v̇ = 0. The
-//! motion of an element by its own joint is in the files of [joints](crate::joint): `ball`; `twist` for joints with coordinates of their own; `free`
-//! and `prescribed` for reference joints.
+//! u_c = A s_c is the position of the joint of child c on a ball joint. ε is the part of the angular acceleration that
+//! remains when v̇ = 0. The motion of an element by its own joint is in the files of [joints](crate::joint): `ball`;
+//! `twist` for joints with coordinates of their own; `free` and `prescribed` for reference joints.
 
 use super::layout::Layout;
 use super::numbers::{bryant, vector};
@@ -60,7 +60,8 @@ pub struct ElementMotion<'g> {
     pub rotation: Mat3<'g>,
     /// φ in the plane, 0 in space \[rad\].
     pub angle: Expr<'g>,
-    /// The axes e_j about which its velocities v_j turn it. On a ball joint ω = Σ e_j v_j; on any other joint ω of the carrier is added.
+    /// The axes e_j about which its velocities v_j turn it. On a ball joint ω = Σ e_j v_j; on any other joint ω of the
+    /// carrier is added.
     pub axes: Vec<Vec3<'g>>,
     /// The vectors s_j by which its velocities v_j move its origin relative to the carrier; empty on a ball joint.
     pub slides: Vec<Vec3<'g>>,
@@ -72,16 +73,18 @@ pub struct ElementMotion<'g> {
     pub omega: Vec3<'g>,
     /// ω · ω
     omega_squared: Expr<'g>,
-    /// ε, the angular acceleration when v̇ = 0 \[rad/s²\]. On a ball joint it is Σ ė_j v_j, which is zero except for Bryant angles.
+    /// ε, the angular acceleration when v̇ = 0 \[rad/s²\]. On a ball joint it is Σ ė_j v_j, which is zero except for
+    /// Bryant angles.
     pub bias: Vec3<'g>,
-    /// The acceleration of the origin minus that of the carrier's origin, when v̇ = 0 \[m/s²\]; for the root, minus that of the reference joint. It
-    /// is zero on ball joints, where [`ElementMotion::gamma`] of the carrier gives it.
+    /// The acceleration of the origin minus that of the carrier's origin, when v̇ = 0 \[m/s²\]; for the root, minus
+    /// that of the reference joint. It is zero on ball joints, where [`ElementMotion::gamma`] of the carrier gives it.
     pub slide_bias: Vec3<'g>,
     /// Position of the joint, in absolute axes \[m\].
     pub position: Vec3<'g>,
     /// Velocity of the joint, in absolute axes \[m/s\].
     pub velocity: Vec3<'g>,
-    /// Position of the origin relative to that of the parent, u = A_parent s on a ball joint; for the root, relative to the reference joint \[m\].
+    /// Position of the origin relative to that of the parent, u = A_parent s on a ball joint; for the root, relative to
+    /// the reference joint \[m\].
     pub offset: Vec3<'g>,
 }
 
@@ -236,7 +239,8 @@ impl<'g> Motion<'g> {
         }
     }
 
-    /// A point at which forces attach: its offset from the body's joint, its position and its velocity, in absolute axes.
+    /// A point at which forces attach: its offset from the body's joint, its position and its velocity, in absolute
+    /// axes.
     pub fn attachment(&self, graph: &'g Graph, attachment: &Attachment) -> Point<'g> {
         let body = self.body(attachment.on);
         let offset = body.rotation.times(vector(graph, &attachment.at));

@@ -1,11 +1,13 @@
-//! Lagrange's equations, the route of the paper: differentiates the kinetic energy. It is slow, but independent of the other routes.
+//! Lagrange's equations, the route of the paper: differentiates the kinetic energy. It is slow, but independent of the
+//! other routes.
 //!
 //! T = ½ Σ m ṙ·ṙ + ½ Σ ω'ᵀ I ω',   S = ∂²T/∂q̇²,   r_s = ∂T/∂q − (∂²T/∂q̇∂q) q̇ − ∂²T/∂q̇∂t
 //!
-//! It shares with the rest of the generator only the rotation matrices and the numbers of the model. Positions are composed along the tree,
-//! velocities are ṙ = Σ (∂r/∂q_i) q̇_i by differentiation, and the angular velocity is read from Aᵀ Ȧ = ω̂'. If a reference joint is moved as
-//! given, T depends on time, and r_s contains the inertia against the given acceleration, which the other routes count in r_k. Tests use it
-//! to check the equations, in the plane and with Bryant angles (where v = q̇ in either chart).
+//! It shares with the rest of the generator only the rotation matrices and the numbers of the model. Positions are
+//! composed along the tree, velocities are ṙ = Σ (∂r/∂q_i) q̇_i by differentiation, and the angular velocity is read
+//! from Aᵀ Ȧ = ω̂'. If the motion of a reference joint is prescribed, T depends on time, and r_s contains the inertia
+//! against the prescribed acceleration, which the other routes count in r_k. Tests compare the equations with it, in
+//! the plane and with Bryant angles (where v = q̇ in either chart).
 
 use super::kinematics::constant_rotation;
 use super::layout::{Layout, Orientation};
@@ -24,7 +26,7 @@ pub struct Lagrange {
     pub graph: Graph,
     /// S, by rows.
     pub mass_matrix: Vec<Vec<NodeId>>,
-    /// r_s, including the inertia against given accelerations.
+    /// r_s, including the inertia against prescribed accelerations.
     pub velocity_forces: Vec<NodeId>,
 }
 
@@ -36,7 +38,7 @@ pub enum NoLagrange {
         "Lagrange's equations need v = q̇, which is not so of quaternions: derive the model in `coordinates: bryant`"
     )]
     Quaternions,
-    /// Cannot happen for a model: its kinetic energy contains only algebra, sines, cosines and curves of time.
+    /// Cannot occur: the kinetic energy of a model contains only algebra, sines, cosines and curves of time.
     #[error(transparent)]
     NotDifferentiable(#[from] NotDifferentiable),
 }
@@ -154,8 +156,8 @@ fn energy_of<'g>(
     Ok(energy + sum(graph, turns))
 }
 
-/// Position and rotation that the degrees of freedom of a joint give an element, in the frame of its carrier, by products of matrices:
-/// Rodrigues' formula for each.
+/// Position and rotation that the degrees of freedom of a joint give an element, in the frame of its carrier, by
+/// products of matrices: Rodrigues' formula for each.
 fn placed<'g>(graph: &'g Graph, freedoms: &[Freedom], q: &[Expr<'g>]) -> (Vec3<'g>, Mat3<'g>) {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let mut turn = Mat3([[one, zero, zero], [zero, one, zero], [zero, zero, one]]);
@@ -241,7 +243,7 @@ fn rate<'g>(graph: &'g Graph, of: [Expr<'g>; 3]) -> Result<[Expr<'g>; 3], NotDif
     Ok(std::array::from_fn(|i| graph.expr(rates[i])))
 }
 
-/// The direction in which q moves with q̇, and time with 1.
+/// The rate of a symbol: q̇ for q, 1 for time, 0 for any other.
 fn following(graph: &Graph, symbol: Symbol) -> Expr<'_> {
     match symbol {
         Symbol::Coordinate(i) => graph.symbol(Symbol::Velocity(i)),

@@ -1,8 +1,8 @@
 //! The coordinates and velocities of a model, their order, and how q̇ follows from v.
 //!
-//! The order is system by system. First come the reference joint's coordinates, if it is free, then those of each element: the
-//! coordinates of its joint, or its orientation on a ball joint. q̇ = v except for quaternions, where q̇ = ½ ω ∘ q. Bryant angles are in
-//! one of two [charts](super::chart), which come first in m.
+//! The order is system by system. First come the reference joint's coordinates, if it is free, then those of each
+//! element: the coordinates of its joint, or its orientation on a ball joint. q̇ = v except for quaternions, where q̇ =
+//! ½ ω ∘ q. Bryant angles are in one of two [charts](super::chart), which come first in m.
 
 use super::kinematics::State;
 use super::numbers::number;
@@ -48,16 +48,17 @@ struct ElementLayout {
     quaternion: bool,
 }
 
-/// A velocity of a joint as a share of one entry of v: q = ratio · q_i + offset, q̇ = ratio · v_j.
+/// A velocity of a joint as a share of one entry of v: q = ratio · q_i + offset, q̇ = ratio · v_j. A coordinate that
+/// follows no other has the ratio 1 and the offset 0.
 #[derive(Clone, Copy)]
 pub struct Share<'g> {
     /// i; for a ball joint, its first coordinate.
     pub coordinate: usize,
     /// j
     pub velocity: usize,
-    /// 1 for a velocity of its own.
+    /// 1 if the velocity is an entry of v itself.
     pub ratio: Expr<'g>,
-    /// 0 for a coordinate of its own.
+    /// 0 if the coordinate is an entry of q itself.
     pub offset: Expr<'g>,
 }
 
@@ -70,7 +71,7 @@ impl Layout {
         let mut systems = Vec::new();
         let mut charts = 0;
         for (s, system) in model.systems.iter().enumerate() {
-            // their positions in q and in v
+            // appends the variables, and returns their ranges in q and in v
             let mut add = |owner: &str, element, variables: Variables| {
                 let first = (coordinates.len(), velocities.len());
                 let variable = |(name, unit)| Variable {
@@ -152,8 +153,8 @@ impl Layout {
         self.element(id).coordinates.clone()
     }
 
-    /// The velocities of an element's joint, each as a share of an entry of v. A degree of freedom that follows another has no entry of
-    /// its own; it is a share of the leader's entry.
+    /// The velocities of an element's joint, each as a share of an entry of v. A degree of freedom that follows another
+    /// has no entry of its own; it is a share of the leader's entry.
     pub fn shares<'g>(&self, graph: &'g Graph, model: &Model, id: ElementId) -> Vec<Share<'g>> {
         let whole = |(coordinate, velocity)| Share {
             coordinate,

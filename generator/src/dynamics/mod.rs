@@ -11,9 +11,10 @@
 //! | D = Hᵀ I H | joint-space inertia, I being the articulated one | `Ldl` of `factorization`, called from `elimination/`, `spatial/articulated_body`, `link/` |
 //! | L d Lᵀ | factorisation of S, and of each D; no inverse is formed | `factorization` |
 //!
-//! All derivations are written once, for space, in vectors of absolute axes; only `link/` uses the frames of links. In the plane the components along
-//! y and the rotations about x and z are the number 0, so they leave no node behind. The coordinates of an orientation differ only in the list of
-//! [axes] that give an element's angular velocity from its generalised velocities: ω = Σ e_j v_j with
+//! All derivations are written once, for space, in vectors of absolute axes; only `link/` uses the frames of links. In
+//! the plane the components along y and the rotations about x and z are the number 0, so they leave no node behind. The
+//! coordinates of an orientation differ only in the list of [axes] that give an element's angular velocity from its
+//! generalised velocities: ω = Σ e_j v_j with
 //!
 //! | | axes e_j |
 //! |---|---|
@@ -23,8 +24,9 @@
 //!
 //! Bryant angles are in one of two [charts](chart), which differ only in the order of the columns of A.
 //!
-//! Notation: m, g, I are mass, centre of gravity and inertia of an element; s is the place of a joint on its parent; A is the rotation local →
-//! absolute; u = A s; w = A b; γ(v) is the velocity-product (bias) acceleration of a vector fixed in an element; D(v) has the columns e_j × v.
+//! Notation: m, g, I are mass, centre of gravity and inertia of an element; s is the place of a joint on its parent; A
+//! is the rotation local → absolute; u = A s; w = A b; γ(v) is the velocity-product (bias) acceleration of a vector
+//! fixed in an element; D(v) has the columns e_j × v.
 //!
 //! [axes]: kinematics::ElementMotion::axes
 
@@ -69,7 +71,8 @@ use spatial::Spatial;
 /// Options of the derivation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Whether to derive S, r_s and r_k, too. Their size grows as elements times depth of the tree, that of the accelerations as elements.
+    /// Whether to derive S, r_s and r_k as well. Their size grows with the number of elements times the depth of the
+    /// tree; that of the accelerations grows with the number of elements alone.
     pub matrices: bool,
     /// The route of the accelerations; `None` takes the route with the fewest operations.
     pub route: Option<Route>,
@@ -84,7 +87,8 @@ impl Default for Options {
     }
 }
 
-/// Number of degrees of freedom up to which the factorised mass matrix is tried. Beyond, the articulated-body algorithm always wins.
+/// Number of degrees of freedom up to which the factorised mass matrix is tried. Beyond, the articulated-body algorithm
+/// always wins.
 const LARGEST_FACTORIZED: usize = 12;
 
 /// Derives the equations of a model: S, r_s, r_k, and the accelerations by the cheapest route.
@@ -131,7 +135,8 @@ fn derive_in(
                 return elimination;
             }
             let factorized = by_route(model, options, Route::MassMatrix, omitted, symbols);
-            // Angles and calls are the same by both routes, so only the operations that the factoring pass reduces are compared.
+            // Both routes have the same angles and calls, so only the operations that the factoring pass can reduce are
+            // compared.
             let cost = |e: &Equations| factor::cost(&Count::of(&e.graph, &e.accelerations));
             if cost(&factorized) < cost(&elimination) {
                 factorized
@@ -292,7 +297,7 @@ impl<'g> Matrices<'g> {
             velocity_forces: bias_forces::velocity_forces(systems, none, size),
             applied_forces: applied_forces::applied_forces(systems, applied, none, size),
         };
-        // accelerations by S have frames of their own, so this search is for who wants S itself
+        // v̇ from S is searched in frames of its own, so the search for frames of S is made only if S itself is wanted
         for spatial in with_axes(systems).filter(|_| wanted) {
             let forces = [
                 &mut matrices.velocity_forces[..],
@@ -304,14 +309,15 @@ impl<'g> Matrices<'g> {
     }
 }
 
-/// The systems that are not of ball joints alone.
+/// The systems that have a joint other than a ball.
 fn with_axes<'a, 'g, 'm>(
     systems: &'a [Spatial<'g, 'm>],
 ) -> impl Iterator<Item = &'a Spatial<'g, 'm>> {
     systems.iter().filter(|spatial| !spatial.has_balls_alone())
 }
 
-/// The pivots of S, with what they belong to, where one may vanish. Derives S where there is none yet.
+/// The pivots of S, each with the path of its element; empty if no pivot can vanish or if S is too large. Derives S
+/// first if `matrix` is empty.
 fn pivots<'g>(
     graph: &'g Graph,
     model: &Model,
@@ -332,7 +338,7 @@ fn pivots<'g>(
     }
 }
 
-/// v̇
+/// v̇ by the given route.
 fn accelerations<'g>(
     graph: &'g Graph,
     layout: &Layout,

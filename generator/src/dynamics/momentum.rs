@@ -1,9 +1,9 @@
 //! The momentum balance: ṗ = Σ F and L̇ = Σ (r × F + M), for all systems together whose reference joint is free.
 //!
-//! p = Σ m v is their linear momentum, and L = Σ (r × m v + I ω) their angular momentum about the origin of the absolute
-//! frame, with the velocities v of the centres of gravity at r. F are the forces of laws and fields on their elements, at r,
-//! and M moments. A force between two of their elements counts on both and cancels. Systems that are held or moved, vehicles
-//! and the absolute frame are outside.
+//! p = Σ m v is their linear momentum, and L = Σ (r × m v + I ω) their angular momentum about the origin of the
+//! absolute frame, with the velocities v of the centres of gravity at r. F are the forces of laws and fields on their
+//! elements, at r, and M moments. A force between two of their elements counts on both and cancels. Systems that are
+//! held or moved, vehicles and the absolute frame are outside.
 
 use super::numbers::{number, vector};
 use super::outputs::Scene;
@@ -52,7 +52,8 @@ pub fn external_wrench<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
     graph.section("external_wrench");
     let (mut force, mut moment) = (Vec3::zero(graph), Vec3::zero(graph));
     for s in free {
-        // laws act by their resultants at the joints; a field of the whole system acts on all centres of gravity at once
+        // laws act by their resultants at the joints; a field of the whole system acts on all centres of gravity at
+        // once
         let field = scene.applied.wrenches.fields[s];
         let (mut mass, mut first_moment) = (graph.constant(0.0), Vec3::zero(graph));
         for (k, element) in scene.model.systems[s].elements.iter().enumerate() {

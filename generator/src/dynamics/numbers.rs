@@ -11,7 +11,8 @@ pub fn number<'g>(graph: &'g Graph, number: &Number) -> Expr<'g> {
     })
 }
 
-/// The expression of arithmetic on what has indices.
+/// The expression of a number whose indexed operands (for a number of the model, its parameters) are given by
+/// `indexed`.
 pub fn arithmetic<'g>(
     graph: &'g Graph,
     number: &Number,

@@ -1,17 +1,18 @@
 //! The outputs of a scene.
 //!
-//! The acceleration of a point at the offset ρ is p̈ + ω̇ × ρ + ω × (ω × ρ), where p̈ of the joints is summed from the reference joint
-//! outwards. An accelerometer reads this minus the fields, which act on its own mass, too.
+//! The acceleration of a point at the offset ρ is p̈ + ω̇ × ρ + ω × (ω × ρ), where p̈ of the joints is summed from the
+//! reference joint outwards. An accelerometer reads this minus the fields, which act on its own mass, too.
 //!
-//! An observer rides on a body b with its origin at o. With r = p − o, all in absolute axes, he sees the point p move with
+//! An observer rides on a body b with its origin at o. With r = p − o, all in absolute axes, he sees the point p move
+//! with
 //!
 //! r,   ṙ − ω_b × r,   r̈ − ω̇_b × r − ω_b × (ω_b × r) − 2 ω_b × (ṙ − ω_b × r)
 //!
 //! and a rotation ω with the angular velocity ω − ω_b and the angular acceleration ω̇ − ω̇_b − ω_b × (ω − ω_b).
 //!
-//! A joint transmits the force Σ (m a − m g − F) to the element that it carries, summed over that element and all that this carries. A
-//! ball joint turns freely, so it transmits only the moment of its laws. Any other joint transmits
-//! Σ (r × (m a − m g − F) + I α + ω × I ω − M), with r from the element's origin.
+//! A joint transmits the force Σ (m a − m g − F) to the element that it carries, summed over that element and all that
+//! this carries. A ball joint turns freely, so it transmits only the moment of its laws. Any other joint transmits Σ (r
+//! × (m a − m g − F) + I α + ω × I ω − M), with r from the element's origin.
 
 use super::augmented::{own_inertia, rotated};
 use super::force::AppliedForces;
@@ -258,14 +259,14 @@ impl<'g> Scene<'g, '_> {
         }
     }
 
-    /// In the plane the angle; in space a Bryant angle, or the angle of the single rotation from the observer's axes to those of the
-    /// body.
+    /// In the plane the angle; in space a Bryant angle, or the angle of the single rotation from the observer's axes to
+    /// those of the body.
     fn angle(&self, body: Body, observer: Body, component: Component) -> Expr<'g> {
         let (motion, carried) = (self.motion.body(body), self.motion.body(observer));
         if self.layout.orientation == Orientation::Angle {
             return motion.angle - carried.angle;
         }
-        // from A, in whichever chart the coordinates are
+        // computed from A, because the coordinates may be in either chart
         let rotation = match observer {
             Body::Frame => motion.rotation,
             _ => carried.rotation.transposed().product(&motion.rotation),
@@ -290,7 +291,7 @@ impl<'g> Scene<'g, '_> {
     fn body_angular_acceleration(&self, body: Body) -> Vec3<'g> {
         match body {
             Body::Element(id) => self.angular_acceleration(id),
-            // the bias is the whole angular acceleration
+            // the motion of a vehicle is given, so the bias is its whole angular acceleration
             Body::Frame | Body::Vehicle(_) => self.motion.body(body).bias,
         }
     }
@@ -412,7 +413,7 @@ impl<'g> Scene<'g, '_> {
             let at = ElementId { element, ..id };
             let motion = self.motion.element(at);
             if motion.turns_with_carrier {
-                // `slide_bias` has the carrier's part of the motion of the origin, except for v̇
+                // `slide_bias` contains the terms of the carrier's motion, except those with v̇
                 sum = sum + self.turn(at).cross(offset) + motion.gamma(offset) + motion.slide_bias;
                 let rates = self.rates_of_joint(at);
                 for (slide, rate) in motion.slides.iter().zip(rates) {
@@ -424,7 +425,7 @@ impl<'g> Scene<'g, '_> {
                 element = parent;
                 let carrier = ElementId { element, ..id };
                 sum = sum + self.turn(carrier).cross(motion.offset);
-                // the rest is the acceleration of the carrier's origin
+                // from here on, only the acceleration of the carrier's origin is missing
                 offset = Vec3::zero(self.graph);
                 continue;
             }

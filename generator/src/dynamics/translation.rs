@@ -6,8 +6,9 @@
 //! | velocity c | v₀ t + ∫ c | v₀ + c | c' |
 //! | acceleration c | v₀ t + ∬ c | v₀ + ∫ c | c |
 //!
-//! A motion that stops follows the last row until t = T, when v₀ + ∫ c first reaches 0. From then on x is x(T), and ẋ and ẍ are 0. T and
-//! x(T) depend on parameters alone. t/T is the abscissa of a curve, so T is one of the times at which curves of time have kinks.
+//! A motion that stops follows the last row until t = T, when v₀ + ∫ c first reaches 0. From then on x is x(T), and ẋ
+//! and ẍ are 0. T and x(T) depend on parameters alone. t/T is the abscissa of a curve, so T is one of the times at
+//! which curves of time have kinks.
 
 use super::force::choose;
 use super::numbers::{derivative, number, vector};
@@ -107,7 +108,7 @@ impl<'g> Stop<'g> {
         let gained = graph.call(CurveDoubleIntegral(curve.curve as u32), &[at]);
         let end = at * stretch;
         let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-        // the value that is not chosen must be finite
+        // both values of a choice must be finite, so an end at 0 is replaced by 1
         let some_end = choose(zero, end, end, one);
         let rate = choose(zero, end, some_end.recip(), zero);
         Stop {

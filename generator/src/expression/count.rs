@@ -2,8 +2,8 @@
 //!
 //! total = additions + subtractions + products + quotients + roots + maxima and minima + 2 · fused multiply-adds
 //!
-//! Signs are counted separately, because they mostly become part of another operation. Sines, cosines, angles and calls are
-//! counted separately, because each costs many operations.
+//! Signs are counted separately, because they mostly become part of another operation. Sines, cosines, angles and calls
+//! are counted separately, because each costs many operations.
 
 use super::graph::Graph;
 use super::live::Live;
@@ -26,7 +26,7 @@ pub struct Count {
     pub div: usize,
     /// √a
     pub sqrt: usize,
-    /// a · b + c, each two operations
+    /// a · b + c, each counted as two operations
     pub fused: usize,
     /// max(a, b), min(a, b)
     pub max_min: usize,
@@ -62,7 +62,7 @@ impl Count {
         count
     }
 
-    /// Adds one node.
+    /// Counts one node.
     pub fn record(&mut self, node: &Node) {
         match node {
             Node::Constant(_) | Node::Symbol(_) | Node::Arguments(_) => {}
@@ -168,7 +168,7 @@ impl fmt::Display for Count {
     }
 }
 
-/// Counts by section of the graph. Each node counts in the section that created it.
+/// Counts by section of the graph. Each node counts in the section in which it was created.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
     /// Each section with its operations, in the order of the sections. Sections without operations are left out.
@@ -228,7 +228,7 @@ impl fmt::Display for Table {
         };
         let first = all().map(|(name, _)| name.chars().count()).max();
         let first = first.unwrap_or(0).max("section".len());
-        // No entry is longer than that of the total.
+        // No entry is wider than that of the total.
         let width = |(name, value): &Column| value(&self.total).to_string().len().max(name.len());
 
         write!(f, "{:first$}", "section")?;

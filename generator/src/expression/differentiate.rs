@@ -1,16 +1,18 @@
 //! Derivatives of expressions, as expressions of the same graph: forward mode, node by node, each node once.
 //!
 //! ```text
-//! (a b)' = a' b + a b'     (a/b)' = (a' − (a/b) b') / b     √a' = a' / (2 √a)     atan2(y, x)' = (x y' − y x') / (x² + y²)
+//! (a b)' = a' b + a b'     (a/b)' = (a' − (a/b) b') / b     √a' = a' / (2 √a)
+//! atan2(y, x)' = (x y' − y x') / (x² + y²)
 //! ```
 //!
-//! The derivative is along a direction: with ẋ for the symbols x, ḟ = Σ ∂f/∂x ẋ. A derivative with respect to one symbol has the
-//! direction (0 … 1 … 0). A time derivative has the direction ṫ = 1, q̇ = the coordinate rates, v̇ = the accelerations.
+//! The derivative is along a direction: with ẋ for the symbols x, ḟ = Σ ∂f/∂x ẋ. A derivative with respect to one
+//! symbol has the direction (0 … 1 … 0). A time derivative has the direction ṫ = 1, q̇ = the coordinate rates, v̇ = the
+//! accelerations.
 //!
 //! The derivative of a curve is its slope, which is differentiable except at the points. The larger of two values is
-//! differentiable only where both have the same derivative: the graph has no choice by sign, and a derivative that is correct on
-//! one side alone would be a trap. The same holds for force laws that branch. Over dual numbers they can be differentiated at run
-//! time.
+//! differentiable here only if both have the same derivative: the graph has no choice by sign, and a derivative that is
+//! correct on one side alone would be a trap. The same holds for force laws with branches. With dual numbers, all of
+//! these can be differentiated at run time.
 
 use super::graph::{Expr, Graph};
 use super::live::Live;
@@ -21,7 +23,7 @@ use rustc_hash::FxHashMap;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what} is not differentiable in symbols; evaluate it over dual numbers instead")]
 pub struct NotDifferentiable {
-    /// The node.
+    /// The node that cannot be differentiated.
     pub node: NodeId,
     /// Name of the function.
     pub what: &'static str,
@@ -53,13 +55,14 @@ pub fn jacobian(
     Ok(rows)
 }
 
-/// Σ ∂(roots)/∂(symbol) · direction(symbol), in the order of the roots. The components of the direction may be any expressions.
+/// Σ ∂(roots)/∂(symbol) · direction(symbol), in the order of the roots. The components of the direction may be any
+/// expressions.
 pub fn differentiate_along<'g>(
     graph: &'g Graph,
     roots: &[NodeId],
     direction: impl Fn(Symbol) -> Expr<'g>,
 ) -> Result<Vec<NodeId>, NotDifferentiable> {
-    // It holds only derivatives that are not 0: a derivative with respect to one symbol concerns few of the nodes.
+    // holds only derivatives that are not 0, because few nodes depend on a single symbol
     let mut derivative: FxHashMap<NodeId, Expr<'g>> = FxHashMap::default();
     for &id in Live::new(graph, roots).nodes() {
         let node = graph.node(id);
@@ -134,8 +137,8 @@ fn rule<'g>(
             Function::Choose => {
                 let given = graph.arguments(id);
                 match given[..] {
-                    // the condition is constant, or a curve of time: then a choice is differentiable except at points, like a
-                    // curve
+                    // a choice is differentiable (except at points, as a curve is) if its condition is constant or
+                    // compares a curve of time
                     [a, b, then, otherwise]
                         if d(b).is_zero() && (d(a).is_zero() || is_curve_of_time(graph, a)) =>
                     {
@@ -152,12 +155,13 @@ fn rule<'g>(
             Function::Approach(call) => return refuse(call.path()),
             Function::Support(_) => return refuse("force::ellipsoid::support"),
         },
-        // It depends on the arguments that it lists; the caller refuses, or asks for the arguments themselves.
+        // A list is not a value. The constant 1 only marks that one of its members has a derivative: the call is
+        // refused, or asks for the derivatives of its arguments themselves.
         Node::Arguments(_) => graph.constant(1.0),
     })
 }
 
-/// Whether a node is a curve at a multiple of time.
+/// True if the node is a curve whose argument is a multiple of time.
 fn is_curve_of_time(graph: &Graph, id: NodeId) -> bool {
     let is_time = |id: NodeId| graph.node(id) == Node::Symbol(Symbol::Time);
     match graph.node(id) {
@@ -169,7 +173,7 @@ fn is_curve_of_time(graph: &Graph, id: NodeId) -> bool {
     }
 }
 
-/// (a b)', a square at half the cost.
+/// (a b)'; for a square, at half the cost.
 fn product<'g>(a: Expr<'g>, da: Expr<'g>, b: Expr<'g>, db: Expr<'g>) -> Expr<'g> {
     if a.id() == b.id() {
         2.0 * (a * da)

@@ -1,8 +1,8 @@
-//! Values of expressions at given inputs, over any scalar: the graph is interpreted, operands before their users.
+//! Evaluates expressions at given inputs, over any scalar type: interprets the graph, operands before their users.
 //!
-//! Tests compare compiled equations with it, and states are printed with it. Over other scalars (double-doubles, dual
-//! numbers) it gives reference values and derivatives without a compiler. The force laws belong to the runtime, so the caller
-//! provides the functions that calls need.
+//! Tests compare compiled equations with these values, and states are printed with them. Over other scalars
+//! (double-doubles, dual numbers) reference values and derivatives are obtained without a compiler. The force laws
+//! belong to the runtime, so the caller provides the functions that calls need.
 
 use super::graph::{Graph, flatten};
 use super::live::Live;
@@ -28,11 +28,11 @@ pub trait Scalar:
     fn cos(self) -> Self;
     /// Angle of the point (`x`, `self`) \[rad\], in \[−π, π\].
     fn atan2(self, x: Self) -> Self;
-    /// The larger of both.
+    /// The larger of the two.
     fn max(self, other: Self) -> Self;
-    /// The smaller of both.
+    /// The smaller of the two.
     fn min(self, other: Self) -> Self;
-    /// `self · a + b`, with one rounding if the scalar can.
+    /// `self · a + b`, with one rounding if the scalar type supports that.
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b
     }
@@ -86,7 +86,7 @@ impl<S, F: Fn(Function, &[S]) -> S> Functions<S> for F {
     }
 }
 
-/// The functions for expressions without calls; a call gives NaN.
+/// The functions for expressions without calls: every call gives NaN.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoFunctions;
 
@@ -117,7 +117,7 @@ impl<S: Copy> Inputs<'_, S> {
     /// The value of one input.
     ///
     /// # Panics
-    /// If the index is beyond what was given.
+    /// If the index is beyond the given inputs.
     pub fn get(&self, symbol: Symbol) -> S {
         match symbol {
             Symbol::Time => self.time,
@@ -133,7 +133,7 @@ impl<S: Copy> Inputs<'_, S> {
 /// The values of `roots`, in their order, at one state. For many states, keep an [`Evaluator`].
 ///
 /// # Panics
-/// If the roots need an input beyond what was given.
+/// If the roots need an input beyond the given ones.
 pub fn evaluate<S: Scalar>(
     graph: &Graph,
     roots: &[NodeId],
@@ -145,7 +145,8 @@ pub fn evaluate<S: Scalar>(
         .to_vec()
 }
 
-/// Roots prepared for many evaluations: the live nodes without gaps, with numbers filled in. Nothing is allocated later.
+/// Roots prepared for many evaluations: the live nodes are stored without gaps, with the constants filled in. An
+/// evaluation allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Evaluator<S> {
     /// The value of each live node.
@@ -155,7 +156,7 @@ pub struct Evaluator<S> {
     steps: Vec<(u32, Step)>,
     /// Arguments of calls, as indices into `values`.
     arguments: Vec<u32>,
-    /// Room for the arguments of one call.
+    /// Buffer for the arguments of one call.
     given: Vec<S>,
     roots: Vec<u32>,
     results: Vec<S>,
@@ -215,7 +216,7 @@ impl<S: Scalar> Evaluator<S> {
     /// The values of the roots at these inputs, in their order.
     ///
     /// # Panics
-    /// If the roots need an input beyond what was given.
+    /// If the roots need an input beyond the given ones.
     pub fn evaluate(&mut self, inputs: &Inputs<'_, S>, functions: &impl Functions<S>) -> &[S] {
         for (target, step) in &self.steps {
             self.values[*target as usize] = match step {
@@ -254,7 +255,7 @@ fn algebra<S: Scalar>(values: &[S], node: Node, inputs: &Inputs<'_, S>) -> S {
         Node::Atan2(a, b) => v(a).atan2(v(b)),
         Node::Max(a, b) => v(a).max(v(b)),
         Node::Min(a, b) => v(a).min(v(b)),
-        // Calls and lists of arguments are not evaluated here.
+        // Calls are evaluated by the caller; a list of arguments has no value.
         Node::Call(..) | Node::Arguments(_) => S::from_f64(f64::NAN),
     }
 }

@@ -1,12 +1,13 @@
-//! The graph of expressions. Its constructors fold: `x + 0 = x`, `x · 1 = x`, `−(a − b) = b − a`, `(−a) · b = −(a · b)`, and so on.
+//! The graph of expressions. Its constructors fold: `x + 0 = x`, `x · 1 = x`, `b − a = −(a − b)`,
+//! `(−a) · b = −(a · b)`, and so on.
 //!
-//! Two rules make common subexpressions coincide up to sign, so that sharing needs no pass of its own. First, the operands of a node
-//! are never negated where the negation can move outwards (products, quotients, sums of two negatives). Second, of `a − b` and
-//! `b − a` only the one whose first operand is older exists; the other is its negation. For the same reason constants in products
-//! are positive.
+//! Two rules make common subexpressions coincide up to sign, so that sharing needs no pass of its own. First, the
+//! operands of a node are never negated where the negation can move outwards (products, quotients, sums of two
+//! negatives). Second, of `a − b` and `b − a` only the one whose first operand is older exists; the other is its
+//! negation. For the same reason constants in products are positive.
 //!
-//! Operands of a node are older than the node, so the order of creation is a topological order. Nothing else decides this order, so
-//! the same model gives the same graph on every run and every machine.
+//! Operands of a node are older than the node, so the order of creation is a topological order. Nothing else decides
+//! this order, so the same model gives the same graph on every run and every machine.
 
 use super::node::{Function, Node, NodeId, Symbol};
 use rustc_hash::{FxHashMap, FxHasher};
@@ -15,7 +16,7 @@ use std::hash::{Hash, Hasher};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
 
-/// The graph. It only grows, and is cheap to share by reference.
+/// The graph. Nodes are only added, unless all are cleared. It is cheap to share by reference.
 #[derive(Clone, Default)]
 pub struct Graph {
     inner: RefCell<Inner>,
@@ -27,21 +28,22 @@ struct Inner {
     index: Index,
     /// The section that created each node.
     section_of: Vec<u32>,
-    /// The same for all graphs that passes make of each other.
+    /// Shared by all graphs that passes derive from this one.
     sections: Arc<Sections>,
     current: u32,
     names: FxHashMap<NodeId, String>,
 }
 
-/// The names of sections, and the place of each.
+/// The names of sections, and the index of each name.
 #[derive(Clone, Default)]
 struct Sections {
     names: Vec<String>,
     places: FxHashMap<String, u32>,
 }
 
-/// Finds a node by what it is: an open table of numbers of nodes, from 1, with 0 where nothing is. Its length is a power of two, of which at most
-/// half is in use. The nodes themselves are in the graph alone.
+/// Finds equal nodes: a hash table with open addressing. A slot has the index of a node plus 1, or 0 if it is free. The
+/// length is a power of two, and at most half of the slots are in use. The nodes themselves are stored in the graph
+/// alone.
 #[derive(Clone, Default)]
 struct Index {
     slots: Vec<u32>,
@@ -49,10 +51,10 @@ struct Index {
 }
 
 impl Index {
-    /// The smallest table.
+    /// Length of the smallest table.
     const SMALLEST: usize = 256;
 
-    /// The node, or the slot where its number belongs. There must be a free slot.
+    /// The index of an equal node, or the free slot for a new one. The table must have a free slot.
     #[inline]
     fn find(&self, nodes: &[Node], node: &Node) -> Result<NodeId, usize> {
         let mask = self.slots.len() - 1;
@@ -86,7 +88,8 @@ impl Index {
         }
     }
 
-    /// Forgets all nodes. The table keeps the length that twice as many nodes need, so that it is not cleared in vain.
+    /// Forgets all nodes. A table much longer than these nodes needed is shortened, so that clearing it again takes
+    /// less time.
     fn clear(&mut self) {
         let needed = (8 * self.used).next_power_of_two().max(Self::SMALLEST);
         self.slots.truncate(needed);
@@ -95,7 +98,7 @@ impl Index {
     }
 }
 
-/// A number whose low bits depend on all of the node.
+/// A hash whose low bits depend on the whole node.
 #[inline]
 fn hash(node: &Node) -> usize {
     // 2⁶⁴ over the golden ratio
@@ -132,7 +135,7 @@ impl Inner {
     }
 }
 
-/// The owner of a section, an element or a system: the words before the colon.
+/// The owner of a section, i.e. an element or a system: the words before the colon.
 pub fn owner(section: &str) -> &str {
     section.split(": ").next().unwrap_or(section)
 }
@@ -152,8 +155,8 @@ impl Graph {
         graph
     }
 
-    /// From here on, new nodes belong to the section with this name ("element head: orientation"). A section is a block of the
-    /// emitted text with its name as a comment, and a row of the operation count.
+    /// From here on, new nodes belong to the section with this name ("element head: orientation"). A section is a block
+    /// of the emitted text with its name as a comment, and a row of the operation count.
     pub fn section(&self, name: impl Into<String>) {
         let name = name.into();
         let mut inner = self.inner.borrow_mut();
@@ -201,8 +204,8 @@ impl Graph {
         self.inner.borrow().section_of[id.0 as usize] as usize
     }
 
-    /// For each section, its owner: the first of the sections with the same words before the colon. Sections of one element have the
-    /// same owner.
+    /// For each section, its owner: the first of the sections with the same words before the colon. Sections of one
+    /// element have the same owner.
     pub fn owners(&self) -> Vec<usize> {
         let sections = self.sections();
         let mut first: FxHashMap<&str, usize> = FxHashMap::default();
@@ -211,10 +214,10 @@ impl Graph {
         owners.collect()
     }
 
-    /// Gives a node a name for the reader, an identifier. The first name given stays. Constants and inputs need none.
+    /// Gives a node a name for the reader, an identifier. A node keeps its first name. Constants and inputs get none.
     ///
-    /// A negative gets no name. Its operand gets the name `minus_…` instead. Otherwise, if p were older than r, `r - p` would be
-    /// −(p − r), and `w = p - r` in the text would be wrong.
+    /// A negative gets no name; its operand gets the name `minus_…` instead. If p is older than r, `r - p` is the
+    /// negative −(p − r), and the definition `w = p - r` in the text would be wrong.
     pub fn name(&self, expr: Expr<'_>, name: impl Into<String>) {
         let mut inner = self.inner.borrow_mut();
         let mut name = name.into();
@@ -246,7 +249,7 @@ impl Graph {
         self.inner.borrow().nodes.len()
     }
 
-    /// Removes all nodes and their names, and keeps the memory. Expressions made before must not be used any more.
+    /// Removes all nodes and their names, but keeps the memory. Expressions made before must not be used any more.
     pub(crate) fn clear(&self) {
         let mut inner = self.inner.borrow_mut();
         inner.nodes.clear();
@@ -266,7 +269,7 @@ impl Graph {
         self.inner.borrow().nodes[id.0 as usize]
     }
 
-    /// The nodes of the operands of an operation.
+    /// The nodes of the two operands of an operation.
     #[inline]
     fn operands(&self, a: Expr<'_>, b: Expr<'_>) -> (Node, Node) {
         let inner = self.inner.borrow();
@@ -310,7 +313,8 @@ impl Graph {
         self.intern(Node::Call(function, ids))
     }
 
-    /// Packs arguments into three operands. If there are more than three, they go into lists, three to a list, filled from the left.
+    /// Packs arguments into three operands. If there are more than three, they go into lists, three to a list, filled
+    /// from the left.
     fn grouped(&self, mut ids: Vec<NodeId>) -> [NodeId; 3] {
         while ids.len() > 3 {
             let lists = ids.chunks(3).map(|chunk| {
@@ -344,7 +348,7 @@ impl Graph {
         }
     }
 
-    /// The node as it is, unfolded, shared with an equal one: for passes that rewrite a graph.
+    /// The node as it is, without folding; an equal node is reused. For passes that rewrite a graph.
     #[inline]
     pub fn intern(&self, node: Node) -> Expr<'_> {
         let mut inner = self.inner.borrow_mut();
@@ -362,7 +366,7 @@ impl Graph {
         Expr { graph: self, id }
     }
 
-    /// A second copy of a node, even if an equal one exists. [`Self::intern`] continues to find the old one.
+    /// Another copy of a node, even if an equal one exists. [`Self::intern`] continues to find the old one.
     pub fn again(&self, node: Node) -> Expr<'_> {
         let id = self.inner.borrow_mut().push(node);
         Expr { graph: self, id }
@@ -374,14 +378,14 @@ impl Graph {
     }
 }
 
-/// The arguments of a call with this arity, in order, from its operands: the inverse of the packing into lists.
+/// The arguments of a call with this arity, in order, from its operands: reverses the packing into lists.
 pub(crate) fn flatten(
     arity: usize,
     operands: [NodeId; 3],
     node: &impl Fn(NodeId) -> Node,
     into: &mut Vec<NodeId>,
 ) {
-    // all lists of one level hold `size` arguments, except the last
+    // each list of one level holds `size` arguments, except the last list
     let mut size = 1;
     while 3 * size < arity {
         size *= 3;
@@ -417,7 +421,7 @@ impl<'g> Expr<'g> {
         self.graph.node(self.id)
     }
 
-    /// The value, if it is a number.
+    /// The value if the node is a constant.
     #[inline]
     pub fn as_constant(self) -> Option<f64> {
         match self.node() {
@@ -446,7 +450,7 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// Splits `c · x` with a number c into (c, x); `node` is that of this expression.
+    /// Splits `c · x` with a constant c into (c, x); `node` is the node of this expression.
     #[inline]
     fn scaled(self, node: Node) -> (f64, Expr<'g>) {
         if let Node::Mul(a, b) = node {
@@ -495,17 +499,17 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// The larger of both.
+    /// The larger of the two.
     pub fn max(self, other: Expr<'g>) -> Expr<'g> {
         match (self.as_constant(), other.as_constant()) {
             (Some(a), Some(b)) => self.graph.constant(a.max(b)),
             _ if self.id == other.id => self,
-            // in this order: the choice of the runtime passes on a first operand that is NaN
+            // this order of operands is kept, because the maximum of the runtime passes on a NaN of its first operand
             _ => self.graph.intern(Node::Max(self.id, other.id)),
         }
     }
 
-    /// The smaller of both.
+    /// The smaller of the two.
     pub fn min(self, other: Expr<'g>) -> Expr<'g> {
         match (self.as_constant(), other.as_constant()) {
             (Some(a), Some(b)) => self.graph.constant(a.min(b)),
@@ -536,7 +540,7 @@ impl<'g> Neg for Expr<'g> {
     }
 }
 
-/// The bits of the numbers 0 and 1; −0 is in no graph.
+/// The bits of the numbers 0 and 1; −0 occurs in no graph.
 const ZERO: u64 = 0;
 const ONE: u64 = 1.0_f64.to_bits();
 
@@ -617,7 +621,8 @@ impl<'g> Mul for Expr<'g> {
 }
 
 impl<'g> Expr<'g> {
-    /// The product with a number other than 0 and 1; `node` is that of this expression, which is no number, and `number` is the node of c.
+    /// The product of this expression, which is not a constant, and a constant c other than 0 and 1. `node` is the node
+    /// of this expression, `number` that of c.
     fn times_number(self, node: Node, c: f64, number: Expr<'g>) -> Expr<'g> {
         let graph = self.graph;
         if c < 0.0 {
@@ -662,7 +667,7 @@ impl<'g> Mul<Expr<'g>> for f64 {
     }
 }
 
-/// The name for the negative of a value with this name.
+/// The name of the negative of a value with this name.
 pub(crate) fn opposite_name(name: &str) -> String {
     match name.strip_prefix("minus_") {
         Some(positive) => positive.to_string(),

@@ -1,9 +1,9 @@
-//! The nodes that a set of results needs: the live nodes, how often each is used, and what each depends on.
+//! The live nodes, i.e. those that a set of results needs, how often each is used, and the inputs it depends on.
 //!
 //! d(node) = d(operand₁) ∪ d(operand₂) ∪ …, d(input) = the kind of the input.
 //!
-//! Dependence decides where a value is computed. A value that depends on parameters alone is computed once per
-//! simulation ([`Live::hoistable`]), all others at every state.
+//! Dependence decides when a value is computed: once per simulation if it depends on parameters alone
+//! ([`Live::hoistable`]), at every state otherwise.
 
 use super::graph::Graph;
 use super::node::{Function, Node, NodeId, Symbol};
@@ -28,7 +28,7 @@ impl Dependence {
     /// Depends on continuous or discrete states of force laws.
     pub const LAWS: Self = Dependence(16);
 
-    /// True if `limit` has all kinds of inputs that this has.
+    /// True if `limit` contains all kinds of inputs of this set.
     pub fn within(self, limit: Self) -> bool {
         self.0 & !limit.0 == 0
     }
@@ -128,12 +128,12 @@ impl Live {
         self.uses(id) > 0
     }
 
-    /// How often the node is an operand of live nodes (twice in x · x) or a root; 0 if it is not live.
+    /// How often the node is used as an operand of live nodes (twice in x · x) or as a root; 0 if it is not live.
     pub fn uses(&self, id: NodeId) -> u32 {
         self.uses.get(id.0 as usize).copied().unwrap_or(0)
     }
 
-    /// What a live node depends on.
+    /// The kinds of inputs that a live node depends on.
     pub fn dependence(&self, id: NodeId) -> Dependence {
         self.dependence[id.0 as usize]
     }
@@ -143,16 +143,15 @@ impl Live {
         &self.roots
     }
 
-    /// The values to compute once per simulation: [`maximal_within`](Self::maximal_within) the parameters.
+    /// The values to compute once per simulation: those [`maximal_within`](Self::maximal_within) the parameters.
     pub fn hoistable(&self, graph: &Graph) -> Vec<NodeId> {
         self.maximal_within(graph, Dependence::PARAMETERS)
     }
 
-    /// The operations that depend on no more than `limit`, and that are roots or are used by a node that depends on
-    /// more. They are in order of creation.
+    /// The operations that depend on no kinds of inputs beyond `limit`, and that are roots or are used by a node that
+    /// depends on more. They are in order of creation.
     ///
-    /// Numbers and inputs are not among them, because they already exist. Signs are not either: for −a, a is among
-    /// them.
+    /// Constants and inputs are left out, because they exist already. So are signs: for −a, the list has a.
     pub fn maximal_within(&self, graph: &Graph, limit: Dependence) -> Vec<NodeId> {
         let all = graph.nodes();
         let unsigned = |id: NodeId| match all[id.0 as usize] {
@@ -167,7 +166,7 @@ impl Live {
                 }
             }
         }
-        // for a list of arguments, its members; lists are younger than their members
+        // for a list of arguments, its members; lists come after their members, so this goes backwards
         for &id in self.nodes.iter().rev() {
             if let Node::Arguments(members) = all[id.0 as usize]
                 && maximal[id.0 as usize]
@@ -193,7 +192,7 @@ impl Live {
     }
 }
 
-/// What a node itself depends on, without its operands.
+/// The dependence that a node has by itself, without that of its operands.
 fn own_dependence(node: &Node) -> Dependence {
     match node {
         Node::Symbol(symbol) => Dependence::of_symbol(*symbol),

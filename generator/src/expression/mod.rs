@@ -1,7 +1,7 @@
 //! The symbolic core: one hash-consed graph of expressions over a model's inputs.
 //!
-//! Equations are built with [`Expr`]. Its operators fold constants, zeros, ones and signs at once, so a term that the
-//! scene does not need never becomes a node. All other operations are modules that work on the finished graph.
+//! Equations are built with [`Expr`]. Its operators fold constants, zeros, ones and signs at once, so terms that vanish
+//! in a model never become nodes. All other operations are modules that work on the finished graph.
 
 pub mod count;
 pub mod differentiate;

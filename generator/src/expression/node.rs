@@ -21,7 +21,7 @@ pub enum Symbol {
     Memory(u32),
 }
 
-/// A function that is not algebra. The generated code calls it in the runtime, by these names.
+/// A function that is not algebra. Generated code calls it in the runtime by these names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Function {
     /// Value of the curve with this index in the model, at one argument.
@@ -38,8 +38,8 @@ pub enum Function {
     CurveDoubleIntegral(u32),
     /// The breakpoint indicator of the curve at one argument: its sign changes where the curve is not smooth.
     CurveBreakpoints(u32),
-    /// Function of velocity and factor: the first argument above 0 at which velocity + factor · ∫ of the curve from 0 reaches 0;
-    /// 0 where it never does.
+    /// Stop of a motion, as a function of velocity and factor: the first argument above 0 at which velocity + factor ·
+    /// ∫ of the curve from 0 reaches 0, or 0 if there is none.
     CurveStop(u32),
     /// `force::friction::coulomb(limit, speed, tolerance)`
     Coulomb,
@@ -51,12 +51,12 @@ pub enum Function {
     BeltTension,
     /// `force::power::power(base, exponent)`, the base not negative
     Power,
-    /// `force::switch::choose(a, b, then, otherwise)`: `then` where a < b, `otherwise` elsewhere
+    /// `force::switch::choose(a, b, then, otherwise)`: `then` if a < b, else `otherwise`
     Choose,
     /// One of the four results of `force::ellipsoid::support(x, y, z, power)`
     Support(u8),
-    /// One result of the search for the direction of least overlap of two ellipsoids, given as two symmetric matrices and a
-    /// vector
+    /// One result of the search for the direction of least overlap of two ellipsoids, given as two symmetric matrices
+    /// and a vector
     Approach(ApproachCall),
     /// One result of a function of the user: `module::scalars(arguments)`
     User(UserCall),
@@ -78,13 +78,14 @@ pub struct UserCall {
 /// One result of the approach of two ellipsoids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ApproachCall {
-    /// Whether it is in the plane: matrices are xx, zz, xz, and vectors x, z. In space matrices are xx, yy, zz, yz, xz, xy, and
-    /// vectors x, y, z.
+    /// True in the plane, where matrices are given as xx, zz, xz and vectors as x, z. In space, matrices are given as
+    /// xx, yy, zz, yz, xz, xy and vectors as x, y, z.
     pub planar: bool,
-    /// Whether any plane between bodies that do not touch is a sufficient result. Forces use this, because they are then 0.
+    /// True if any separating plane is accepted for bodies that do not touch, instead of the one with the largest
+    /// distance. Forces use this, because they are 0 then.
     pub early: bool,
-    /// Index of this result: first the direction, then the overlap, then the vector from the first centre to the middle of the
-    /// two furthest points.
+    /// Index of this result: first come the components of the direction, then the overlap, then the components of the
+    /// vector from the first centre to the midpoint between the two furthest points.
     pub part: u8,
 }
 
@@ -104,7 +105,7 @@ impl ApproachCall {
         2 * self.components() + 1
     }
 
-    /// Its name in the runtime.
+    /// The function's path in the runtime.
     pub fn path(self) -> &'static str {
         match (self.planar, self.early) {
             (false, false) => "force::approach::space::approach",
@@ -137,7 +138,7 @@ impl Function {
         }
     }
 
-    /// The same function with the first of its results.
+    /// The same call with the first of its results.
     pub fn first_part(self) -> Function {
         match self {
             Function::Support(_) => Function::Support(0),
@@ -147,7 +148,7 @@ impl Function {
         }
     }
 
-    /// Index of this result and number of results of the call; `None` for a call with one result.
+    /// Index of this result and number of results of the call; `None` for a function with one result.
     ///
     /// Calls that differ only in this index are one call in the emitted text.
     pub fn part(self) -> Option<(usize, usize)> {
@@ -190,7 +191,7 @@ pub enum Node {
     Mul(NodeId, NodeId),
     /// a / b
     Div(NodeId, NodeId),
-    /// a · b + c with one rounding. Only the pass that selects fused operations makes it.
+    /// a · b + c with one rounding. Only the pass [`fuse`](super::passes::fuse()) makes it.
     MulAdd(NodeId, NodeId, NodeId),
     /// √a
     Sqrt(NodeId),
@@ -198,22 +199,22 @@ pub enum Node {
     Sin(NodeId),
     /// cos a
     Cos(NodeId),
-    /// Angle of the point (second, first).
+    /// Angle of the point x = second operand, y = first operand.
     Atan2(NodeId, NodeId),
-    /// The larger of both.
+    /// The larger of the two.
     Max(NodeId, NodeId),
-    /// The smaller of both.
+    /// The smaller of the two.
     Min(NodeId, NodeId),
-    /// A call. If the function has fewer than three arguments, the remaining operands repeat the first. If it has more than
-    /// three, the operands are [`Node::Arguments`].
+    /// A call. If the function has fewer than three arguments, the remaining operands repeat the first. If it has more
+    /// than three, the operands are [`Node::Arguments`].
     Call(Function, [NodeId; 3]),
-    /// Up to three arguments of a call, or lists of them, one after the other. It has no value of its own. Missing entries
-    /// repeat the last.
+    /// Up to three arguments of a call, or lists of them, one after the other. It has no value of its own. Missing
+    /// entries repeat the last.
     Arguments([NodeId; 3]),
 }
 
 impl Node {
-    /// True for a number and an input, which are no operations.
+    /// True for a constant or an input, which are no operations.
     #[inline]
     pub fn is_leaf(&self) -> bool {
         matches!(self, Node::Constant(_) | Node::Symbol(_))
@@ -239,7 +240,7 @@ impl Node {
         ids.into_iter().take(count)
     }
 
-    /// The same operation on other operands, unfolded.
+    /// The same operation with its operands mapped, without folding.
     #[inline]
     pub fn map_operands(self, mut map: impl FnMut(NodeId) -> NodeId) -> Node {
         match self {

@@ -12,12 +12,12 @@ pub struct Vec3<'g>(pub [Expr<'g>; 3]);
 #[derive(Clone, Copy, Debug)]
 pub struct Mat3<'g>(pub [[Expr<'g>; 3]; 3]);
 
-/// A symmetric 3×3 matrix stored as six numbers, so that rounding cannot make it unsymmetric.
+/// A symmetric 3×3 matrix stored as six numbers, so that it stays symmetric in spite of rounding.
 #[derive(Clone, Copy, Debug)]
 pub struct Sym3<'g> {
     /// Diagonal: xx, yy, zz.
     pub diagonal: [Expr<'g>; 3],
-    /// Off the diagonal: yz, xz, xy (the axis that is missing is x, y, z).
+    /// Off-diagonal entries, by the missing axis x, y, z: yz, xz, xy.
     pub off: [Expr<'g>; 3],
 }
 

@@ -1,15 +1,16 @@
-//! What a function computes with: time, coordinates, velocities, states of force laws, and what was computed before.
+//! The inputs of methods: time, coordinates, velocities, states of force laws, parameters, and values that were
+//! computed before.
 //!
-//! Values that are known before a function runs stand in its graph as inputs. The graph knows symbols for the others; the
-//! three that emission adds (accelerations, event functions, constants derived from parameters) are numbered after the model's
-//! parameters.
+//! Values that are known before a method runs are inputs of its graph. The graph has symbols for all but three kinds of
+//! them. These three (accelerations, event functions, values derived from parameters) are numbered as parameters, after
+//! those of the model.
 
 use crate::equations::{Equations, LawState, Variable};
 use crate::expression::Symbol;
 use crate::model::Model;
 use crate::names::snake;
 
-/// An input as emission sees it.
+/// An input of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
     /// t
@@ -22,9 +23,9 @@ pub enum Input {
     Auxiliary(usize),
     /// `m[i]`
     Memory(usize),
-    /// `a[i]`: v̇, where a function starts from it
+    /// `a[i]`: v̇, for a method that starts from it
     Acceleration(usize),
-    /// `g[i]`: an event function, where memory is renewed by it
+    /// `g[i]`: an event function, for the method that renews the memory
     EventFunction(usize),
     /// Field of the parameters
     Parameter(usize),
@@ -33,7 +34,7 @@ pub enum Input {
 }
 
 impl Input {
-    /// The array and the index in it; `None` for what is no element of an array argument.
+    /// The array argument and the index in it; `None` for an input that is not in an array argument.
     pub fn element(self) -> Option<(Argument, usize)> {
         match self {
             Input::Coordinate(i) => Some((Argument::Coordinates, i)),
@@ -46,7 +47,7 @@ impl Input {
         }
     }
 
-    /// The argument that it comes with; `None` for what the mechanism knows.
+    /// The argument that contains the input; `None` for a value stored in the mechanism.
     pub fn argument(self) -> Option<Argument> {
         match self {
             Input::Time => Some(Argument::Time),
@@ -75,8 +76,8 @@ pub enum Argument {
 }
 
 impl Argument {
-    /// Those that are arrays, in the order in which they are taken apart: z and m first, because a coordinate may be
-    /// called so too.
+    /// The array arguments, in the order in which they are unpacked: z and m first, because a coordinate may have the
+    /// same name.
     pub const ARRAYS: [Argument; 6] = [
         Argument::Auxiliaries,
         Argument::Memory,
@@ -86,7 +87,7 @@ impl Argument {
         Argument::EventFunctions,
     ];
 
-    /// The name that it has everywhere.
+    /// The name of the argument in all methods.
     pub fn name(self) -> &'static str {
         match self {
             Argument::Time => "t",
@@ -115,16 +116,16 @@ pub struct Inputs {
     pub accelerations: Vec<String>,
     /// Names of the event functions.
     pub event_functions: Vec<String>,
-    /// Fields of the parameters.
+    /// Names of the fields of the parameters.
     pub parameters: Vec<String>,
-    /// Fields of the mechanism.
+    /// Names of the fields of the mechanism.
     pub derived: Vec<String>,
-    /// The section in which each of them was made.
+    /// The section in which each field of the mechanism was created.
     pub derived_in: Vec<String>,
 }
 
 impl Inputs {
-    /// Names for the inputs of a model's functions; derived constants are added by whoever finds them.
+    /// Names for the inputs of a model's methods. Values derived from parameters are added later, when they are found.
     pub fn new(model: &Model, equations: &Equations) -> Self {
         let only = model.systems.len() == 1;
         let word = |variable: &Variable| {
@@ -165,7 +166,7 @@ impl Inputs {
         }
     }
 
-    /// The symbol that stands for an input.
+    /// The symbol of an input.
     pub fn symbol(&self, input: Input) -> Symbol {
         let parameter = |index: usize| Symbol::Parameter(index as u32);
         match input {
@@ -185,7 +186,7 @@ impl Inputs {
         }
     }
 
-    /// The input that a symbol stands for.
+    /// The input of a symbol.
     pub fn input(&self, symbol: Symbol) -> Input {
         let parameters = self.parameters.len();
         let accelerations = parameters + self.accelerations.len();
@@ -217,7 +218,7 @@ impl Inputs {
         }
     }
 
-    /// The inputs that change from call to call, with the names they would like to have.
+    /// The inputs that change from call to call, each with the name it should have if that is free.
     pub fn variables(&self) -> impl Iterator<Item = (Input, String)> {
         let all = |names: &[String], input: fn(usize) -> Input| {
             let names = names.to_vec();

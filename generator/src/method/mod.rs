@@ -1,29 +1,32 @@
-//! The methods of a model: what each is given, what it returns, and when it exists.
+//! The methods of a model: the inputs and results of each, and the models that have it.
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
 //! | `table` | a specification for each emitted method, in the order of the emitted text |
-//! | `inputs` | what methods are given: arguments, parameters, what was computed before |
-//! | `results` | how they return what they computed |
+//! | `inputs` | inputs of methods: arguments, parameters, values computed before |
+//! | `results` | how methods return their results |
 //!
-//! [`program`](crate::program) puts the operations of each method in order, and [`target`](crate::target) writes them; both walk the table.
+//! [`program`](crate::program) puts the operations of each method in order, and [`target`](crate::target) writes them;
+//! both walk the table.
 
 pub mod inputs;
 pub mod results;
 pub mod table;
 
-/// A method by which a model is evaluated. Those that the runtime calls are in its table of functions, too.
+/// A method of a model. Those that the runtime calls are also in the runtime's table of functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Method {
-    /// What depends on parameters alone: [`Input::Derived`](crate::program::Input::Derived), in order. It starts from parameters.
+    /// The values that depend on parameters alone: [`Input::Derived`](crate::program::Input::Derived), in order. Starts
+    /// from parameters.
     Derived,
-    /// q, v, z, m where a run starts. It starts from parameters and what is derived from them.
+    /// q, v, z and m at the start of a run. Starts from parameters and the values derived from them.
     InitialState,
-    /// q̇, v̇ and ż: the rates of all but memory, which are 0.
+    /// q̇, v̇ and ż: the rates of the whole state except the memory, whose rates are 0.
     Derivative,
     /// q̇, from q and v alone.
     CoordinateRates,
-    /// The entries of the state that are renewed when a step is accepted: [`Lists::renewed`](crate::program::Lists::renewed).
+    /// The entries of the state that are renewed after an accepted step:
+    /// [`Lists::renewed`](crate::program::Lists::renewed).
     Renewed,
     /// The event functions.
     EventFunctions,
@@ -31,34 +34,36 @@ pub enum Method {
     Kinks,
     /// The onsets: the gap of each, then the speed of each.
     Onsets,
-    /// What the curves of the state are evaluated at.
+    /// The arguments of the curves of the state.
     Curves,
-    /// The pivots, as shares of what stands in their place before.
+    /// The pivots, each divided by its diagonal entry of S.
     Pivots,
-    /// What parameters must keep: by [`Lists::rules`](crate::program::Lists::rules). It starts from parameters and what is derived from them.
+    /// The values that the conditions on parameters restrict, each with its rule in
+    /// [`Lists::rules`](crate::program::Lists::rules). Starts from parameters and the values derived from them.
     Conditions,
-    /// By what time is multiplied in the curves [`Lists::stretched`](crate::program::Lists::stretched). It starts from parameters and what is derived from them.
+    /// The factors of time in the arguments of the curves [`Lists::stretched`](crate::program::Lists::stretched).
+    /// Starts from parameters and the values derived from them.
     KinkRates,
     /// T \[J\], one result.
     KineticEnergy,
     /// Power of each effect \[W\].
     Powers,
-    /// Linear \[N s\] and angular momentum \[N m s\], six results; none where nothing is free.
+    /// Linear \[N s\] and angular momentum \[N m s\], six results; none if no system is free.
     Momentum,
-    /// Its rate, six results \[N\], \[N m\]; none where nothing is free.
+    /// The rate of the momentum: force \[N\] and moment \[N m\], six results; none if no system is free.
     ExternalWrench,
     /// The outputs.
     Outputs,
-    /// The upper triangle of S, by rows; only where it is asked for.
+    /// The upper triangle of S, by rows; only if the option `matrices` is set.
     MassMatrix,
-    /// r_s; only where it is asked for.
+    /// r_s; only if the option `matrices` is set.
     VelocityForces,
-    /// r_k; only where it is asked for.
+    /// r_k; only if the option `matrices` is set.
     AppliedForces,
 }
 
 impl Method {
-    /// All of them, in the order of their numbers.
+    /// All methods, in the order of their numbers.
     pub const ALL: [Method; 20] = [
         Method::Derived,
         Method::InitialState,
@@ -83,13 +88,13 @@ impl Method {
     ];
 }
 
-/// What a method starts from besides time, state and parameters.
+/// The values from which a method starts, besides time, state and parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
     /// Nothing.
     #[default]
     State,
-    /// v̇: the results of [`Method::Derivative`] behind q̇, as many as velocities.
+    /// v̇: the results of [`Method::Derivative`] after q̇, as many as there are velocities.
     Accelerations,
     /// The results of [`Method::EventFunctions`].
     EventFunctions,

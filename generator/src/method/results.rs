@@ -1,14 +1,14 @@
-//! How a method returns what it computed.
+//! How a method returns its results.
 
-/// What a method returns.
+/// The form of a method's results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Results {
     /// One number.
     Scalar,
-    /// So many numbers.
+    /// An array of numbers.
     Array(Length),
-    /// Nothing: each number goes to an output writer as soon as it is known, by a method of this name. Where a length is given, a second
-    /// method returns so many numbers.
+    /// Nothing: each number is passed to an output writer as soon as it is known, by a method named `by`. If there is a
+    /// `length`, a second method returns the numbers as an array.
     Written {
         by: &'static str,
         length: Option<Length>,
@@ -17,36 +17,36 @@ pub enum Results {
     Start,
     /// q, v and m.
     Renewed,
-    /// A vector as long as v.
+    /// A vector of the length of v.
     Vector,
-    /// A symmetric matrix as large as v; the results are its upper triangle, by rows.
+    /// A symmetric matrix of the size of v; the roots are its upper triangle, by rows.
     Matrix,
-    /// The model at some parameters, with what is derived from these.
+    /// The model with given parameters and the values derived from them.
     Mechanism,
 }
 
-/// How many numbers a method returns.
+/// The number of results of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {
-    /// As many as q has.
+    /// The length of q.
     Coordinates,
-    /// As many as v has.
+    /// The length of v.
     Velocities,
-    /// As many as z has.
+    /// The length of z.
     Auxiliaries,
-    /// As many as m has.
+    /// The length of m.
     Memory,
     Outputs,
     EventFunctions,
     Kinks,
     Powers,
-    /// As many as there are curves of the state.
+    /// The number of curves of the state.
     Curves,
     Number(usize),
 }
 
 impl Results {
-    /// Whether they go to an output writer one by one.
+    /// True if the results are passed to an output writer one by one.
     pub fn one_by_one(self) -> bool {
         matches!(self, Results::Written { .. })
     }

@@ -1,7 +1,7 @@
 //! A specification for each emitted method, in the order of the emitted text.
 //!
-//! A new method is a function here and its line in `TABLE`; its variant of [`Method`], where it is no part of another; and its function in
-//! the runtime's table.
+//! A new method needs a function here and its line in `TABLE`; a variant of [`Method`], unless it is a part of another
+//! method; and a function in the runtime's table.
 
 use super::inputs::{Argument, Inputs};
 use super::results::{Length, Results};
@@ -16,35 +16,37 @@ use crate::names::snake;
 #[derive(Clone, Debug)]
 pub struct Specification {
     pub name: &'static str,
-    /// The method of the lists that it is, or is a part of: parts follow one another in the order of the table. `None` of what another has
-    /// anyway.
+    /// The method of the lists that this method is or belongs to; the parts of a method follow one another in the order
+    /// of the table. `None` if another method of the lists contains the same results.
     pub part_of: Option<Method>,
-    /// What it computes, in a sentence.
+    /// What the method computes, in one sentence.
     pub documentation: &'static str,
-    /// What it is given.
+    /// The arguments of the method.
     pub arguments: Vec<Argument>,
-    /// What it computes, as nodes of the equations.
+    /// The results, as nodes of the equations.
     pub roots: Vec<NodeId>,
     /// Names for roots that have none, one per root.
     pub labels: Vec<String>,
     /// How the roots are returned.
     pub results: Results,
-    /// Values that it receives ready-made: the event functions, or the accelerations where computing them again would repeat most of their method.
+    /// Values that the method receives as arguments: the event functions, or the accelerations if computing them again
+    /// would be most of the method's work.
     pub start: Start,
-    /// Whether it is evaluated over lanes, besides what goes to an output writer. The instructions of wide registers are such only in
-    /// functions that are compiled for them, which are the runtime's: all that they call must be part of them.
+    /// True if the method is evaluated over lanes and writes to no output writer. It is then always inlined: wide
+    /// registers are used only in functions compiled for them, which are in the runtime, so all methods that these call
+    /// must become parts of them.
     pub in_lanes: bool,
-    /// Whether the runtime has a method of this name that takes the whole state instead of its parts. This one then gets a different
-    /// name.
+    /// True if the runtime has a method of this name that takes the whole state instead of its parts. The generated
+    /// method then gets a different name.
     pub of_parts: bool,
 }
 
-/// What methods are made from.
+/// The sources from which specifications are made.
 pub struct Source<'a> {
     pub model: &'a Model,
     pub equations: &'a Equations,
     pub inputs: &'a Inputs,
-    /// Whether S, r_s and r_k are asked for.
+    /// True if S, r_s and r_k are wanted.
     pub matrices: bool,
 }
 
@@ -74,7 +76,7 @@ const TABLE: [fn(&Source<'_>) -> Option<Specification>; 22] = [
     outputs,
 ];
 
-/// The methods that a model has. `only` are the names of those that are wanted; all where nothing is said.
+/// The methods that a model has. `only` are the names of the wanted methods; `None` means all.
 pub fn methods(source: &Source<'_>, only: Option<&[&str]>) -> Vec<Specification> {
     let found = TABLE.iter().filter_map(|entry| entry(source));
     found
@@ -82,7 +84,8 @@ pub fn methods(source: &Source<'_>, only: Option<&[&str]>) -> Vec<Specification>
         .collect()
 }
 
-/// What depends on parameters alone. Its roots are found by the passes; its labels are the fields that keep them.
+/// The method that computes the values that depend on parameters alone. Its roots are found by the passes; its labels
+/// are the fields in which they are stored.
 pub fn new(inputs: &Inputs) -> Specification {
     Specification {
         documentation: "The mechanism with these parameters; what depends on them alone is computed here, once.",
@@ -91,7 +94,8 @@ pub fn new(inputs: &Inputs) -> Specification {
     }
 }
 
-/// q̇ and v̇ by one method, made of those for each: the coordinates and velocities of an element are then read once for both.
+/// q̇ and v̇ as one method, made of the methods for each, so that the coordinates and velocities of an element are read
+/// once for both.
 pub fn motion(rates: &Specification, accelerations: &Specification) -> Specification {
     Specification {
         name: "motion",
@@ -110,8 +114,9 @@ pub fn motion(rates: &Specification, accelerations: &Specification) -> Specifica
 /// The method that writes q̇ and v̇.
 pub const EACH_MOTION: &str = "each_motion";
 
-/// Whether memory is renewed by the sign of an event function. It is then given the event functions, to see the very values that ended the
-/// step: computed a second time, a value close to 0 may have the other sign.
+/// True if the memory is renewed by the sign of an event function. The method then receives the event functions, so
+/// that it has exactly the values that ended the step: a value close to 0 that is computed again may have the other
+/// sign.
 pub fn renews_by_event_functions(equations: &Equations) -> bool {
     let live = Live::new(&equations.graph, &next(&equations.memory));
     let event_functions = equations
@@ -221,7 +226,7 @@ fn applied_forces(from: &Source<'_>) -> Option<Specification> {
     })
 }
 
-/// The lists have them in [`motion`].
+/// Not a part of the lists: they contain v̇ in [`motion`].
 fn accelerations(from: &Source<'_>) -> Option<Specification> {
     let results = Results::Written {
         by: "each_acceleration",
@@ -284,7 +289,7 @@ fn auxiliary_rates(from: &Source<'_>) -> Option<Specification> {
     })
 }
 
-/// m; with charts of orientation q and v, too.
+/// m and, if orientations have charts, q and v.
 fn renewed(from: &Source<'_>) -> Option<Specification> {
     let Source {
         equations, inputs, ..
@@ -463,7 +468,7 @@ fn outputs(from: &Source<'_>) -> Option<Specification> {
 const AXES: [&str; 6] = ["x", "y", "z", "about_x", "about_y", "about_z"];
 const SIX: Results = Results::Array(Length::Number(6));
 
-/// A method that computes nothing yet, of parameters alone.
+/// A method of parameters alone, without results so far.
 fn of_parameters(name: &'static str, part_of: Method, results: Results) -> Specification {
     Specification {
         name,
@@ -480,7 +485,7 @@ fn of_parameters(name: &'static str, part_of: Method, results: Results) -> Speci
 }
 
 impl Source<'_> {
-    /// A method that computes nothing yet, of t, q, v, and z and m where the model has such.
+    /// A method of t, q and v, and of z and m if the model has them, without results so far.
     fn of_state(&self, name: &'static str, part_of: Method, results: Results) -> Specification {
         let all = [
             Argument::Time,
@@ -500,8 +505,8 @@ impl Source<'_> {
         }
     }
 
-    /// These arguments; after t where results depend on it: S and r_s do where a root with a joint of its own is on a vehicle that turns; and
-    /// before m where orientation depends on it.
+    /// The given arguments, preceded by t if the results depend on time (as S and r_s do if a turning vehicle carries a
+    /// root whose joint is not a ball), and followed by m if orientations have charts.
     fn timed(&self, roots: &[NodeId], arguments: &[Argument]) -> Vec<Argument> {
         let live = Live::new(&self.equations.graph, roots);
         let depends = |id: &NodeId| Dependence::TIME.within(live.dependence(*id));
@@ -512,7 +517,7 @@ impl Source<'_> {
     }
 }
 
-/// These, if there are any.
+/// The list; `None` if it is empty.
 fn some<T>(all: &[T]) -> Option<&[T]> {
     (!all.is_empty()).then_some(all)
 }

@@ -1,10 +1,11 @@
-//! What a model is, in lines for a reader: its tree, its coordinates, what acts. Targets put them at the top of what they write.
+//! Describes a model in lines of text: its tree, coordinates and effects. Targets put these lines at the top of their
+//! output.
 
 use crate::equations::Equations;
 use crate::model::{Dimension, Model, Reference, System};
 use crate::names::plain;
 
-/// What a model is, in lines: its tree, its coordinates, what acts in it.
+/// The description of a model, as lines: its tree, its coordinates, its effects.
 pub fn about(model: &Model, equations: &Equations) -> Vec<String> {
     let mut text = Vec::new();
     let version = env!("CARGO_PKG_VERSION");
@@ -57,7 +58,7 @@ fn motion(dimension: Dimension) -> &'static str {
     }
 }
 
-/// The tree as a picture.
+/// The tree as a drawing.
 fn tree(text: &mut Vec<String>, model: &Model, system: &System) {
     let reference = match &system.reference {
         Reference::Free => "reference joint free".to_string(),
@@ -76,7 +77,7 @@ fn tree(text: &mut Vec<String>, model: &Model, system: &System) {
             .filter(|&k| system.elements[k].parent == of)
             .collect()
     };
-    // A stack of its own: trees may be deeper than the call stack.
+    // An explicit stack, because trees may be deeper than the call stack.
     let roots = children(None);
     let mut stack: Vec<(usize, String, bool)> = roots
         .iter()
@@ -105,7 +106,7 @@ fn tree(text: &mut Vec<String>, model: &Model, system: &System) {
     }
 }
 
-/// q and v side by side.
+/// The coordinates q and the velocities v side by side.
 fn variables(text: &mut Vec<String>, equations: &Equations) {
     let (q, v) = (&equations.coordinates, &equations.velocities);
     let width = |names: &mut dyn Iterator<Item = &str>| {
@@ -135,7 +136,7 @@ fn variables(text: &mut Vec<String>, equations: &Equations) {
     }
 }
 
-/// What is in, and what vanishes by structure.
+/// The effects in the model, and those that vanish by its structure.
 fn effects(text: &mut Vec<String>, model: &Model) {
     for effect in crate::effect::summary(model) {
         line(text, plain(&effect));

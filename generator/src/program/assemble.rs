@@ -1,4 +1,4 @@
-//! All methods of a model as lists, of the same schedules as the text.
+//! All methods of a model as lists, made from the same schedules as the Rust text.
 
 use super::lower;
 use super::order::Order;
@@ -10,13 +10,13 @@ use crate::method::inputs::Inputs;
 use crate::model::{ForceKind, Interpolate, Model};
 use std::ops::Range;
 
-/// The methods of a model as lists. They depend on nothing but the arguments and the version of this crate.
+/// The methods of a model as lists. The result depends only on the arguments and on the version of this crate.
 pub fn lists(model: &Model, equations: &Equations, options: &Options) -> Lists {
     counted_lists(model, equations, options, None).0
 }
 
-/// The same of some methods of the table alone, the others without results; all where nothing is said. Beside them stands what each
-/// costs, as [`costs`](super::costs) has it.
+/// The same for the methods named in `only` (`None`: all); the other methods get lists without results. Also returns
+/// the operations of each method, as [`costs`](super::costs) does.
 pub fn counted_lists(
     model: &Model,
     equations: &Equations,
@@ -64,7 +64,7 @@ fn routine(procedure: Procedure, inputs: &Inputs) -> Routine {
     }
 }
 
-/// The parts of a method as one.
+/// The parts of a method as one routine.
 fn together(mut parts: Vec<Routine>) -> Routine {
     match parts.len() {
         1 => parts.remove(0),
@@ -97,7 +97,7 @@ fn users(model: &Model) -> Vec<Option<String>> {
     users.collect()
 }
 
-/// The entries of the state that are renewed when a step is accepted.
+/// Indices of the state's entries that are renewed after an accepted step.
 fn renewed(equations: &Equations) -> Vec<u32> {
     let [q, v, z, m] = [
         equations.coordinates.len(),
@@ -113,7 +113,7 @@ fn renewed(equations: &Equations) -> Vec<u32> {
     (0..changed).chain(memory).map(|i| i as u32).collect()
 }
 
-/// Quaternions by runs of neighbours, which are scaled in one loop.
+/// Ranges of quaternions, with adjacent quaternions joined to one range, so that each range is normalised in one loop.
 pub(crate) fn neighbours(quaternions: &[Range<usize>]) -> Vec<Range<usize>> {
     let mut ranges: Vec<Range<usize>> = Vec::new();
     for quaternion in quaternions {

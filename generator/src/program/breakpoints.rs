@@ -1,12 +1,13 @@
-//! When curves of time have kinks, as far as that does not depend on parameters.
+//! The times at which curves of time have kinks, as far as these do not depend on parameters.
 //!
-//! A curve of rate · t passes its point x_k at the smallest time with rate · t ≥ x_k as it is computed, so that a step that
-//! ends there has its last stage on the left of the point and the next one its first on the right.
+//! A curve of rate · t passes its point x_k at the smallest time for which the computed product satisfies rate · t ≥
+//! x_k. So a step that ends at this time has its last stage on the left of the point, and the next step has its first
+//! stage on the right.
 
 use crate::equations::Equations;
 use crate::model::Model;
 
-/// The times known beforehand, increasing.
+/// The kink times that do not depend on parameters, increasing.
 pub(crate) fn constant(model: &Model, equations: &Equations) -> Vec<f64> {
     let mut times = Vec::new();
     for &(curve, rate) in &equations.curves_of_time {
@@ -23,7 +24,7 @@ pub(crate) fn constant(model: &Model, equations: &Equations) -> Vec<f64> {
 /// The smallest time t with rate · t ≥ x.
 fn passed(x: f64, rate: f64) -> f64 {
     let mut t = x / rate;
-    // division and multiplication may disagree by a rounding or two
+    // a division and a multiplication may differ by one or two roundings
     for _ in 0..4 {
         if t * rate < x {
             t = t.next_up();

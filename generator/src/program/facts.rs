@@ -1,23 +1,23 @@
-//! What is known of a model without evaluating anything: what the runtime's `Info` holds, as owned data.
+//! The facts of a model that need no evaluation: the content of the runtime's `Info`, as owned data.
 
 use super::breakpoints;
 use crate::equations::{Equations, LEAST_VOLUME, NO_BEARING, Variable};
 use crate::model::{Dimension, Extrapolate, ForceKind, Model};
 
-/// Names, units, sizes.
+/// Names, units and sizes of a model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
     /// Name of the model.
     pub name: String,
-    /// SHA-256 of what the model says, hexadecimal.
+    /// SHA-256 of the model's content, hexadecimal.
     pub digest: String,
-    /// 2 or 3.
+    /// 2 for the plane, 3 for space.
     pub dimension: u8,
     /// Names of q, in order.
     pub coordinates: Vec<String>,
     /// Names of v, in order.
     pub velocities: Vec<String>,
-    /// What each entry of the state is: q, v, z, m.
+    /// The kind of each entry of the state: q, v, z, m.
     pub kinds: Vec<Kind>,
     /// SI unit of each entry of the state, "" for a pure number.
     pub units: Vec<String>,
@@ -29,23 +29,24 @@ pub struct Facts {
     pub event_functions: Vec<String>,
     /// Names of the kinks.
     pub kinks: Vec<String>,
-    /// Names of the onsets, the corners of curves behind those of laws.
+    /// Names of the onsets of laws, then of the corners of curves.
     pub onsets: Vec<String>,
-    /// How many of the onsets are corners.
+    /// Number of the onsets that are corners.
     pub corners: usize,
-    /// No step may be longer \[s\], because nobody knows when the user's forces begin to act; infinite without such.
+    /// The longest step allowed \[s\], because it is unknown when user forces begin to act; infinite without user
+    /// forces.
     pub longest_step: f64,
     /// Names of the effects that do work.
     pub powers: Vec<String>,
-    /// The curves of the state.
+    /// The curves of the state, and the quantities watched like them.
     pub curves: Vec<Watched>,
-    /// Whether a curve of time must not be left.
+    /// True if a curve of time has no value beyond its end points.
     pub time_ends: bool,
-    /// Elements whose inertia may vanish in some position.
+    /// Elements whose inertia may vanish in some position; see [`pivots`](crate::equations::Equations::pivots).
     pub pivots: Vec<String>,
-    /// What parameters must keep.
+    /// The conditions that parameters must satisfy.
     pub conditions: Vec<String>,
-    /// Whether the reference joint of a system is free, so that there is a momentum to balance.
+    /// True if the reference joint of a system is free, so that there is a momentum balance.
     pub free: bool,
     /// Headings and SI units of the outputs.
     pub outputs: Vec<Column>,
@@ -59,37 +60,37 @@ pub struct Facts {
     pub every: f64,
 }
 
-/// What an entry of the state is: the variants of the runtime's `StateKind`.
+/// The kind of an entry of the state, like the runtime's `StateKind`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A coordinate of a reference joint \[m\].
     Position,
     /// An angle \[rad\], or a component of a unit quaternion.
     Angle,
-    /// Of a reference joint \[m/s\].
+    /// The velocity of a reference joint \[m/s\].
     Velocity,
-    /// Of an element, or the rate of an angle \[rad/s\].
+    /// An angular velocity of an element, or the rate of an angle \[rad/s\].
     AngularVelocity,
     /// A state of a force law.
     Law,
-    /// What a force law remembers, or the chart of an element.
+    /// A memory of a force law, or the chart of an element.
     Memory,
 }
 
-/// A curve at an argument that depends on the state, the bearing of a bent joint, or a component of the direction of a contact.
+/// A curve whose argument depends on the state, or another quantity watched like such an argument.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Watched {
-    /// Whose it is.
+    /// Name of its owner and of the curve.
     pub name: String,
-    /// Its first and its last abscissa.
+    /// Its first and last abscissa; for other quantities, the range of values.
     pub range: [f64; 2],
-    /// Its values there.
+    /// The values of the curve at these abscissae.
     pub ends: [f64; 2],
-    /// What it does beyond.
+    /// Its extrapolation beyond the end points.
     pub extrapolate: Extrapolate,
-    /// Whether the description says so, and it is not merely the default.
+    /// True if the description states the extrapolation, false if it is the default.
     pub told: bool,
-    /// Whether it is a curve.
+    /// The kind of watched quantity.
     pub kind: crate::equations::Watched,
 }
 
@@ -102,7 +103,7 @@ pub struct Column {
     pub unit: String,
 }
 
-/// An adjustable number.
+/// A parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Adjustable {
     /// Name.
@@ -118,7 +119,7 @@ pub struct Adjustable {
 }
 
 impl Facts {
-    /// Those of a model.
+    /// The facts of a model.
     pub fn of(model: &Model, equations: &Equations) -> Self {
         let variables = |variables: &[Variable]| names(variables, |v| &v.name);
         let mut of_time = equations.curves_of_time.iter();
@@ -175,7 +176,7 @@ fn names<T>(of: &[T], name: impl Fn(&T) -> &String) -> Vec<String> {
     of.iter().map(|one| name(one).clone()).collect()
 }
 
-/// What each entry of the state is: q, v, z, m.
+/// The kind of each entry of the state: q, v, z, m.
 fn kinds(equations: &Equations) -> Vec<Kind> {
     let of = |variables: &[Variable], [joint, element]: [Kind; 2]| {
         let kind = |variable: &Variable| match variable.element {
@@ -196,7 +197,7 @@ fn kinds(equations: &Equations) -> Vec<Kind> {
     .concat()
 }
 
-/// The unit of each.
+/// The unit of each entry of the state.
 fn units(equations: &Equations) -> Vec<String> {
     let variables = equations.coordinates.iter().chain(&equations.velocities);
     let laws = equations.auxiliaries.iter().chain(&equations.memory);
@@ -205,7 +206,7 @@ fn units(equations: &Equations) -> Vec<String> {
     units.map(String::from).collect()
 }
 
-/// The shortest scale of any user force; of one that declares none, the time between samples.
+/// The shortest time scale of any user force; a force that declares none counts with the time between samples.
 fn longest_step(model: &Model) -> f64 {
     let scales = model.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::User(user) if !user.function.name.is_empty() => {
@@ -216,7 +217,7 @@ fn longest_step(model: &Model) -> f64 {
     scales.fold(f64::INFINITY, f64::min)
 }
 
-/// The range of a bearing \[rad\] and of a component, with what stands for none.
+/// The range of a bearing \[rad\] and of a component of a direction; the upper end is the value that stands for none.
 const BEARINGS: [f64; 2] = [-std::f64::consts::PI, NO_BEARING];
 
 fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {

@@ -1,23 +1,24 @@
-//! Which operations a formula is made of, in which order of operands, whatever it is written as.
+//! Writes formulas: decides on the operations and on the order of their operands, independently of the form in which
+//! they are written.
 //!
-//! What is written evaluates to the very bits that the graph means: operands change sides only where the operation
-//! commutes exactly, and signs move only where that changes nothing but the sign of a zero. The Rust text and the lists of
-//! [`crate::program`] are both written from here, so they have the same operations.
+//! A written formula gives exactly the bits that the graph means: operands are exchanged only if the operation commutes
+//! exactly, and signs are moved only if this changes nothing but the sign of a zero. The Rust text and the lists of
+//! [`crate::program`] are both written by this module, so they have the same operations.
 
 use super::schedule::Schedule;
 use crate::expression::{Function, Node, NodeId, Symbol};
 
-/// How tightly a written formula holds together.
+/// The precedence of a written formula: a higher level binds its operands more tightly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Level {
     Sum,
     Product,
     Sign,
-    /// A word, a call, anything a method can be called on.
+    /// A name, a call, or any other formula on which a method can be called without brackets.
     Word,
 }
 
-/// An operation of two operands that is written between them.
+/// A binary operator, which is written between its operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Operator {
     Plus,
@@ -26,7 +27,7 @@ pub(crate) enum Operator {
     Over,
 }
 
-/// An operation that is written as a method of its first operand.
+/// An operation that is written as a method call on its first operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Method {
     Sqrt,
@@ -36,38 +37,38 @@ pub(crate) enum Method {
     MulAdd,
 }
 
-/// What formulas are written as.
+/// A form in which formulas are written.
 pub(crate) trait Form {
     /// A written formula.
     type Term;
     /// A number.
     fn number(&self, value: f64) -> Self::Term;
-    /// A value that is bound, by its name.
+    /// The name of a value that is bound by a statement.
     fn bound(&self, id: NodeId) -> Self::Term;
-    /// An input that has no name.
+    /// An input that is not bound.
     fn input(&self, id: NodeId, symbol: Symbol) -> Self::Term;
     /// −a
     fn negative(&self, a: Self::Term) -> Self::Term;
-    /// Two operands around an operator.
+    /// A binary operator with its operands.
     fn binary(&self, a: Self::Term, operator: Operator, b: Self::Term) -> Self::Term;
-    /// A method of the first of its operands.
+    /// A method call on the first operand.
     fn method<const N: usize>(
         &self,
         receiver: Self::Term,
         method: Method,
         others: [Self::Term; N],
     ) -> Self::Term;
-    /// Sine (0) or cosine (1).
+    /// One result of the joint sine and cosine of an argument: sine (0) or cosine (1).
     fn half_of_pair(&self, argument: Self::Term, half: u32) -> Self::Term;
-    /// A call, with all of its results where it has several.
+    /// A call; if the function has several results, the call with all of them.
     fn call(&self, function: Function, arguments: Vec<Self::Term>) -> Self::Term;
-    /// What stands for a list of arguments, which is no value by itself.
+    /// A placeholder for a list of arguments, which is not a value itself.
     fn arguments(&self) -> Self::Term;
-    /// The same in brackets.
+    /// The formula in brackets.
     fn brackets(&self, a: Self::Term) -> Self::Term;
 }
 
-/// A written formula, and how tightly it holds together.
+/// A written formula with its precedence.
 struct Text<X> {
     of: X,
     level: Level,
@@ -82,29 +83,29 @@ impl<X> Text<X> {
     }
 }
 
-/// Writes the formulas of one schedule in one form.
+/// Writes the formulas of a schedule in a form.
 pub(crate) struct Formulas<'a, F> {
     pub schedule: &'a Schedule,
     pub form: &'a F,
 }
 
 impl<F: Form> Formulas<'_, F> {
-    /// A value where it is used: its name, or its formula if it has none.
+    /// A value at a place where it is used: its name, or its formula if it has no name.
     pub(crate) fn value(&self, id: NodeId) -> F::Term {
         self.operand(id).of
     }
 
-    /// The formula of a value, whether it has a name or not.
+    /// The formula of a value, even if the value has a name.
     pub(crate) fn formula(&self, id: NodeId) -> F::Term {
         self.write(id).of
     }
 
-    /// The receiver of a method call.
+    /// The value in a form on which a method can be called.
     pub(crate) fn receiver(&self, id: NodeId) -> F::Term {
         self.at(self.operand(id), Level::Word)
     }
 
-    /// In brackets, unless it holds together as tightly as this.
+    /// The formula, in brackets if its precedence is below `level`.
     fn at(&self, text: Text<F::Term>, level: Level) -> F::Term {
         match text.level >= level {
             true => text.of,
@@ -112,11 +113,11 @@ impl<F: Form> Formulas<'_, F> {
         }
     }
 
-    /// Both operands in brackets where they need them.
+    /// A binary operation; operands get brackets if they need them.
     fn binary(&self, a: Text<F::Term>, operator: Operator, b: Text<F::Term>) -> Text<F::Term> {
         let (level, right) = match operator {
             Operator::Plus | Operator::Minus => (Level::Sum, Level::Product),
-            // Not after a sign, though Rust would take it.
+            // No sign on the right of · or /, though Rust would allow it.
             Operator::Times | Operator::Over => (Level::Product, Level::Word),
         };
         let (a, b) = (self.at(a, level), self.at(b, right));
@@ -145,7 +146,7 @@ impl<F: Form> Formulas<'_, F> {
             Node::Div(a, b) => self.binary(self.operand(a), Operator::Over, self.operand(b)),
             Node::MulAdd(a, b, c) => self.fused(a, b, c),
             Node::Sqrt(a) => Text::word(self.form.method(self.receiver(a), Method::Sqrt, [])),
-            // A sine is bound together with its cosine by one statement; this is for one that is written by itself.
+            // Sine and cosine of one argument are usually bound together by one statement; this writes a single one.
             Node::Sin(a) => Text::word(self.form.half_of_pair(self.receiver(a), 0)),
             Node::Cos(a) => Text::word(self.form.half_of_pair(self.receiver(a), 1)),
             Node::Atan2(a, b) => self.method(a, Method::Atan2, b),
@@ -156,7 +157,7 @@ impl<F: Form> Formulas<'_, F> {
                 let arguments = arguments.map(|id| self.value(id)).collect();
                 Text::word(self.form.call(function, arguments))
             }
-            // Its members are written by the call that they belong to.
+            // The call writes the members of its list itself.
             Node::Arguments(_) => Text::word(self.form.arguments()),
         }
     }
@@ -172,7 +173,7 @@ impl<F: Form> Formulas<'_, F> {
         }
     }
 
-    /// The operand of a change of sign that is written here.
+    /// The operand of a negation that is written in place, i.e. not bound to a name.
     fn negated(&self, id: NodeId) -> Option<NodeId> {
         match self.schedule.graph.node(id) {
             Node::Neg(a) if !self.schedule.is_bound(id) => Some(a),
@@ -185,7 +186,7 @@ impl<F: Form> Formulas<'_, F> {
             match self.schedule.graph.node(a) {
                 Node::Sub(x, y) => return self.difference(y, x),
                 Node::Mul(x, y) => {
-                    // The sign goes to the number, if there is one.
+                    // The sign is moved to a constant factor, if there is one.
                     for (x, y) in [(x, y), (y, x)] {
                         if let Some(c) = self.constant(x) {
                             let number = self.number(-c);
@@ -215,13 +216,13 @@ impl<F: Form> Formulas<'_, F> {
         if let Some(x) = self.negated(a) {
             return self.difference(b, x);
         }
-        // a + (−c) = a − c exactly.
+        // a + (−c) = a − c exactly, for a constant −c.
         for (a, b) in [(a, b), (b, a)] {
             if let Some(c) = self.constant(b).filter(|&c| c < 0.0) {
                 return self.binary(self.operand(a), Operator::Minus, self.number(-c));
             }
         }
-        // a + b = b + a exactly: a number stands last, a sum first.
+        // a + b = b + a exactly: a number is written last, a sum first.
         let (mut first, mut second) = (self.operand(a), self.operand(b));
         let number_first = self.constant(a).is_some() && self.constant(b).is_none();
         if number_first || (second.level == Level::Sum && first.level > Level::Sum) {
@@ -241,7 +242,7 @@ impl<F: Form> Formulas<'_, F> {
     }
 
     fn product(&self, a: NodeId, b: NodeId) -> Text<F::Term> {
-        // a · b = b · a exactly: a number stands first, then a product.
+        // a · b = b · a exactly: a number is written first, then a product.
         let (mut first, mut second) = (self.operand(a), self.operand(b));
         let number_last = self.constant(b).is_some() && self.constant(a).is_none();
         let loose = |text: &Text<F::Term>| text.level == Level::Product;

@@ -1,8 +1,8 @@
-//! What the passes make of parameters alone: k₁·x + k₂·x = (k₁ + k₂)·x is one operation less at every state only where
-//! k₁ + k₂ is computed once.
+//! Finds values that depend on parameters alone and that the passes have created: k₁·x + k₂·x = (k₁ + k₂)·x saves an
+//! operation per evaluation only if k₁ + k₂ is computed once for all.
 //!
-//! Such a value is found in the graph of a method and carried over, operand by operand, into the graph of the equations,
-//! where it is one more value that the mechanism keeps.
+//! Such a value is found in the graph of a method and copied with its operands into the graph of the equations, where
+//! it becomes one more value stored in the mechanism.
 
 use crate::expression::live::Live;
 use crate::expression::passes::{Rewritten, replace};
@@ -10,7 +10,8 @@ use crate::expression::{Graph, Node, NodeId, Symbol};
 use crate::method::inputs::{Input, Inputs};
 use rustc_hash::FxHashMap;
 
-/// The values of a method that depend on parameters alone, each with the value of the equations that it is.
+/// The values of a method that depend on parameters alone, and that are roots or operands of operations that depend on
+/// more: each node of the method with its copy in the equations.
 pub(crate) fn found(
     equations: &Graph,
     method: &Graph,
@@ -30,7 +31,7 @@ pub(crate) fn found(
     for id in operands.chain(roots.iter().copied()) {
         wanted[unsigned(id).0 as usize] = true;
     }
-    // Of a list of arguments, its members; lists are younger than what they list.
+    // For a list of arguments, its members are wanted. Lists come after their members, so this goes backwards.
     for &id in live.nodes().iter().rev() {
         if let Node::Arguments(members) = method.node(id)
             && wanted[id.0 as usize]
@@ -73,8 +74,8 @@ pub(crate) fn found(
     found
 }
 
-/// By node: whether it is live and depends on parameters alone. Accelerations that a method starts from are inputs that
-/// change from call to call, though they are numbered as parameters.
+/// By node: true if the node is live and depends on parameters alone. Accelerations from which a method starts do not
+/// count: they change from call to call, although they are numbered as parameters.
 pub(crate) fn alone(method: &Graph, live: &Live, inputs: &Inputs) -> Vec<bool> {
     let mut alone = vec![false; method.len()];
     for &id in live.nodes() {
@@ -93,7 +94,7 @@ pub(crate) fn alone(method: &Graph, live: &Live, inputs: &Inputs) -> Vec<bool> {
     alone
 }
 
-/// A method that takes such values from the mechanism, as far as it keeps them.
+/// The method in which such values are read from the mechanism, if the mechanism stores them.
 pub(crate) fn hoisted(
     equations: &Graph,
     method: Rewritten,

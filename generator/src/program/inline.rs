@@ -1,37 +1,38 @@
-//! Which values are bound to a name, and which are written where they are used.
+//! Decides which values are bound to a name and which are written where they are used.
 //!
-//! A value that is used once, by its own section, and has no name is written where it is used, as long as the expression
-//! fits on a line and does not nest too deep.
+//! A value is written in place if it is used once, in its own section, and has no name, and as long as the expression
+//! fits on a line and is not nested too deep.
 
 use super::schedule::index;
 use crate::expression::{Graph, Node, NodeId};
 use crate::method::inputs::{Input, Inputs};
 use rustc_hash::FxHashMap;
 
-/// Characters that an expression may take: what is left of a line after the name of its value.
+/// Largest width of an expression in characters: the rest of a line beside the name of its value.
 const LINE: usize = 68;
-/// Characters that stand around a number, as the scalar that is computed with.
+/// Characters that surround a number to convert it to the scalar type.
 const AROUND_NUMBER: usize = 5;
 /// Characters before the name of a value that depends on parameters alone.
 const BEFORE_DERIVED: usize = 5;
 /// Characters before the name of a parameter.
 const BEFORE_PARAMETER: usize = 16;
-/// Characters of a name that is given when everything is in order.
+/// Assumed width of a name that is assigned later, after the order is fixed.
 const NAMELESS: usize = 4;
-/// Characters that each name and number counts for where elements are to be found alike, whatever they are called.
+/// Assumed width of every name and number if like elements must be recognised independently of their names.
 const ALIKE: usize = 10;
-/// Levels of nesting that one expression may have.
+/// Deepest nesting of an expression.
 const DEPTH: usize = 4;
 
-/// What an expression looks like.
+/// The size of an expression on the page.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct Look {
-    /// Characters, roughly: temporaries have no names yet.
+    /// Width in characters, roughly, because temporaries have no names yet.
     width: usize,
     depth: usize,
 }
 
-/// True for what is written where it is used, by node. `labels` are the names of results; `alike` has names and numbers of no influence.
+/// By node: true if the value is written where it is used. `labels` are the names of results. With `alike`, the widths
+/// of names and numbers have no influence.
 pub(crate) fn inline(
     graph: &Graph,
     labels: &FxHashMap<NodeId, String>,
@@ -49,7 +50,7 @@ pub(crate) fn inline(
     let nodes = graph.nodes();
     let user_sections = user_sections(graph, uses);
     let mut inline = vec![false; nodes.len()];
-    // Of each value as its users show it: its name, or its formula.
+    // By value, its size as its users see it: that of its name, or that of its formula.
     let mut looks = vec![Look::default(); nodes.len()];
     for (position, &node) in nodes
         .iter()
@@ -64,7 +65,7 @@ pub(crate) fn inline(
         }
         let list = |id: NodeId| matches!(nodes[index(id)], Node::Arguments(_));
         if list(id) && uses[position] > 1 {
-            // what several calls are given is computed once
+            // an argument list that several calls use is computed once, so its members are bound
             for operand in node.operands().filter(|&operand| !list(operand)) {
                 if inline[index(operand)] && !matches!(nodes[index(operand)], Node::Neg(_)) {
                     inline[index(operand)] = false;
@@ -87,9 +88,9 @@ pub(crate) fn inline(
             formula = look(node, &looks);
         }
         inline[position] = match node {
-            // No value by itself.
+            // A list is not a value, so it is never bound.
             Node::Arguments(_) => true,
-            // A change of sign costs less to read than a name, and nothing to compute.
+            // A sign is easier to read than a name, and costs nothing.
             Node::Neg(a) if !inline[index(a)] => true,
             _ if labels.contains_key(&id) => false,
             Node::Sin(_) | Node::Cos(_) | Node::Call(..) => false,
@@ -104,7 +105,7 @@ pub(crate) fn inline(
     inline
 }
 
-/// The section of the user of each value; meaningful where there is one user.
+/// By value, the section of its user; meaningful only if it has a single user.
 fn user_sections(graph: &Graph, uses: &[u32]) -> Vec<Option<usize>> {
     let mut sections = vec![None; graph.len()];
     for (position, node) in graph.nodes().iter().enumerate() {
@@ -117,7 +118,7 @@ fn user_sections(graph: &Graph, uses: &[u32]) -> Vec<Option<usize>> {
     sections
 }
 
-/// Width of a number or an input; `None` for an operation.
+/// Width of a number or of an input; `None` for an operation.
 fn leaf(node: Node, inputs: &Inputs) -> Option<usize> {
     match node {
         Node::Constant(bits) => Some(AROUND_NUMBER + format!("{:?}", f64::from_bits(bits)).len()),
@@ -136,7 +137,7 @@ fn leaf(node: Node, inputs: &Inputs) -> Option<usize> {
     }
 }
 
-/// A bound value.
+/// The size of a bound value: that of its name.
 fn word(graph: &Graph, id: NodeId, labels: &FxHashMap<NodeId, String>) -> Look {
     let name = graph.name_of(id);
     let name = name.as_ref().or_else(|| labels.get(&id));
@@ -146,7 +147,7 @@ fn word(graph: &Graph, id: NodeId, labels: &FxHashMap<NodeId, String>) -> Look {
     }
 }
 
-/// The formula of an operation.
+/// The size of an operation's formula.
 fn look(node: Node, looks: &[Look]) -> Look {
     let (mut width, mut depth) = (0, 0);
     for operand in node.operands() {
@@ -154,7 +155,7 @@ fn look(node: Node, looks: &[Look]) -> Look {
         width += look.width;
         depth = depth.max(look.depth);
     }
-    // what stands around the operands, roughly
+    // the rough width of the text around the operands
     let around = match node {
         Node::Constant(_) | Node::Symbol(_) => 0,
         Node::Neg(_) => 1,

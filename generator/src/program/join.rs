@@ -1,28 +1,31 @@
-//! Several lists as one.
+//! Joins several lists to one.
 
 use super::{Input, List, Lists, Method, Operation, Start, Value};
 use crate::expression::Function;
 use rustc_hash::FxHashMap;
 
-/// What is often wanted at one time and state, and is cheaper at once: methods have much in common, contacts above all.
+/// Methods that are often evaluated at the same time and state. Evaluated together they are cheaper, because they share
+/// many operations, above all those of contacts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Combination {
     /// The event functions, with the accelerations that they start from.
     EventFunctions,
     /// The outputs, with the accelerations that they start from.
     Outputs,
-    /// What balances are made of within a step: powers, external_wrench.
+    /// The terms of balances within a step: powers and external_wrench.
     Exchange,
-    /// What a time loop wants to know where a step ends: event functions, onsets, and what memory becomes by these event functions.
+    /// The results that a time loop needs at the end of a step: event functions, onsets, and the memory renewed
+    /// according to these event functions.
     Arrival,
-    /// The same, and the arguments of curves.
+    /// The same, with the arguments of curves.
     ArrivalWithCurves,
-    /// The same, and what a watch wants: kinetic energy, powers, momentum, external_wrench.
+    /// The same as `ArrivalWithCurves`, with the terms of balances: kinetic energy, powers, momentum and
+    /// external_wrench.
     WatchedArrival,
 }
 
 impl Combination {
-    /// All of them, in the order of their numbers.
+    /// All combinations, in the order of their numbers.
     pub const ALL: [Combination; 6] = [
         Combination::EventFunctions,
         Combination::Outputs,
@@ -32,7 +35,7 @@ impl Combination {
         Combination::WatchedArrival,
     ];
 
-    /// The methods whose results it has, one behind the other.
+    /// The methods whose results the combination has, one after the other.
     pub const fn methods(self) -> &'static [Method] {
         match self {
             Combination::EventFunctions => &[Method::EventFunctions],
@@ -60,8 +63,9 @@ impl Combination {
 }
 
 impl Lists {
-    /// Several methods as one list, which starts from time, state and parameters alone: what the methods start from is computed in it. Its
-    /// operations are those of the methods, so its results have the same bits.
+    /// Several methods as one list that needs only time, state and parameters: accelerations or event functions from
+    /// which a method starts are computed in the list. The operations are those of the methods, so the results have the
+    /// same bits.
     pub fn combined(&self, combination: Combination) -> List {
         let wanted = combination.methods();
         let coordinates = self.facts.coordinates.len();
@@ -88,8 +92,8 @@ impl Lists {
 }
 
 impl List {
-    /// What several lists compute, one after the other: the results of one behind those of the one before. Operations that several have
-    /// on the same operands are done once, so nothing is rounded otherwise.
+    /// Several lists as one, with their results one after the other. Operations that several lists do on the same
+    /// operands are done once, so rounding does not change.
     pub fn joined<'a>(lists: impl IntoIterator<Item = &'a List>) -> List {
         let mut lists: Vec<&List> = lists.into_iter().collect();
         lists.retain(|list| !list.results.is_empty());
@@ -107,7 +111,7 @@ impl List {
         }
     }
 
-    /// The same without operations that no result needs.
+    /// The list without operations that no result needs.
     fn live(self) -> List {
         let leaves = self.constants.len() + self.inputs.len();
         let mut needed = vec![false; self.values()];
@@ -149,7 +153,7 @@ impl List {
         live
     }
 
-    /// One more operation, on other operands.
+    /// Appends an operation with its operands mapped by `map`; `operands` are the mapped operands.
     fn push(&mut self, operation: Operation, operands: &[Value], map: impl FnMut(Value) -> Value) {
         self.operations.push(match operation {
             Operation::Call { function, .. } => {
@@ -162,26 +166,26 @@ impl List {
     }
 }
 
-/// A list that is joined.
+/// A list to be joined.
 struct Part<'a> {
     list: &'a List,
-    /// Whether its results are results of the whole.
+    /// True if its results are results of the joined list.
     wanted: bool,
-    /// What parts behind it start from.
+    /// The use that later parts make of its results.
     gives: Gives,
 }
 
-/// What others start from.
+/// The use that later parts make of a part's results.
 #[derive(Clone, Copy)]
 enum Gives {
     Nothing,
-    /// The results from this one on are accelerations.
+    /// The results from this index on are accelerations.
     Accelerations(usize),
     /// The results are event functions.
     EventFunctions,
 }
 
-/// What parts so far have given.
+/// The values that the parts so far provide to later ones.
 #[derive(Default)]
 struct Given {
     accelerations: Option<Vec<Value>>,
@@ -189,7 +193,7 @@ struct Given {
 }
 
 impl Given {
-    /// The value of an input that is computed by a part before.
+    /// The value of an input that an earlier part has computed; `None` if there is none.
     fn value(&self, input: Input) -> Option<Value> {
         match input {
             Input::Acceleration(i) => self.accelerations.as_ref().map(|given| given[i as usize]),
@@ -207,7 +211,7 @@ impl Given {
     }
 }
 
-/// The constants and inputs of all parts, and where each is.
+/// A list with the constants and inputs of all parts, and the index of each constant and of each input.
 fn leaves(parts: &[Part]) -> (List, FxHashMap<u64, u32>, FxHashMap<Input, u32>) {
     let mut joined = List::default();
     let mut constant_of: FxHashMap<u64, u32> = FxHashMap::default();
@@ -274,8 +278,9 @@ fn join(parts: &[Part]) -> List {
     joined
 }
 
-/// An operation with its operands. Of a call these stand in a box. Summands stand in one order, because a + b and b + a have the same bits, for every
-/// scalar. Those of products may differ in their slopes, where they are rounded in the order of the factors.
+/// An operation with its operands; those of a call are boxed. The operands of a sum are sorted, because a + b and b + a
+/// have the same bits for every scalar. The operands of a product are not sorted: with dual numbers, a · b and b · a
+/// may differ in the rounding of their slopes.
 #[derive(PartialEq, Eq, Hash)]
 enum Key {
     Algebra(std::mem::Discriminant<Operation>, [u32; 3]),

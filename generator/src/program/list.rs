@@ -2,29 +2,29 @@
 
 use crate::expression::Function;
 
-/// A value of a list, by its number: constants first, then inputs, then what the operations define, in their order.
+/// A value of a list, by its number: constants come first, then inputs, then the results of operations, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Value(pub u32);
 
-/// What a list is given.
+/// An input of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Input {
     /// t \[s\].
     Time,
     /// An entry of the state y: q, v, z, m.
     State(u32),
-    /// An acceleration, where a method starts from them.
+    /// An acceleration, for a method that starts from accelerations.
     Acceleration(u32),
-    /// An event function, where memory is renewed by the sign of it.
+    /// An event function, for the method that renews the memory by its sign.
     EventFunction(u32),
     /// A parameter, by its index in the model.
     Parameter(u32),
-    /// A value that depends on parameters alone, by its index among those.
+    /// A value that depends on parameters alone, by its index among such values.
     Derived(u32),
 }
 
-/// One operation. It defines one value, but for [`Operation::SinCos`], which defines two, and [`Operation::Call`], which defines as many as the
-/// function has results.
+/// One operation. It defines one value, except [`Operation::SinCos`], which defines two, and [`Operation::Call`], which
+/// defines as many values as the function has results.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation {
     /// −a
@@ -37,24 +37,24 @@ pub enum Operation {
     Mul(Value, Value),
     /// a / b
     Div(Value, Value),
-    /// a · b + c, rounded once where the scalar does that.
+    /// a · b + c, rounded once if the scalar type supports that.
     MulAdd(Value, Value, Value),
     /// √a
     Sqrt(Value),
     /// sin a, then cos a.
     SinCos(Value),
-    /// Angle of the point (second, first).
+    /// Angle of the point x = second operand, y = first operand.
     Atan2(Value, Value),
-    /// The larger; the first where either is no number.
+    /// The larger of the two; the first if either is NaN.
     Max(Value, Value),
-    /// The smaller; the first where either is no number.
+    /// The smaller of the two; the first if either is NaN.
     Min(Value, Value),
     /// A function of the runtime or of the user. Its arguments are [`List::arguments`] from `first` on, as many as its
-    /// [arity](Function::arity). Of several results it defines all, in their order.
+    /// [arity](Function::arity). If the function has several results, the call defines all of them, in order.
     Call {
-        /// Which; of several results it is the [first part](Function::first_part).
+        /// The function; if it has several results, its [first part](Function::first_part).
         function: Function,
-        /// Where its arguments begin.
+        /// Index of its first argument.
         first: u32,
     },
 }
@@ -62,20 +62,20 @@ pub enum Operation {
 /// A straight-line program: no loops, no branches, every value defined once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct List {
-    /// Numbers; values 0, 1, ….
+    /// Constants: the values 0, 1, ….
     pub constants: Vec<f64>,
-    /// Inputs; the values behind the constants.
+    /// Inputs: the values after the constants.
     pub inputs: Vec<Input>,
-    /// Operations; the values behind the inputs.
+    /// Operations, which define the values after the inputs.
     pub operations: Vec<Operation>,
     /// Arguments of calls.
     pub arguments: Vec<Value>,
-    /// What comes of it, in order. A result may be a constant or an input, and may be there twice.
+    /// The results, in order. A result may be a constant or an input, and may occur twice.
     pub results: Vec<Value>,
 }
 
 impl Operation {
-    /// Number of values that it defines.
+    /// Number of values that the operation defines.
     pub fn defines(&self) -> usize {
         match self {
             Operation::SinCos(_) => 2,
@@ -84,7 +84,7 @@ impl Operation {
         }
     }
 
-    /// The same operation on other operands. The arguments of a call stand in the list and stay.
+    /// The same operation with its operands mapped. The arguments of a call are in the list and do not change.
     pub fn map(self, mut map: impl FnMut(Value) -> Value) -> Operation {
         match self {
             Operation::Neg(a) => Operation::Neg(map(a)),
@@ -126,7 +126,7 @@ impl List {
         few.into_iter().flatten().chain(many.iter().copied())
     }
 
-    /// Number of values: constants, inputs and what operations define.
+    /// Number of values: constants, inputs and results of operations.
     pub fn values(&self) -> usize {
         let defined: usize = self.operations.iter().map(Operation::defines).sum();
         self.constants.len() + self.inputs.len() + defined

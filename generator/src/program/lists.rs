@@ -8,9 +8,9 @@ use std::ops::Range;
 /// A method as a list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Routine {
-    /// What it computes.
+    /// The computation.
     pub list: List,
-    /// What is computed before.
+    /// The values from which the computation starts.
     pub start: Start,
 }
 
@@ -21,48 +21,50 @@ pub struct Curve {
     pub name: String,
     /// Abscissa and ordinate, abscissae increasing, at least two points.
     pub points: Vec<[f64; 2]>,
-    /// The slope at each point of a cubic; `None` of straight lines.
+    /// The slope at each point of a cubic curve; `None` for a piecewise linear one.
     pub tangents: Option<Vec<f64>>,
-    /// What holds beyond the outermost points.
+    /// The extrapolation beyond the end points.
     pub extrapolate: Extrapolate,
 }
 
-/// A model as lists: all that is needed to evaluate it.
+/// A model as lists: everything needed to evaluate it.
 ///
-/// The lists have the very operations of the Rust text that [`Config::source`](crate::Config::source) gives with the same options, in its
-/// order, so their results have the same bits, signs of zero included. Methods that are longer than `Options::merged` are the one
-/// exception: the sign of a zero may differ there.
+/// The lists have exactly the operations of the Rust text that [`Config::source`](crate::Config::source) gives with the
+/// same options, in the same order, so their results have the same bits, including the signs of zeros. The only
+/// exception are methods longer than `Options::merged`: there the sign of a zero may differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lists {
     /// Names, units, sizes.
     pub facts: Facts,
-    /// By method, in the order of [`Method::ALL`]. A list without results where there is nothing to compute.
+    /// By method, in the order of [`Method::ALL`]. The list of a method with nothing to compute has no results.
     pub routines: Vec<Routine>,
-    /// All curves of the model: [`Function::Curve`](crate::expression::Function::Curve) and its like say which by its index.
+    /// All curves of the model. [`Function::Curve`](crate::expression::Function::Curve) and its like refer to them by
+    /// index.
     pub curves: Vec<Curve>,
-    /// By force of the model, which [`UserCall::force`](crate::expression::UserCall::force) counts: the name of the user's function,
-    /// where it has one.
+    /// The name of the user's function, by index of the force
+    /// ([`UserCall::force`](crate::expression::UserCall::force)); `None` for other forces.
     pub users: Vec<Option<String>>,
-    /// By condition, what its value may be.
+    /// By condition, the values that are allowed.
     pub rules: Vec<Rule>,
-    /// The curves of time that parameters stretch, by index, one for each result of [`Method::KinkRates`]. The first kink after a time t is
-    /// the smallest of what the curves give for t and their rates (`kink_after` of the runtime's curves), +∞ where there are none.
+    /// The curves of time whose abscissae depend on parameters, by index, one for each result of [`Method::KinkRates`].
+    /// The first kink after a time t is the smallest of the times that these curves give for t and their rates
+    /// (`kink_after` of the runtime's curves), or +∞ if there are none.
     pub stretched: Vec<u32>,
-    /// Ranges of coordinates, each a whole number of unit quaternions of four entries.
+    /// Ranges in q that consist of unit quaternions, four entries each.
     pub quaternions: Vec<Range<usize>>,
-    /// The entries of the state that the results of [`Method::Renewed`] replace, in order.
+    /// Indices of the state's entries that the results of [`Method::Renewed`] replace, in order.
     pub renewed: Vec<u32>,
     /// Number of values that depend on parameters alone.
     pub derived: usize,
 }
 
 impl Lists {
-    /// A method.
+    /// The routine of a method.
     pub fn routine(&self, method: Method) -> &Routine {
         &self.routines[method as usize]
     }
 
-    /// Its list.
+    /// The list of a method.
     pub fn list(&self, method: Method) -> &List {
         &self.routine(method).list
     }

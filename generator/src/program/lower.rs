@@ -1,6 +1,6 @@
-//! From scheduled values to a [`List`]: the operations of the text, in the order of the text, without any text.
+//! Turns scheduled values into a [`List`]: the operations of the Rust text, in the same order.
 //!
-//! Operations on equal operands are one operation. That changes no bit, and a compiler does it too.
+//! Equal operations on equal operands become one. That changes no bit, and a compiler does it, too.
 
 use super::formula::{Form, Formulas, Method, Operator};
 use super::schedule::{Schedule, Statement, index};
@@ -26,11 +26,11 @@ pub(crate) fn list(schedule: &Schedule, inputs: &Inputs) -> List {
     writer.list.into_inner().finish(results)
 }
 
-/// A value before it is known how many constants and inputs there are.
+/// A value while the numbers of constants and inputs are not yet known.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Term(u32);
 
-/// Kinds of terms, by their two highest bits. What operations define has neither.
+/// The kinds of terms, as their two highest bits; a result of an operation has neither bit.
 const CONSTANT: u32 = 1 << 31;
 const INPUT: u32 = 1 << 30;
 const KIND: u32 = CONSTANT | INPUT;
@@ -42,22 +42,22 @@ struct Writer<'a> {
     list: RefCell<Growing>,
 }
 
-/// A list in progress.
+/// A list under construction.
 struct Growing {
     constants: Vec<f64>,
     constant_of: FxHashMap<u64, u32>,
     inputs: Vec<Input>,
     input_of: FxHashMap<Input, u32>,
     operations: Vec<Operation>,
-    /// The first value that an operation defines.
+    /// By operation: the first value that it defines.
     first_of: FxHashMap<Key, u32>,
     defined: u32,
     arguments: Vec<Value>,
-    /// By node: the value that a line bound.
+    /// By node: the value to which a line has bound it.
     bound: Vec<Option<Term>>,
 }
 
-/// An operation with its operands. Of a call these stand in a box.
+/// An operation with its operands; those of a call are boxed.
 #[derive(PartialEq, Eq, Hash)]
 enum Key {
     Algebra(u8, [u32; 3]),
@@ -79,7 +79,7 @@ impl Growing {
         }
     }
 
-    /// A constant. Zero has no sign, as in the text.
+    /// A constant. A zero loses its sign, as in the text.
     fn constant(&mut self, value: f64) -> Term {
         let value = value + 0.0;
         let constants = &mut self.constants;
@@ -99,7 +99,7 @@ impl Growing {
         Term(INPUT | place)
     }
 
-    /// The first value of an operation, which is made if it is not there.
+    /// The first value of the operation; appends the operation if it is new.
     fn operation(&mut self, key: Key, make: impl FnOnce(&mut Vec<Value>) -> Operation) -> Term {
         let (operations, defined) = (&mut self.operations, &mut self.defined);
         let arguments = &mut self.arguments;
@@ -127,7 +127,7 @@ impl Growing {
         self.operation(Key::Algebra(of, given), |_| make(operands))
     }
 
-    /// The list, once all of it is there: values are numbered as they are there.
+    /// Builds the list. Numbers constants first, then inputs, then results of operations.
     fn finish(self, results: Vec<Term>) -> List {
         let (constants, inputs) = (self.constants.len() as u32, self.inputs.len() as u32);
         let number = |value: Value| {
@@ -160,7 +160,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Writes a statement, and remembers what it binds.
+    /// Appends the operations of a statement, and records the values that it binds.
     fn line(&self, statement: Statement) {
         let first = match statement {
             Statement::Value(id) => self.formulas().formula(id),
@@ -169,7 +169,7 @@ impl Writer<'_> {
                 Some(&id) => self.formulas().formula(id),
                 None => return,
             },
-            // Results are listed at the end.
+            // Results are collected after all lines.
             Statement::Put(_) => return,
         };
         let bindings = self.schedule.bindings(statement);

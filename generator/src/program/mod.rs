@@ -1,22 +1,23 @@
-//! Straight-line programs of no language: what every target prints, interprets or encodes.
+//! Straight-line programs, independent of any language. Every target prints, interprets or encodes them.
 //!
-//! The passes work on graphs, one after the other, and know no language:
+//! The passes work on graphs, one after the other, independently of the target language:
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
 //! | `plan` | a graph for each method of the table in `method`; values that depend on parameters alone (`hoist`) |
-//! | `prepare` | the passes over each graph: what is known is an input, common factors go outside, operations are fused |
-//! | `order`, `inline`, `schedule` | the operations of a graph in their order, as statements |
-//! | `share` | what like elements do alike, as subroutines |
-//! | `split` | where a long method is cut |
-//! | `formula` | the operations of a statement, in whatever form they are written |
+//! | `prepare` | the passes over each graph: known values become inputs, common factors are taken out, operations are fused |
+//! | `order`, `inline`, `schedule` | the operations of a graph as statements, in order |
+//! | `share` | equal computations of like elements, as subroutines |
+//! | `split` | cuts of long methods |
+//! | `formula` | the operations of a statement, independent of the written form |
 //! | `lower`, `assemble` | statements as a [`List`], methods as [`Lists`] |
-//! | `join` | lists that are evaluated together |
-//! | `facts`, `breakpoints`, `about` | what is known without evaluating anything |
+//! | `join` | several lists evaluated together |
+//! | `facts`, `breakpoints`, `about` | facts that need no evaluation |
 //!
-//! A [`List`] is one method of a model as a list of operations in the order in which they are done. It is made of the same schedule
-//! that the Rust text is printed from, and it has the text's very operations, so that all targets give the same bits.
-//! [`Lists`] are all methods of a model, with all else that is needed to evaluate it: [`Config::lists`](crate::Config::lists) makes them.
+//! A [`List`] is one method of a model as a list of operations, in the order of their evaluation. It is made from the
+//! same schedule as the Rust text and has exactly the same operations, so that all targets give the same bits.
+//! [`Lists`] are all methods of a model, with everything else needed to evaluate it;
+//! [`Config::lists`](crate::Config::lists) makes them.
 
 mod about;
 mod assemble;
@@ -51,22 +52,25 @@ pub use join::Combination;
 pub use list::{Input, List, Operation, Value};
 pub use lists::{Curve, Lists, Routine};
 
-/// What to emit, and how.
+/// Options of the generated program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// The methods `mass_matrix`, `velocity_forces` and `applied_forces`, which need the runtime's feature `nalgebra`.
+    /// Whether to generate the methods `mass_matrix`, `velocity_forces` and `applied_forces`, which need the runtime's
+    /// feature `nalgebra`.
     pub matrices: bool,
-    /// Statements that one function may have, besides those that read inputs; longer ones are cut into pieces, which release builds merge
-    /// again unless there are too many. What like elements share, and what is left beside it, is not cut.
+    /// Largest number of statements of one function, not counting those that read inputs. Longer functions are cut into
+    /// pieces, which release builds merge again unless there are too many. Subroutines shared by like elements, and the
+    /// function that calls them, are not cut.
     pub statements: usize,
-    /// Statements up to which a method is one function when it is compiled, which makes the faster code, by 3 % over one double and by
-    /// 5 to 15 % over eight, but takes more than proportionally long, and more than the caches of a processor hold. Of longer ones
-    /// like elements share functions; where few are like each other, each piece is a function.
+    /// Largest number of statements of a method that is compiled as one function. That makes the code faster, by 3 %
+    /// with `f64` and by 5 to 15 % with eight lanes, but compile time grows more than proportionally, and the code may
+    /// exceed the processor's caches. In longer methods, like elements share functions; if few elements are alike, each
+    /// piece becomes a function.
     pub merged: usize,
 }
 
 impl Options {
-    /// What is emitted unless something else is asked for.
+    /// The default options.
     pub const DEFAULT: Options = Options {
         matrices: true,
         statements: 900,
@@ -80,15 +84,15 @@ impl Default for Options {
     }
 }
 
-/// The operations of methods, by their names.
+/// The operations of methods, each with the method's name.
 pub type Costs = Vec<(&'static str, Table)>;
 
-/// What each method of a model costs, by section: the operations after all passes.
+/// The operations of each method of a model after all passes, by section.
 pub fn costs(model: &Model, equations: &Equations, options: &Options) -> Costs {
     costs_of(model, equations, options, None)
 }
 
-/// The same of the methods of these names alone, if some are named.
+/// The same for the methods named in `only`; for all if it is `None`.
 pub fn costs_of(
     model: &Model,
     equations: &Equations,
@@ -98,8 +102,8 @@ pub fn costs_of(
     Plan::new(model, equations, options, only).costs()
 }
 
-/// By method: the operations that depend on parameters alone, and so are done at every call though nothing changes. There
-/// are none but in `new` and `initial_conditions`, which is what they are for.
+/// By method: the operations that depend on parameters alone, and so are needlessly repeated at every call. Only `new`
+/// and `initial_conditions` may have such operations, because computing them is their purpose.
 pub fn repeated(
     model: &Model,
     equations: &Equations,
@@ -112,7 +116,7 @@ pub fn repeated(
         let nodes = live.nodes().iter().copied();
         let nodes: Vec<_> = nodes.filter(|id| alone[id.0 as usize]).collect();
         let mut count = Count::of_nodes(&procedure.graph, &nodes);
-        // A sign is no operation.
+        // A sign does not count as an operation.
         count.neg = 0;
         (procedure.method.name, count)
     };

@@ -1,8 +1,8 @@
-//! In which order values are computed.
+//! The order in which values are computed.
 //!
-//! Statements come section by section: as many values of a section as can be computed follow one another, in the order in
-//! which they were made. In what integrators evaluate a section stands right before the first one that needs it: there are
-//! more values than registers, and those that wait for their use are written to memory and fetched again.
+//! Statements are ordered by section: the values of a section that can be computed follow one another, in the order of
+//! their creation. In methods that integrators evaluate, a section comes right before the first section that needs it:
+//! there are more values than registers, and values that wait long for their use are written to memory and read again.
 
 use super::schedule::{index, uses};
 use crate::expression::{Graph, NodeId};
@@ -11,19 +11,20 @@ use rustc_hash::FxHashMap;
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-/// Which of the statements that can be next is next.
+/// The rule that selects the next statement among those that can be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
-    /// As many as can be computed of a section follow one another, in the order in which they were made.
+    /// As many values as possible of a section follow one another, in the order of their creation.
     Section,
-    /// The same, but each section right before the first one that needs it.
+    /// The same, but each section comes right before the first section that needs it.
     Need,
-    /// As many as are needed next of an element follow one another, as late as possible.
+    /// As many values as possible of an element follow one another, as late as their users allow.
     Owner,
 }
 
 impl Order {
-    /// That of a method with these results: what goes to an output writer one by one is computed when it is needed.
+    /// The order for a method with these results. If results are written one by one, each is computed right before it
+    /// is needed.
     pub(crate) fn of(results: Results) -> Self {
         match results.one_by_one() {
             true => Order::Need,
@@ -31,7 +32,7 @@ impl Order {
         }
     }
 
-    /// All values in use that are operations, operands first, block by block.
+    /// All operations in use, operands first, divided into blocks.
     pub(crate) fn blocks(self, graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
         match self {
             Order::Section => vec![by_section(graph, uses)],
@@ -41,13 +42,13 @@ impl Order {
     }
 }
 
-/// The operations that roots need, in the order of [`Order::Owner`], block by block.
+/// The operations that the roots need, in the order of [`Order::Owner`], divided into blocks.
 pub(crate) fn blocks_by_owner(graph: &Graph, roots: &[NodeId]) -> Vec<Vec<NodeId>> {
     by_owner(graph, &uses(graph, roots))
 }
 
-/// All values in use that are operations: operands first, the way of the elements backwards from the results, each done as far as
-/// what needs it is.
+/// All operations in use, operands first, one block per owner and run. Goes backwards from the results: a value is
+/// ready if all its users are placed, and as many ready values of one owner as possible form a block.
 fn by_owner(graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
     let nodes = graph.nodes();
     let operation = |id: NodeId| uses[index(id)] > 0 && !nodes[index(id)].is_leaf();
@@ -68,7 +69,7 @@ fn by_owner(graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
         ready[owner_of[graph.section_of(id)]].insert(id);
     }
     let mut blocks = Vec::new();
-    // The owner whose last value was made last, until nothing of it is ready any more.
+    // takes the owner of the youngest ready value, until none of its values is ready any more
     while let Some(current) = (0..ready.len())
         .filter(|&owner| !ready[owner].is_empty())
         .max_by_key(|&owner| ready[owner].last().copied())
@@ -90,7 +91,7 @@ fn by_owner(graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
     blocks
 }
 
-/// All values in use that are operations: operands first, section by section.
+/// All operations in use, operands first, section by section.
 fn by_section(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
     let nodes = graph.nodes();
     let operation = |id: NodeId| uses[index(id)] > 0 && !nodes[index(id)].is_leaf();
@@ -113,7 +114,7 @@ fn by_section(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
         }
     }
     let mut order = Vec::new();
-    // The section whose next value was made first, until nothing of it is ready any more.
+    // takes the section of the oldest ready value, until none of its values is ready any more
     while let Some(current) = (0..ready.len())
         .filter(|&section| !ready[section].is_empty())
         .min_by_key(|&section| ready[section].first().copied())
@@ -131,8 +132,9 @@ fn by_section(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
     order
 }
 
-/// All values in use that are operations: operands first, each section right before the first one that needs it. What no other needs, like a
-/// rate of orientation, stands beside what else its owner makes of the same values, while these are at hand.
+/// All operations in use, operands first, each run of a section right before the first one that needs it. A run that no
+/// other needs, such as a rate of orientation, is placed next to the other runs of its owner, while their values are
+/// still in registers.
 fn by_need(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
     let order = by_section(graph, uses);
     let section = |id: NodeId| graph.section_of(id);
@@ -149,7 +151,8 @@ fn by_need(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
             run_of[index(id)] = Some(number);
         }
     }
-    // By run: the others whose values it needs; first those that take longest, so that what is soon there waits least.
+    // By run: the other runs whose values it needs. Those with the longest chain of operands come first, so that short
+    // ones wait least for their use.
     let needs: Vec<Vec<usize>> = (runs.iter().enumerate())
         .map(|(number, run)| {
             let operands = run.iter().flat_map(|&id| graph.node(id).operands());
@@ -187,7 +190,8 @@ fn by_need(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
         }
     };
     let mut seen = vec![false; runs.len()];
-    // Runs, with how many of their needs were looked at. Chains may be longer than the call stack is deep.
+    // Runs, each with the number of its needs already visited. An explicit stack, because chains may be deeper than the
+    // call stack.
     let mut stack: Vec<(usize, usize)> = Vec::new();
     for run in last.into_iter().chain(beside) {
         stack.push((run, 0));

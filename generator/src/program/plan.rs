@@ -1,5 +1,5 @@
-//! The methods of a model behind all passes, each with a graph of its own; and the values that depend on parameters alone, which are computed
-//! once.
+//! The methods of a model after all passes, each with a graph of its own, and the values that depend on parameters
+//! alone, which are computed once.
 
 use super::prepare::{Factored, factored, finished};
 use super::{Options, hoist};
@@ -14,19 +14,19 @@ use crate::method::table::{self, Source, Specification};
 use crate::model::Model;
 use crate::names::{Names, snake};
 
-/// The methods of a model, and the names of what they compute with.
+/// The methods of a model, and the names of their inputs.
 pub(crate) struct Plan {
     pub inputs: Inputs,
     pub procedures: Vec<Procedure>,
 }
 
-/// A method behind all passes.
+/// A method after all passes.
 pub(crate) struct Procedure {
-    /// What it is; its arguments are those that it needs, and it starts from what it is given.
+    /// The method; its arguments and its start are those that the passes have found to be needed.
     pub method: Specification,
-    /// What it computes with.
+    /// The graph of its operations.
     pub graph: Graph,
-    /// What it computes, as nodes of its graph.
+    /// Its results, as nodes of the graph.
     pub roots: Vec<NodeId>,
 }
 
@@ -39,14 +39,14 @@ impl Procedure {
         }
     }
 
-    /// Its operations.
+    /// The operations of the method.
     pub(crate) fn cost(&self) -> Table {
         Table::of(&self.graph, &self.roots)
     }
 }
 
 impl Plan {
-    /// The methods of a model; `only` those of these names, and `new`.
+    /// The methods of a model. With `only`, the methods of these names and `new`.
     pub(crate) fn new(
         model: &Model,
         equations: &Equations,
@@ -83,7 +83,7 @@ impl Plan {
         Self { inputs, procedures }
     }
 
-    /// q̇ and v̇ by one method, where there is one for each.
+    /// q̇ and v̇ as one method; `None` unless both have a method.
     pub(crate) fn motion(&self) -> Option<Procedure> {
         let named = |name: &str| self.procedures.iter().find(|of| of.method.name == name);
         let (rates, accelerations) = (named("coordinate_rates")?, named("accelerations")?);
@@ -102,13 +102,13 @@ impl Plan {
     }
 }
 
-/// The values that depend on parameters alone and are needed by others, fields of the mechanism; and the methods as the passes made them while
-/// these values were looked for.
+/// The values that depend on parameters alone and that other values need, stored in the mechanism; and the methods as
+/// factored while these values were searched for.
 struct Derived {
     /// The values, by nodes of the equations; named in [`Inputs`].
     values: Vec<NodeId>,
     factored: Vec<Factored>,
-    /// How many of the values were known to the factored methods.
+    /// Number of the values that were known when the methods were factored.
     known: usize,
 }
 
@@ -122,7 +122,7 @@ fn derived(equations: &Equations, methods: &[Specification], inputs: &mut Inputs
     keep(graph, &values, inputs);
     let factored = factored(equations, methods, &values, inputs);
     let known = values.len();
-    // What the passes make of parameters alone is known only when they are done.
+    // Values that the passes create from parameters alone are known only after the passes.
     if !values.is_empty() || !inputs.parameters.is_empty() {
         let mut more = Vec::new();
         let behind_passes = methods.iter().zip(&factored);
@@ -145,7 +145,7 @@ fn derived(equations: &Equations, methods: &[Specification], inputs: &mut Inputs
     }
 }
 
-/// Makes values fields of the mechanism.
+/// Adds values to those stored in the mechanism, and names them.
 fn keep(graph: &Graph, values: &[NodeId], inputs: &mut Inputs) {
     let mut names = Names::with(&["parameters"]);
     for name in &inputs.derived {

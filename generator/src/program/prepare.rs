@@ -1,11 +1,13 @@
-//! The passes over the methods of a model: what is known is replaced by inputs, common factors go outside, operations are fused.
+//! The passes over the methods of a model: known values are replaced by inputs, common factors are taken out,
+//! operations are fused.
 //!
-//! The passes take most of the time of emission, and methods have nothing to do with each other: they are done on all processors. Nothing in the
-//! text depends on how many there are.
+//! The passes take most of the time of generation, and methods are independent of each other, so they are processed in
+//! parallel on all processors. The output does not depend on the number of processors.
 //!
-//! Methods share the arguments of expensive calls, the searches between two ellipsoids: each method computes them as `accelerations` does. So all
-//! methods search with the same bits, and a list that joins several methods searches once. Arguments of cheaper calls are left to each method:
-//! shared, too, they cost event functions and kinks of the scenes in benches/scenes 4 to 18 % more operations.
+//! Methods share the arguments of expensive calls, i.e. the searches between two ellipsoids: each method computes these
+//! arguments as `accelerations` does. So all methods search with the same bits, and a list that joins several methods
+//! searches once. Arguments of cheaper calls are left to each method: sharing them, too, would cost event functions and
+//! kinks of the scenes in benches/scenes 4 to 18 % more operations.
 
 use super::hoist;
 use crate::equations::Equations;
@@ -19,19 +21,19 @@ use crate::method::table::Specification;
 use rustc_hash::FxHashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Operations above which `outputs` calls `accelerations` instead of computing them a second time in its own text.
+/// Number of operations that a method must save to receive the accelerations instead of computing them itself.
 const REPEATED_OPERATIONS: usize = 50;
 
-/// A method behind the factoring pass.
+/// A method after the factoring pass, in one or two forms.
 pub(crate) struct Factored {
-    /// With all that it needs.
+    /// The form that computes the accelerations itself.
     alone: Rewritten,
-    /// Starting from accelerations, where it may.
+    /// The form that starts from accelerations, if the method allows it.
     short: Option<Rewritten>,
 }
 
 impl Factored {
-    /// The cheaper form, and whether that starts from accelerations.
+    /// The cheaper form; true if that starts from accelerations.
     pub(crate) fn chosen(&self, inputs: &Inputs) -> (&Rewritten, bool) {
         match &self.short {
             Some(short) if starts_from_accelerations(&self.alone, short, inputs) => (short, true),
@@ -45,10 +47,10 @@ fn starts_from_accelerations(alone: &Rewritten, short: &Rewritten, inputs: &Inpu
     uses_accelerations(&short.graph, inputs) && total(alone) > total(short) + REPEATED_OPERATIONS
 }
 
-/// What stands for values that a method is given.
+/// The inputs that replace known values: by node the input, and true if the value is minus the input.
 type Known = FxHashMap<NodeId, (Symbol, bool)>;
 
-/// The values that depend on parameters alone, as fields of the mechanism.
+/// The values that depend on parameters alone, as inputs stored in the mechanism.
 fn known(derived: &[NodeId], inputs: &Inputs) -> Known {
     let fields = derived.iter().enumerate();
     fields
@@ -56,7 +58,7 @@ fn known(derived: &[NodeId], inputs: &Inputs) -> Known {
         .collect()
 }
 
-/// The same with what a method starts from.
+/// The same, with the values from which a method starts.
 fn with_start(known: &Known, start: Start, equations: &Equations, inputs: &Inputs) -> Known {
     let mut known = known.clone();
     let graph = &equations.graph;
@@ -80,9 +82,10 @@ fn with_start(known: &Known, start: Start, equations: &Equations, inputs: &Input
 
 /// The arguments of the [expensive](is_expensive) calls that accelerations need.
 struct Arguments {
-    /// The place of `accelerations` among the methods; `None` where it is not wanted, and nothing is in common then.
+    /// Index of `accelerations` among the methods. `None` if it is not wanted; then no arguments are shared.
     by: Option<usize>,
-    /// The arguments, as nodes of the equations. Inputs, constants and values of parameters alone are left out: they are the same everywhere.
+    /// The arguments, as nodes of the equations. Inputs, constants and values of parameters alone are left out: every
+    /// method has the same.
     nodes: Vec<NodeId>,
 }
 
@@ -92,7 +95,7 @@ impl Arguments {
         let roots = by.map_or(&[][..], |by| &methods[by].roots);
         let needed = needed(graph, roots, known);
         let mut is_argument = vec![false; graph.len()];
-        // lists of arguments are older than the calls and younger than what they list
+        // lists of arguments come before their calls and after their members
         for &id in needed.iter().rev() {
             let node = graph.node(id);
             let is_list = is_argument[id.0 as usize] && matches!(node, Node::Arguments(_));
@@ -113,7 +116,7 @@ impl Arguments {
         }
     }
 
-    /// The input that stands for an argument until the methods are finished: an entry of memory that no model has.
+    /// The input that replaces an argument until the methods are finished: an entry of m that no model has.
     fn stand_in(index: usize) -> Symbol {
         Symbol::Memory(u32::MAX - index as u32)
     }
@@ -123,7 +126,7 @@ impl Arguments {
         nodes.map(|(index, &node)| (node, Self::stand_in(index)))
     }
 
-    /// What the passes are to make of a method: of `accelerations`, the arguments, too.
+    /// The roots of a method for the passes: for `accelerations`, also the shared arguments.
     fn roots(&self, method: usize, methods: &[Specification]) -> Vec<NodeId> {
         let mut roots = methods[method].roots.clone();
         if self.by == Some(method) {
@@ -133,7 +136,8 @@ impl Arguments {
     }
 }
 
-/// Whether a call takes so long that it is worth more than the few operations by which its arguments could be cheaper in another method.
+/// True if a call takes so long that sharing it is worth more than a few operations that a method could save in its
+/// arguments.
 fn is_expensive(node: &Node) -> bool {
     matches!(
         node,
@@ -141,10 +145,10 @@ fn is_expensive(node: &Node) -> bool {
     )
 }
 
-/// The method that decides how these arguments are computed.
+/// The method that determines how the shared arguments are computed.
 const ACCELERATIONS: &str = "accelerations";
 
-/// Methods behind the factoring pass, where these values are known.
+/// The methods after the factoring pass. `derived` are the known values.
 pub(crate) fn factored(
     equations: &Equations,
     methods: &[Specification],
@@ -156,7 +160,7 @@ pub(crate) fn factored(
     factored_of(&all, equations, methods, &arguments, derived, inputs)
 }
 
-/// The same of these methods alone.
+/// The same for the `wanted` methods only.
 fn factored_of(
     wanted: &[usize],
     equations: &Equations,
@@ -204,8 +208,8 @@ fn factored_of(
     forms.collect()
 }
 
-/// Methods behind all passes, each with whether it starts from accelerations. Of the values that depend on parameters alone, the first `before`
-/// were known when the methods were factored; a method that needs one of the others is factored again.
+/// The methods after all passes, each with true if it starts from accelerations. The first `before` of the `derived`
+/// values were known when the methods were factored; a method that needs one of the others is factored again.
 pub(crate) fn finished(
     equations: &Equations,
     methods: &[Specification],
@@ -257,7 +261,7 @@ pub(crate) fn finished(
     chosen.collect()
 }
 
-/// What `work` makes of each task, in their order. Each thread has a copy of the graph.
+/// The results of `work` for each task, in the order of the tasks. Each thread has a copy of the graph.
 fn on_all_processors<T: Sync, R: Send>(
     graph: &Graph,
     tasks: &[T],
@@ -296,12 +300,12 @@ fn on_all_processors<T: Sync, R: Send>(
     results.into_iter().flatten().collect()
 }
 
-/// Smaller graphs are done before a thread has started \[nodes\].
+/// Smallest graph for which threads are started; a smaller one is done before a thread starts \[nodes\].
 const WORTH_A_THREAD: usize = 500;
 
-/// Lets a symbol stand for a value from now on, unless the value is no work.
+/// Replaces a value by a symbol from now on, unless the value is a leaf.
 fn know(known: &mut FxHashMap<NodeId, (Symbol, bool)>, graph: &Graph, id: NodeId, symbol: Symbol) {
-    // Whoever needs −x may be using x, the operand.
+    // A user of −x may be using its operand x.
     let (id, negative) = match graph.node(id) {
         Node::Neg(x) => (x, true),
         _ => (id, false),

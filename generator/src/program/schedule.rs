@@ -1,4 +1,4 @@
-//! One method as statements: which values are bound, and in which order.
+//! A method as statements: the values that are bound, and their order.
 
 use super::inline::inline;
 use super::order::Order;
@@ -10,30 +10,31 @@ use std::ops::Range;
 
 /// The values of a method in the order in which they are computed.
 pub(crate) struct Schedule {
-    /// What it computes with.
+    /// The graph of the method.
     pub graph: Graph,
-    /// What it computes.
+    /// The results of the method.
     pub roots: Vec<NodeId>,
-    /// Whether roots are handed over one by one by statements, and not returned.
+    /// True if each root is written by a statement of its own, false if the roots are returned.
     puts: bool,
     /// The lines, in order.
     pub lines: Vec<Line>,
-    /// Whether a line binds it, by node.
+    /// By node: true if a line binds it.
     binds: Vec<bool>,
-    /// Of each call with several results, which of them are used, in their order.
+    /// By call with several results: the results that are used, at their places; `None` for an unused one.
     calls: Vec<Vec<Option<NodeId>>>,
 }
 
-/// One statement, and the section and the block it belongs to.
+/// A statement, with its section and its block.
 pub(crate) struct Line {
     pub section: usize,
-    /// Number of the block; 0 in order of sections.
+    /// Number of the block; 0 unless the order is [`Order::Owner`].
     pub block: usize,
     pub statement: Statement,
 }
 
 impl Line {
-    /// The section that begins with it, where `current` is that of the line before; what is put into an output writer begins none.
+    /// The section that begins with this line, if it is not the `current` one, which is updated. A line that writes a
+    /// result begins no section.
     pub(crate) fn begins(&self, current: &mut Option<usize>) -> Option<usize> {
         let binds = !matches!(self.statement, Statement::Put(_));
         let new = binds && current.replace(self.section) != Some(self.section);
@@ -41,26 +42,26 @@ impl Line {
     }
 }
 
-/// What a statement binds.
+/// The values that a statement binds.
 #[derive(Clone, Copy)]
 pub(crate) enum Statement {
     /// One value.
     Value(NodeId),
-    /// Sine and cosine of one argument; either may be of no use.
+    /// Sine and cosine of one argument; `None` for an unused one.
     SinCos {
         argument: NodeId,
         sin: Option<NodeId>,
         cos: Option<NodeId>,
     },
-    /// The results of a call with several, by its place among those.
+    /// The results of a call with several results, by the index of the call.
     Results(usize),
-    /// None: hands over a root, by its place among those.
+    /// No value: writes a root to the output writer, by the index of the root.
     Put(usize),
 }
 
 impl Schedule {
-    /// Schedules what the roots need. `labels` are the names that the roots get if they have none, in the same order: they say how wide a
-    /// line is, and so which values are bound.
+    /// Schedules the values that the roots need. `labels` are the names of roots that have none, in the same order:
+    /// their widths influence which values are bound.
     pub(crate) fn new(
         graph: Graph,
         roots: Vec<NodeId>,
@@ -119,8 +120,9 @@ impl Schedule {
         schedule
     }
 
-    /// Has every root put into the output writer as soon as it is known, so that nobody need keep it: behind the line that binds it or, where blocks
-    /// may become calls, at the end of the block. What no line binds comes last.
+    /// Adds lines that write each root to the output writer as soon as it is known, so that it need not be stored:
+    /// after the line that binds it or, if blocks may become calls, at the end of the block. Roots that no line binds
+    /// come last.
     fn put_results(&mut self, order: Order) {
         let mut line_of = vec![None; self.graph.len()];
         for (number, line) in self.lines.iter().enumerate() {
@@ -154,7 +156,7 @@ impl Schedule {
         self.put(unbound.into_iter(), section, block + 1);
     }
 
-    /// Lines that put these roots into the output writer.
+    /// Adds lines that write these roots to the output writer.
     fn put(&mut self, places: impl Iterator<Item = usize>, section: usize, block: usize) {
         self.lines.extend(places.map(|place| Line {
             section,
@@ -171,7 +173,7 @@ impl Schedule {
         }
     }
 
-    /// How many of these lines bind something.
+    /// Number of these lines that bind values.
     pub(crate) fn binding(&self, lines: Range<usize>) -> usize {
         let binds = |line: &&Line| !matches!(line.statement, Statement::Put(_));
         self.lines[lines].iter().filter(binds).count()
@@ -187,7 +189,7 @@ impl Schedule {
         }
     }
 
-    /// The places of what a statement binds, empty where a result is of no use.
+    /// The values that a statement binds, at their places; `None` for an unused one.
     pub(crate) fn bindings(&self, statement: Statement) -> Vec<Option<NodeId>> {
         match statement {
             Statement::Value(id) => vec![Some(id)],
@@ -197,7 +199,7 @@ impl Schedule {
         }
     }
 
-    /// Where the values that a statement needs are found: the roots of its expression.
+    /// The nodes whose expressions a statement evaluates.
     pub(crate) fn needs(&self, statement: Statement) -> Vec<NodeId> {
         match statement {
             Statement::Value(id) => self.graph.node(id).operands().collect(),
@@ -210,12 +212,12 @@ impl Schedule {
         }
     }
 
-    /// The results of a call with several: those that are used.
+    /// The results of a call with several results: those that are used, at their places.
     pub(crate) fn results(&self, call: usize) -> &[Option<NodeId>] {
         &self.calls[call]
     }
 
-    /// Whether a line binds it.
+    /// True if a line binds the value.
     pub(crate) fn is_bound(&self, id: NodeId) -> bool {
         self.binds[index(id)]
     }
@@ -232,12 +234,12 @@ impl Schedule {
     }
 }
 
-/// Where a node is found in lists by node.
+/// The index of a node in lists by node.
 pub(crate) fn index(id: NodeId) -> usize {
     id.0 as usize
 }
 
-/// How often each value is used; 0 for what the roots do not need.
+/// By node: the number of its uses; 0 if the roots do not need it.
 pub(crate) fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
     let mut uses = vec![0; graph.len()];
     for &root in roots {
@@ -282,7 +284,7 @@ fn partners(graph: &Graph, uses: &[u32]) -> Vec<(Option<NodeId>, Option<NodeId>)
     partners
 }
 
-/// The calls with several results, each once, with those of the results that are used.
+/// The calls with several results, each once, with the results that are used.
 fn calls(graph: &Graph, uses: &[u32]) -> Vec<Vec<Option<NodeId>>> {
     let mut calls: Vec<Vec<Option<NodeId>>> = Vec::new();
     let mut place: FxHashMap<Node, usize> = FxHashMap::default();

@@ -1,8 +1,8 @@
-//! Cutting a long function: rustc crashes on functions of more than about 2 500 `let`s with full debug information
-//! (each nests a scope, rust-lang/rust#93908), so none gets more than a limit.
+//! Cuts long functions. rustc crashes on functions of more than about 2 500 `let`s with full debug information (each
+//! nests a scope, rust-lang/rust#93908), so no function gets more than a limit.
 //!
-//! A cut lies where the section changes, if there is such a place in the second half of what the limit allows, and there
-//! where the fewest values cross.
+//! A cut is placed where the section changes, if there is such a place in the second half of the allowed length. Among
+//! these places, the one that the fewest values cross is taken.
 
 use super::schedule::{Schedule, Statement};
 use crate::expression::NodeId;
@@ -13,13 +13,14 @@ use std::ops::Range;
 pub(crate) struct Piece {
     /// The lines.
     pub lines: Range<usize>,
-    /// What lines and, in the last piece, results read that the piece does not bind: inputs and values of earlier pieces.
+    /// The values that the piece reads but does not bind: inputs and values of earlier pieces. The last piece also
+    /// reads the results.
     pub reads: BTreeSet<NodeId>,
-    /// What the piece binds and later pieces read, in the order in which it is bound.
+    /// The values that the piece binds and later pieces read, in the order of binding.
     pub passes_on: Vec<NodeId>,
 }
 
-/// The program in pieces of at most `limit` lines; one piece if it is no longer than that.
+/// The method in pieces of at most `limit` lines; one piece if it is no longer than that.
 pub(crate) fn pieces(schedule: &Schedule, limit: usize) -> Vec<Piece> {
     let reads: Vec<BTreeSet<NodeId>> = schedule
         .lines
@@ -87,7 +88,7 @@ fn lines_of(schedule: &Schedule) -> Vec<Option<usize>> {
     lines
 }
 
-/// How many values are bound before each line and read there or later.
+/// By line: the number of values that are bound before the line and read there or later.
 fn crossing(
     schedule: &Schedule,
     reads: &[BTreeSet<NodeId>],

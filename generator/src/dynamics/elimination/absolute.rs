@@ -7,9 +7,9 @@
 //! | Q = ΣQ_c + H J'⁻¹ Hᵀ,   a₀ = −β | h = f₀ − H J'⁻¹ t₀ |
 //! | α = −J'⁻¹ (Hᵀ a' + t₀) | μ = m + Σ μ_c |
 //!
-//! If a child has a₀ = −β, too, Q_c is multiplied by no velocity term; β costs one moment, w × β. E are the absolute axes in
-//! space, and e_y in the plane. In space H has no trace, because D(w) has none and the product of a symmetric and a skew
-//! matrix has none.
+//! If a child has a₀ = −β, too, no velocity term is multiplied by Q_c; β then appears only in the moment w × β. E are
+//! the absolute axes in space, and e_y alone in the plane. In space H has no trace, because D(w) has none, nor has the
+//! product of a symmetric and a skew matrix.
 
 use super::{ArticulatedBody, BodyWithChildren, Child};
 use crate::dynamics::augmented::{AugmentedBody, with_points};
@@ -101,7 +101,7 @@ impl<'g> BodyWithChildren<'g, '_> {
         (absolute, response)
     }
 
-    /// The body with the masses μ of its children as points at their joints, about `origin`.
+    /// The body about `origin`, with the μ of its children as point masses at their joints.
     fn body(&self, name: &str) -> AugmentedBody<'g> {
         let children = self.children.iter();
         let points: Vec<_> = children

@@ -1,8 +1,10 @@
-//! Computation axes for an element that give fewer operations than the axes of its description: A R with a constant R.
+//! Chooses constant axes of an element in which its equations need fewer operations than in the axes of its
+//! description: A R with a constant R.
 //!
-//! With quaternions R costs no product of matrices, because A(q) R(r) = A(q ∘ r). The axes may have 24 orders and signs. The
-//! search takes the r whose product is cheapest, and scales it such that its largest component is 1. The scale is absorbed
-//! where the rotation doubles its products.
+//! With quaternions, R costs no product of matrices, because A(q) R(r) = A(q ∘ r). Renaming and reversing axes costs
+//! nothing, so 24 equivalent rotations r exist. The search takes the r with the fewest nonzero components, and scales
+//! it such that its largest component is 1. The scale factor is absorbed where the rotation matrix doubles its
+//! products.
 
 use super::Body;
 use crate::dynamics::kinematics::constant_rotation;
@@ -14,7 +16,7 @@ use crate::expression::{Expr, Graph, Symbol};
 use crate::model::Element;
 use std::array::from_fn;
 
-/// The constants of a single body whose geometry is known in numbers.
+/// The constants of an element alone, without its children, if its geometry is known in numbers.
 pub(super) struct Own<'g> {
     /// m \[kg\]
     pub mass: Expr<'g>,
@@ -80,8 +82,8 @@ pub(super) fn clean<'g>(value: Expr<'g>, scale: Expr<'g>) -> Expr<'g> {
     }
 }
 
-/// Orthonormal right-handed axes: the first along `first`, the second towards `towards` or, without that, with a zero
-/// component.
+/// Orthonormal right-handed axes, as rows. The first is along `first`. The second is in the plane of `first` and
+/// `towards`; without `towards`, it is chosen such that one of its components is 0.
 pub(super) fn along(first: [f64; 3], towards: Option<[f64; 3]>) -> [[f64; 3]; 3] {
     let unit = |v: [f64; 3]| {
         let norm = v.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -116,14 +118,14 @@ impl Frame {
         Frame { axes }
     }
 
-    /// A vector of the local frame, in these axes.
+    /// The components in these axes of a vector given in the local frame.
     pub fn components(&self, v: [f64; 3]) -> [f64; 3] {
         let size = v.iter().fold(0.0f64, |m, c| m.max(c.abs()));
         self.axes
             .map(|axis| cleaned(axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2], size))
     }
 
-    /// The axes with the length `length`, in absolute axes, as columns.
+    /// The axes times `length`, in absolute axes, as columns.
     pub fn turned<'g>(&self, body: &Body<'g, '_>, length: f64) -> Mat3<'g> {
         let graph = body.graph;
         let identity = self.axes == [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -159,7 +161,8 @@ impl Frame {
         }))
     }
 
-    /// For each axis, the column that it is and its sign; and the unit quaternion of the columns.
+    /// The cheapest of the 24 equivalent rotations: for each axis the column that it becomes and its sign, and the unit
+    /// quaternion of these columns.
     fn cheapest(&self) -> (Order, [f64; 4]) {
         let mut best: Option<(usize, Order, [f64; 4])> = None;
         for order in orders() {
@@ -180,7 +183,7 @@ impl Frame {
     }
 }
 
-/// For each axis, the column that it becomes, and whether with a minus.
+/// For each axis, the column that it becomes, and true if its sign changes.
 type Order = [(usize, bool); 3];
 
 /// The 24 rotations of a cube.

@@ -1,14 +1,14 @@
-//! Eliminates an element with one joint outboard of it, in axes along the link: E₁ = u = A s, E₂ towards the centre of gravity,
-//! and E₃, each of the length ℓ of s. A rotation about u does not move the joint outboard, so the row of that rotation involves
-//! only the body itself. With its mass m, its first moment (b₁, b₂, 0) and its inertia J about the joint in these axes, this row
-//! is
+//! Eliminates an element with one joint outboard of it, in axes along the link: E₁ = u = A s, E₂ towards the centre of
+//! gravity, and E₃ = e₁ × E₂, each of the length ℓ of s. A rotation about u does not move the joint outboard, so its
+//! equation involves only the body itself. With the mass m of the body, its first moment (b₁, b₂, 0) and its inertia J
+//! about the joint in these axes, this equation is
 //!
 //! J₁₁ α₁ + J₁₂ α₂ + J₁₃ α₃ + b₂ a₃ + t₁ = 0,   t = ω × Jω
 //!
-//! It eliminates α₁ with constants and leaves a 2×2 system. Two shifts of the mass of the joint outboard, Q' = Q + (μ' − μ)·1
-//! and Q″ = Q + (μ″ − μ)·1, absorb further terms of the body. With ℓ μ' = −(b₁ + b₂ J₁₂/J₁₁), a appears in the second row only
-//! through Q'. With ℓ μ″ = −b₁ the first moment of the body is perpendicular to u; then the third row along e₂, and γ(u)
-//! everywhere, appear only through Q″:
+//! With it, α₁ is eliminated by constants, and a 2×2 system is left. Two shifts of the point mass μ of the joint
+//! outboard, Q' = Q + (μ' − μ)·1 and Q″ = Q + (μ″ − μ)·1, absorb further terms of the body. With ℓ μ' = −(b₁ + b₂
+//! J₁₂/J₁₁), a appears in the second row only through Q'. With ℓ μ″ = −b₁, the first moment of the body is
+//! perpendicular to u; then a along e₂ in the third row, and γ(u) everywhere, appear only through Q″:
 //!
 //! | | |
 //! |---|---|
@@ -24,10 +24,10 @@ use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::Dimension;
 
-/// μ' and μ″ are used up to so many times the mass of the body, because their rounding becomes that of Q'.
+/// The largest |μ'| and |μ″| relative to the mass of the body. Beyond, their rounding errors would spoil Q'.
 const LARGEST_SHIFT: f64 = 8.0;
 
-/// The smallest J₁₁ as a part of J; smaller values are rounding.
+/// The smallest J₁₁ relative to the trace of J; smaller values are taken for rounding.
 const SMALLEST_SPIN: f64 = 1e-9;
 
 /// The quantities that the pass outwards needs.
@@ -74,8 +74,8 @@ pub(super) struct Axes<'g> {
 }
 
 impl<'g> Axes<'g> {
-    /// The axes of an element, if `at` is its only joint outboard and its geometry is known in numbers. `defaults` are the
-    /// default values of the parameters, on which mass and moments may depend.
+    /// The axes of an element, if `at` is its only joint outboard and its geometry is known in numbers. `defaults` are
+    /// the default values of the parameters, on which mass and moments may depend.
     pub(super) fn of(body: &Body<'g, '_>, at: &[Vec3<'g>], defaults: &[f64]) -> Option<Self> {
         let [at] = at else { return None };
         if body.dimension == Dimension::Plane {
@@ -97,7 +97,7 @@ impl<'g> Axes<'g> {
 }
 
 impl<'g> BodyWithChildren<'g, '_> {
-    /// Eliminates an element on which no force acts.
+    /// Eliminates an element on which no force acts and that has exactly one child.
     // Long: the formulas of the table above, one after the other; each needs most of those before it.
     pub(super) fn link(
         &self,
@@ -220,7 +220,7 @@ impl<'g> Link<'g> {
         let third = -(self.z[1].dot(joint) + self.z_bias[1]);
         let second = -(self.z[0].dot(joint) + self.z_bias[0]) - self.lower * third;
         let outboard = joint + third * e2 - second * e3;
-        // From here on lengths are divided out.
+        // From here on, components along E₁, E₂ and E₃ are divided by the length ℓ.
         let inverse = self.graph.constant(1.0 / length);
         let (second, third) = (inverse * second, inverse * third);
         let by_spin = inverse / j[0][0];
@@ -279,7 +279,7 @@ impl<'g> Constants<'g> {
         })
     }
 
-    /// ω × Jω of the body with μ″ at the joint outboard, given ℓω.
+    /// ω × Jω of the body with the point mass μ″ at the joint outboard; `rates` is ℓω in the axes of the link.
     fn gyroscopic(&self, rates: Vec3<'g>) -> Vec3<'g> {
         let number = |value: f64| self.mass.graph().constant(value);
         let square = self.length * self.length;
@@ -287,7 +287,8 @@ impl<'g> Constants<'g> {
         for i in [1, 2] {
             j[i][i] = j[i][i] + number(square) * self.outboard_of_velocity;
         }
-        // A part that is equal about all axes has no effect, so the diagonal entry of the row with most zeros is subtracted.
+        // Adding a multiple of 1 to J does not change ω × Jω, so the diagonal entry of the row with most zeros is
+        // subtracted.
         let zeros = |i: &usize| j[*i].iter().filter(|entry| entry.is_zero()).count();
         let same = (0..3)
             .rev()
@@ -302,7 +303,7 @@ impl<'g> Constants<'g> {
     }
 }
 
-/// Values that depend on parameters alone, at the default values of the parameters.
+/// The values at the default values of the parameters; the expressions may depend on parameters alone.
 fn at_defaults<const N: usize>(values: [Expr<'_>; N], defaults: &[f64]) -> [f64; N] {
     if let Some(numbers) = values
         .iter()

@@ -1,25 +1,27 @@
 //! Accelerations by the articulated-body algorithm, without S, for ball joints.   \[after Featherstone 2008, ch. 7\]
 //!
-//! A ball joint passes a force but no moment. So for the acceleration a of joint k, the bodies outboard of it need the force
+//! A ball joint passes a force but no moment. So for the acceleration a of joint k, the bodies outboard of it need the
+//! force
 //!
 //! f = μ a − Q (a + a₀) + h
 //!
-//! at the joint. μ is a constant and Q a symmetric 3×3 matrix; a₀ and h are the bias when the joint rests ([`ArticulatedBody`]). Only Q is
-//! passed from joint to joint, as six numbers, so that it stays symmetric. μ becomes part of the constants of the body inboard, as
-//! the mass of a point at the joint. Each element chooses the μ and a₀ that suit it:
+//! at the joint. μ is a constant and Q a symmetric 3×3 matrix; a₀ and h are the bias, i.e. the terms that do not depend
+//! on a ([`ArticulatedBody`]). Only Q is transformed from joint to joint; its six entries keep it symmetric. μ is added
+//! to the constants of the body inboard, as a point mass at the joint. Each element chooses the μ and a₀ that suit it:
 //!
 //! | element | strategy |
 //! |---|---|
-//! | any | [`absolute`]: moments about the absolute axes, 3×3 |
-//! | one joint outboard, no force | [`link`]: axes along the link, 2×2; the row of the spin about the link has constants of the body only |
-//! | none outboard, no force | [`tip`]: Q is a constant of the body, and nothing is factorised |
+//! | any | [`absolute`]: moments about the absolute axes, 3×3 matrix |
+//! | one joint outboard, no force | [`link`]: axes along the link, 2×2 matrix; the row of the spin about the link contains only constants of the body |
+//! | no joint outboard, no force | [`tip`]: Q is constant in the frame of the body, no factorisation |
 //!
-//! From the leaves to the root, each element combines the articulated inertias of its children into its own. From the root to the leaves, a
-//! of the root is given or follows from f = 0; then each element gets α from a, and its children a_c = a + α × u_c + γ(u_c). The velocity
-//! part of a is summed beforehand, β_c = β + γ(u_c), and begins again behind each link; only a − β is passed on. The root of a floating
-//! system is taken at the joint of one of its children, where u_c = 0; the reference joint follows last. A field that is common to the
-//! whole system is the opposite acceleration of the absolute frame, so it enters once, at the root. Bryant angles follow from
-//! φ̈ = W⁻¹ (α − ε).
+//! From the leaves to the root, each element combines the articulated inertias of its children into its own. From the
+//! root to the leaves, a of the root is given or follows from f = 0; then each element gets α from a, and its children
+//! a_c = a + α × u_c + γ(u_c). The velocity part β of a is summed beforehand, β_c = β + γ(u_c), starting anew at 0
+//! behind each [`link`]; only a − β is passed on. For a floating system, a of the root is taken at the joint of one of
+//! its children, where u_c = 0; the reference joint follows last. A field common to the whole system acts like the
+//! opposite acceleration of the absolute frame, so it enters once, at the root. Bryant angles follow from φ̈ = W⁻¹ (α −
+//! ε).
 
 mod absolute;
 mod frame;
@@ -65,8 +67,8 @@ pub fn accelerations<'g>(
     accelerations
 }
 
-/// Sets the rows of a system that has joints other than balls, in absolute axes or in the frames of links, whichever takes fewer
-/// operations.
+/// Sets the rows of a system that has joints other than balls. Derives them in absolute axes and in the frames of
+/// links, and takes the version with fewer operations.
 fn with_axes<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
@@ -132,7 +134,8 @@ struct Body<'g, 'a> {
 struct BodyWithChildren<'g, 'a> {
     body: Body<'g, 'a>,
     load: &'a Wrench<'g>,
-    /// The point for moments and for a, in the local frame: the joint, except for the root of a floating system.
+    /// The reference point of moments and of a, in the local frame: the joint, except for the root of a floating
+    /// system.
     origin: Vec3<'g>,
     /// β of the origin: its velocity-product acceleration.
     beta: Vec3<'g>,
@@ -141,13 +144,13 @@ struct BodyWithChildren<'g, 'a> {
 
 /// A child in the elimination of its parent.
 struct Child<'g> {
-    /// Its path, for the reader.
+    /// Path of the child, for section titles.
     label: String,
-    /// s − origin, in the local frame of the parent.
+    /// s − origin: the joint of the child from the origin of the parent, in the parent's local frame.
     at: Vec3<'g>,
-    /// u from the origin, in absolute axes.
+    /// u: the same vector in absolute axes.
     offset: Vec3<'g>,
-    /// β of its joint.
+    /// β of the child's joint.
     beta: Vec3<'g>,
     response: ArticulatedBody<'g>,
 }
@@ -161,13 +164,13 @@ struct Elimination<'g, 'a> {
     motion: &'a Motion<'g>,
     tree: &'a AugmentedTree<'g>,
     applied: &'a AppliedForces<'g>,
-    /// The child of a floating root at whose joint the root is taken.
+    /// The child of a floating root whose joint is the origin of the root's equations.
     center: Option<usize>,
-    /// For each element, u of its joint from the origin of its parent.
+    /// For each element, u: its joint from the origin of its parent, in absolute axes.
     offsets: Vec<Vec3<'g>>,
     /// For each element, β of its joint.
     betas: Vec<Vec3<'g>>,
-    /// For each element, the axes along it, if it is eliminated as a link.
+    /// For each element that is eliminated as a link, the axes along it.
     links: Vec<Option<link::Axes<'g>>>,
 }
 
@@ -264,7 +267,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
             Some(center) if k == 0 => vector(graph, &elements[center].at),
             _ => Vec3::zero(graph),
         };
-        // Children come after their parents. So with the last element first, those of k are done when k is reached.
+        // Children come after their parents, so going backwards all children of k are done when k is reached.
         let mut done: Vec<Option<(Strategy<'g>, ArticulatedBody<'g>)>> =
             elements.iter().map(|_| None).collect();
         for (k, element) in elements.iter().enumerate().rev() {
@@ -333,7 +336,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
         let elements = &model.systems[system].elements;
         let reference = format!("system {}: reference joint", model.systems[system].name);
 
-        // a − β, in a frame in which the common field vanishes; β of the root is 0
+        // a − β, in a frame in which the common field vanishes; for the root, β is 0
         graph.section(reference.as_str());
         let mut joint = vec![
             reference_acceleration(graph, &model.systems[system], motion) - field;
@@ -392,7 +395,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
         }
     }
 
-    /// a of the root of a floating system: f = 0.
+    /// a of the root of a floating system, from f = 0.
     fn floating(&self, root: &ArticulatedBody<'g>) -> Vec3<'g> {
         let graph = self.graph;
         let directions = self.layout.directions;
@@ -420,7 +423,7 @@ impl<'g, 'a> Elimination<'g, 'a> {
 }
 
 impl<'g> Strategy<'g> {
-    /// α, given a − β of the joint; for a link also a − β of the joint outboard.
+    /// Returns α and, for a link only, a − β of its joint outboard. `joint` is a − β of the element's own joint.
     fn outwards(
         &self,
         graph: &'g Graph,
@@ -441,7 +444,7 @@ impl<'g> Strategy<'g> {
     }
 }
 
-/// The child at whose joint a floating root is best taken: the one that gives most zeros in the offsets of the others.
+/// The child of a floating root whose joint gives the other children's offsets from it the most zero components.
 fn center(graph: &Graph, elements: &[Element], children: &[usize]) -> Option<usize> {
     let at = |k: usize| vector(graph, &elements[k].at);
     let numbers = |&center: &usize| {
@@ -452,7 +455,7 @@ fn center(graph: &Graph, elements: &[Element], children: &[usize]) -> Option<usi
     children.iter().copied().min_by_key(numbers)
 }
 
-/// For each element, whether no force acts on it and on the elements outboard of it.
+/// For each element: true if no force acts on it or on any element outboard of it.
 fn idle(elements: &[Element], applied: &[Wrench<'_>]) -> Vec<bool> {
     let mut idle: Vec<bool> = applied.iter().map(Wrench::is_zero).collect();
     for (k, element) in elements.iter().enumerate().rev() {

@@ -1,12 +1,12 @@
-//! Eliminates an element that carries nothing. If it were free, Euler's equations would give α_e = −I⁻¹(ω × Iω), its centre
-//! of gravity would rest, and its joint would move with −a_e, a_e = α_e × g + γ(g). Relative to this motion the joint acts on
-//! a body at rest: with J = I + m (g²·1 − g gᵀ) and b = m g,
+//! Eliminates an element without elements outboard. If it were free, Euler's equations would give α_e = −I⁻¹(ω × Iω),
+//! its centre of gravity would not accelerate, and its joint would accelerate by −a_e, where a_e = α_e × g + γ(g).
+//! Relative to this motion the joint acts on a body at rest: with J = I + m (g²·1 − g gᵀ) and b = m g,
 //!
 //! f = μ a − Q (a + a_e) + m a_e,   Q = −b̃ J⁻¹ b̃,   α = α_e − J⁻¹ (b × (a + a_e)),   μ = m
 //!
-//! J⁻¹, Q and J⁻¹ b̃ are constant in the frame of the body. Q and J⁻¹ b̃ have rank two, because a motion of the joint along b
-//! has no effect: with two vectors p perpendicular to b, Q = Σ d p pᵀ and −J⁻¹ (b × x) = Σ r (p·x). Children whose joints are
-//! at the origin of the element need nothing more: their articulated inertias are added to its own.
+//! J⁻¹, Q and J⁻¹ b̃ are constant in the frame of the body. Q and J⁻¹ b̃ have rank two, because an acceleration of the
+//! joint along b has no effect: with two vectors p perpendicular to b, Q = Σ d p pᵀ and −J⁻¹ (b × x) = Σ r (p·x).
+//! Children whose joints are at the origin of the element are allowed: their articulated inertias are simply added.
 
 use super::frame::{Frame, Own, along, clean, cleaned, values};
 use super::{ArticulatedBody, BodyWithChildren};
@@ -30,8 +30,8 @@ pub(super) struct Tip<'g> {
 }
 
 impl<'g> BodyWithChildren<'g, '_> {
-    /// Eliminates the element, if it carries nothing except at its origin, is a body with constants in numbers, and no force
-    /// acts on it.
+    /// Eliminates the element. `None` unless the model is spatial, all children are at the origin of the element, its
+    /// constants are numbers with positive moments of inertia, and no force acts on it.
     pub(super) fn tip(&self, label: &str) -> Option<(Tip<'g>, ArticulatedBody<'g>)> {
         let graph = self.body.graph;
         let bare = self.children.iter().all(|child| child.offset.is_zero());
@@ -112,7 +112,7 @@ impl<'g> Tip<'g> {
     }
 }
 
-/// (κ₁ ω₂ω₃, κ₂ ω₃ω₁, κ₃ ω₁ω₂)
+/// The vector (κ₁ ω₂ω₃, κ₂ ω₃ω₁, κ₃ ω₁ω₂); `factors` are the κ.
 fn rates<'g>(omega: Vec3<'g>, factors: [f64; 3]) -> Vec3<'g> {
     let [x, y, z] = omega.0;
     Vec3([
@@ -122,7 +122,7 @@ fn rates<'g>(omega: Vec3<'g>, factors: [f64; 3]) -> Vec3<'g> {
     ])
 }
 
-/// α_e × g + ω × (ω × g), in principal axes.
+/// a_e = α_e × g + ω × (ω × g), in principal axes; `factors` are the κ of α_e.
 fn tip_acceleration<'g>(
     graph: &'g Graph,
     omega: Vec3<'g>,
@@ -142,12 +142,12 @@ fn tip_acceleration<'g>(
     }))
 }
 
-/// κ with α_e = (κ₁ ω₂ω₃, κ₂ ω₃ω₁, κ₃ ω₁ω₂), in principal axes.
+/// The κ in α_e = (κ₁ ω₂ω₃, κ₂ ω₃ω₁, κ₃ ω₁ω₂), in principal axes.
 fn free_rates([x, y, z]: [f64; 3]) -> [f64; 3] {
     [(y - z) / x, (z - x) / y, (x - y) / z]
 }
 
-/// The effect of the joint's acceleration along one vector p perpendicular to b.
+/// One term of Q and of −J⁻¹ b̃: the effect of the joint's acceleration along one vector p perpendicular to b.
 struct Answer<'g> {
     /// d \[kg\]
     resistance: Expr<'g>,
@@ -157,12 +157,12 @@ struct Answer<'g> {
     turn: Vec3<'g>,
 }
 
-/// The constants of a body that is held at its joint, in axes of which the first is along g. Of J⁻¹ only the block
-/// perpendicular to g is needed, which is the inverse N of J after elimination of its first pivot:
+/// The constants of a body that is held at its joint, in axes of which the first is along g. Only the block of J⁻¹
+/// perpendicular to g is needed. It is the inverse N of what is left of J after elimination of its first pivot:
 ///
 /// Q = b² \[\[N₃₃, −N₂₃\], \[−N₂₃, N₂₂\]\],   −J⁻¹ b̃ x = b (…, N₂₂ x₃ − N₂₃ x₂, N₂₃ x₃ − N₃₃ x₂)
 struct Pinned<'g> {
-    /// The axes, in the principal axes.
+    /// The axes, as components in the principal axes.
     axes: [[f64; 3]; 3],
     /// b
     moment: Expr<'g>,
@@ -206,7 +206,7 @@ impl<'g> Pinned<'g> {
         self.moment * self.moment * (n22 + n33)
     }
 
-    /// Q and −J⁻¹ b̃ by the vectors p: none if b is 0, otherwise two.
+    /// The terms of Q and −J⁻¹ b̃, one for each vector p: none if b is 0, otherwise two.
     fn answers(&self) -> Vec<Answer<'g>> {
         if self.moment.is_zero() {
             return Vec::new();
@@ -224,7 +224,7 @@ impl<'g> Pinned<'g> {
             ]
         });
 
-        // −J⁻¹ b̃ x in these axes from x₂ and x₃, and x₂ and x₃ from the two p·x.
+        // in these axes: −J⁻¹ b̃ x as a function of x₂ and x₃; and x₂ and x₃ as functions of the two products p·x
         let [n22, n33, n23] = self.inverse.map(|n| self.moment * n);
         let [first, second] = self.ratios.map(number);
         let columns = [[-n23, -n33], [n22, n23]].map(|[x, y]| [-(first * x + second * y), x, y]);
@@ -250,7 +250,7 @@ impl<'g> Pinned<'g> {
         answers.collect()
     }
 
-    /// d and p, if all of Q are numbers, with as many zeros as possible.
+    /// The d and p of Q as numbers, with as many zeros in p as possible; `None` if an entry of Q is not a number.
     fn numbers(&self) -> Option<[(Expr<'g>, Vec3<'g>); 2]> {
         let graph = self.moment.graph();
         let [n22, n33, n23] = self.inverse;

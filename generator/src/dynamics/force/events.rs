@@ -1,5 +1,5 @@
-//! Where laws change their branch (event functions, which end steps), where they are not smooth (kinks), when they begin to act (onsets), and how
-//! far the corners and ends of their curves are.
+//! Records where laws change their branch (event functions, whose roots end steps), where laws are not smooth (kinks),
+//! when laws begin to act (onsets), and the distances to the corners of their curves.
 
 use super::{AppliedForces, choose, onset};
 use crate::dynamics::numbers::{breakpoint_indicator, rate};
@@ -10,29 +10,30 @@ use crate::model::{Contact, Curve, Extrapolate, Model, ScaledCurve};
 
 /// The events of all laws.
 pub struct Events<'g> {
-    /// Functions whose change of sign is where a law changes its branch, by name.
+    /// Functions that change sign where a law changes its branch, by name.
     pub event_functions: Vec<(String, Expr<'g>)>,
-    /// Functions whose change of sign is where a law is not smooth, by name. They are made when everything else is
-    /// derived, so that they leave no trace in the equations.
+    /// Functions that change sign where a law is not smooth, by name. Their expressions are made after all others, so
+    /// that they do not change the equations.
     kinks: Vec<(String, Box<dyn Fn() -> Expr<'g> + 'g>)>,
-    /// When laws begin to act, by name, made like kinks.
+    /// The onsets of laws, by name, made like the kinks.
     pub(super) onsets: Vec<onset::Told<'g>>,
-    /// How far the nearest corner of each curve is, by name, made like onsets.
+    /// The distance to the nearest corner of each curve of the state, by name, made like the onsets.
     pub(super) corners: Vec<onset::Told<'g>>,
-    /// Curves of the state, by name, made like kinks.
+    /// Curves whose argument depends on the state, and quantities watched like one, made like the kinks.
     curves: Vec<CurveOfState<'g>>,
-    /// By curve of the model: whether it has kinks.
+    /// By curve of the model: true if the curve has kinks.
     pub(super) kinked: Vec<bool>,
-    /// By curve of the model: where it is 0 on a whole interval.
+    /// By curve of the model: the intervals on which the curve is 0.
     pub(super) idle: Vec<Vec<[f64; 2]>>,
-    /// By curve of the model: its first abscissa, whether it is a line through 0 everywhere, and whether it ends.
+    /// By curve of the model: its first abscissa; true if it is a straight line through 0; true if it has no value
+    /// beyond its end points.
     first_points: Vec<f64>,
     straight: Vec<bool>,
     ends: Vec<bool>,
 }
 
 impl Events<'_> {
-    /// None, with what they need to know of the curves of a model.
+    /// No events, with the properties of the model's curves.
     pub fn none(model: &Model) -> Self {
         let curves = &model.curves;
         let ends = |c: &Curve| c.extrapolate == Extrapolate::Error;
@@ -51,45 +52,47 @@ impl Events<'_> {
     }
 }
 
-/// A curve at an argument that depends on the state, the bearing of a bent joint, or a component of the direction of a contact.
+/// A curve whose argument depends on the state, or another quantity that is watched like such an argument
+/// ([`Watched`](equations::Watched)).
 struct CurveOfState<'g> {
     /// Its name.
     name: String,
-    /// What it is.
+    /// The kind of watched quantity.
     what: equations::Watched,
-    /// What stands for it where the force does not act: the first abscissa of a curve.
+    /// The value of `argument` while the force does not act: for a curve its first abscissa.
     idle: f64,
-    /// Its argument in its own abscissa, the bearing, or the component.
+    /// The argument, as an abscissa of the curve's points; or the bearing, the component of a direction, the ratio.
     argument: Box<dyn Fn() -> Expr<'g> + 'g>,
-    /// What is 0 while the force that it is part of does not act; else it is more.
+    /// An expression that is 0 while the force does not act, and positive otherwise; `None` if the argument always
+    /// counts.
     acts: Option<Expr<'g>>,
 }
 
-/// Where a curve acts.
+/// The arguments at which a curve acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acts {
     /// At all arguments.
     Everywhere,
-    /// From its first point on: below, the law that it is part of makes 0 of it, as a slack belt and a contact apart do.
+    /// From its first point on. Below it, the law makes its force 0, as a slack belt or an open contact does.
     AboveFirst,
 }
 
 impl<'g> AppliedForces<'g> {
-    /// Ends steps where an expression changes its sign.
+    /// Adds a function whose change of sign ends steps; constants are left out.
     pub fn event_function(&mut self, name: impl Into<String>, expression: Expr<'g>) {
         if expression.as_constant().is_none() {
             self.events.event_functions.push((name.into(), expression));
         }
     }
 
-    /// Tells where a law is not smooth: where an expression changes its sign. `expression` is called when everything else
-    /// is derived.
+    /// Adds a function that changes its sign where a law is not smooth. `expression` is called after all other
+    /// expressions are made.
     pub fn kink(&mut self, name: impl Into<String>, expression: impl Fn() -> Expr<'g> + 'g) {
         self.events.kinks.push((name.into(), Box::new(expression)));
     }
 
-    /// Tells of a curve of the state: what it is evaluated at, and where it is not smooth, if it is not. `which` it is of the
-    /// `owner`; `argument` as in [`AppliedForces::kink`].
+    /// Adds a curve of the state, and its kinks if it has any. `which` names the curve of the `owner` for people;
+    /// `argument` is called as in [`AppliedForces::kink`].
     pub fn curve_of_state(
         &mut self,
         owner: &str,
@@ -108,7 +111,7 @@ impl<'g> AppliedForces<'g> {
                 Acts::AboveFirst => abscissa.max(graph.constant(first)),
             }
         };
-        // a line through 0 is as good a law beyond its points as between them
+        // a line through 0 continues unchanged beyond its points, so its argument need not be watched
         if !self.events.straight[curve.curve] {
             self.events.curves.push(CurveOfState {
                 name: format!("{owner}: {which}"),
@@ -127,7 +130,7 @@ impl<'g> AppliedForces<'g> {
         }
     }
 
-    /// Whether a curve of a contact must not be left, and has no value beyond its points.
+    /// True if one of the contact's curves has no value beyond its end points.
     pub fn may_end(&self, contact: &Contact) -> bool {
         let unloading = contact.hysteresis.as_ref().map(|law| &law.unloading);
         let curves = [Some(&contact.elastic), unloading].into_iter().flatten();
@@ -136,20 +139,21 @@ impl<'g> AppliedForces<'g> {
             .any(|scaled| self.events.ends[scaled.curve])
     }
 
-    /// How many curves of the state are told of.
+    /// The number of curves of the state added so far.
     pub fn curves_so_far(&self) -> usize {
         self.events.curves.len()
     }
 
-    /// Of the curves of the state told of since there were so many: they count only while a force is not 0. It is never negative.
+    /// Makes the curves of the state with index `since` and above count only while `force`, which is never negative, is
+    /// not 0.
     pub fn curves_act(&mut self, since: usize, force: Expr<'g>) {
         for curve in &mut self.events.curves[since..] {
             curve.acts = Some(force);
         }
     }
 
-    /// Tells of the bearing of a joint that bends, [`NO_BEARING`](equations::NO_BEARING) where it is bent by less than 90°, so that a run that goes through 180°
-    /// says so.
+    /// Adds the bearing of a joint that bends, so that a run can report a bend through 180°. The bearing is
+    /// [`NO_BEARING`](equations::NO_BEARING) while the joint is bent by less than 90°.
     pub fn bearing(&mut self, owner: &str, bearing: impl Fn() -> Expr<'g> + 'g) {
         self.events.curves.push(CurveOfState {
             name: owner.to_owned(),
@@ -160,8 +164,8 @@ impl<'g> AppliedForces<'g> {
         });
     }
 
-    /// Tells how far an angle is from ±180°, to one side or the other, [`NO_BEARING`](equations::NO_BEARING) where it is nearer to 0, so that a run that goes
-    /// through it says so.
+    /// Adds the signed distance of an angle from ±180°, so that a run can report that the angle passes through ±180°.
+    /// It is [`NO_BEARING`](equations::NO_BEARING) while the angle is nearer to 0.
     pub fn half_turn(&mut self, owner: &str, side: impl Fn() -> Expr<'g> + 'g) {
         self.events.curves.push(CurveOfState {
             name: owner.to_owned(),
@@ -172,7 +176,8 @@ impl<'g> AppliedForces<'g> {
         });
     }
 
-    /// Tells of the share of the volume of an airbag that what it meets takes, while a force that is never negative is not 0.
+    /// Adds the share of an airbag's volume that penetrating bodies take up. It counts only while `acts`, which is
+    /// never negative, is not 0.
     pub fn volume(&mut self, owner: &str, share: impl Fn() -> Expr<'g> + 'g, acts: Expr<'g>) {
         self.events.curves.push(CurveOfState {
             name: owner.to_owned(),
@@ -183,7 +188,8 @@ impl<'g> AppliedForces<'g> {
         });
     }
 
-    /// Tells of the push of a fading edge over the elastic force of its plane, while that is not 0.
+    /// Adds the ratio of the push of a fading edge to the elastic force of its plane. It counts only while that force
+    /// is not 0.
     pub fn edge(&mut self, owner: &str, ratio: impl Fn() -> Expr<'g> + 'g, force: Expr<'g>) {
         self.events.curves.push(CurveOfState {
             name: owner.to_owned(),
@@ -194,8 +200,8 @@ impl<'g> AppliedForces<'g> {
         });
     }
 
-    /// Tells of the direction in which two ellipsoids push each other, or a bushing turns, of length 1, or shorter where it is not determined, so
-    /// that a run in which it leaps says so.
+    /// Adds the direction in which two ellipsoids push each other, or about which a bushing turns, so that a run can
+    /// report a leap of the direction. The vector has length 1, or is shorter where the direction is not determined.
     pub fn direction(&mut self, owner: &str, components: Vec<impl Fn() -> Expr<'g> + 'g>) {
         for (i, component) in components.into_iter().enumerate() {
             self.events.curves.push(CurveOfState {
@@ -208,13 +214,13 @@ impl<'g> AppliedForces<'g> {
         }
     }
 
-    /// The curves of the state that all laws evaluate, with their abscissae, the bearings of joints that bend, and the directions of
-    /// contacts of two ellipsoids. Made when everything else is derived.
+    /// The curves of the state of all laws with their abscissae, and all quantities that are watched like them. Must be
+    /// called after all other expressions are made.
     pub fn curves(&self, graph: &'g Graph) -> Vec<equations::CurveOfState> {
         graph.section("arguments of curves");
         let mut curves = Vec::new();
         for curve in &self.events.curves {
-            // of a curve that must not be left the force is no number, and tells nothing
+            // beyond the points of a curve that ends, the force is NaN, so it cannot tell whether the curve acts
             let ends =
                 matches!(curve.what, equations::Watched::Curve(index) if self.events.ends[index]);
             let argument = match curve.acts {
@@ -236,9 +242,9 @@ impl<'g> AppliedForces<'g> {
         curves
     }
 
-    /// The kinks of all laws, each expression once.
+    /// The kinks of all laws; equal expressions are listed once.
     pub fn kinks(&self, graph: &'g Graph) -> Vec<(String, Expr<'g>)> {
-        // the sign of a negative changes where that of the value does
+        // −x changes its sign where x does, so both count as the same kink
         let unsigned = |value: Expr<'g>| match graph.node(value.id()) {
             Node::Neg(a) => a,
             _ => value.id(),
@@ -246,7 +252,7 @@ impl<'g> AppliedForces<'g> {
         let mut kinks: Vec<(String, Expr<'g>)> = Vec::new();
         for (name, expression) in &self.events.kinks {
             graph.section(format!("kink {name}"));
-            // whose sign is looked for must be continuous: no bound in the place of a distance
+            // a function whose root is searched for must be continuous, so it needs exact distances instead of bounds
             let value = exact(expression());
             let known = kinks
                 .iter()
@@ -259,7 +265,7 @@ impl<'g> AppliedForces<'g> {
     }
 }
 
-/// The same with distances of bodies that do not touch in the place of what is at most these.
+/// The expression with exact distances of separate bodies instead of lower bounds of these distances.
 pub(super) fn exact(value: Expr<'_>) -> Expr<'_> {
     recall(value, |function| match function {
         Function::Approach(call) => Function::Approach(ApproachCall {

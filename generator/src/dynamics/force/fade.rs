@@ -1,17 +1,17 @@
-//! Damping faded in: w(x) = min(x/d, 1), so that no force jumps where x passes 0.
+//! Damping that is faded in by the factor w(x) = min(x/d, 1), so that the force does not jump where x passes 0.
 
 use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Graph};
 use crate::model::Number;
 
-/// Depths below this are taken for it: what fades in over nothing is there at once \[m or rad\].
+/// The smallest depth d; it replaces a smaller one, so that a depth of 0 gives full damping at once \[m or rad\].
 const SHORTEST: f64 = 1e-15;
 
-/// The part of a viscous force that is there at an abscissa x > 0: it grows linearly up to the depth d, and is full
-/// beyond. Without a depth it is full at once. Below x = 0, where nothing touches, it is negative and of no meaning.
+/// The factor w on a viscous force at the abscissa x > 0. It grows linearly up to 1 at the depth d, and stays 1 beyond;
+/// without a depth it is 1 everywhere. Below x = 0 there is no contact, and the factor is negative and meaningless.
 pub fn faded<'g>(graph: &'g Graph, abscissa: Expr<'g>, depth: Option<&Number>) -> Expr<'g> {
     match depth {
-        // in this order of operands a NaN of the abscissa is passed on
+        // this order of operands passes on a NaN of the abscissa
         Some(depth) => {
             let depth = match depth.constant() {
                 Some(depth) => graph.constant(depth),

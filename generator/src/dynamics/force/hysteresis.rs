@@ -1,21 +1,25 @@
-//! Hysteresis: unloading along another curve than loading, by one memory p, the foot of a steep line.
+//! Hysteresis: unloading along another curve than loading. The only memory is p, the foot of a steep line.
 //!
 //! F(x; p) = clamp(s (x − p), u(x), f(x)),   after an accepted step   p ← clamp(p, x − f(x)/s, x − u(x)/s)
 //!
-//! Loading drags the foot along with f, so that F = f; at a reversal the line of slope s leads down to u, which drags the foot
-//! back, and up again to f from wherever loading sets in: nested loops close (the play operator of Prandtl and Ishlinskii).
-//! Without a curve of unloading u = 0 and the foot only advances, p ← max(p, x − f(x)/s): a permanent set, and with a
-//! straight f the law of Walton and Braun (1986), of restitution √(f'/s).
+//! Loading drags the foot along with f, so that F = f. At a reversal the force follows the line of slope s down to u,
+//! which then drags the foot back. When loading begins again, the force follows a line up to f: nested loops close (the
+//! play operator of Prandtl and Ishlinskii). Without a curve of unloading u = 0 and the foot only advances, p ← max(p,
+//! x − f(x)/s): a permanent set, and with a straight f the law of Walton and Braun (1986), with the restitution
+//! √(f'/s).
 //!
-//! A joint has the law on both sides of 0: |F| falls along |u| from wherever |F| came up along |f|. With u it is one foot, which passes 0
-//! with the abscissa; without, each side has a set of its own. Of f and u, both through 0, none has the wrong sign anywhere:
+//! A joint has the law on both sides of 0: after a reversal |F| falls along |u|. With u there is one foot, which passes
+//! 0 together with the abscissa; without u, each side has a permanent set of its own. Neither f nor u, both through 0,
+//! may have the wrong sign anywhere:
 //!
 //! x > 0: F = clamp(s (x − p), u(x), f(x)),   x < 0: F = clamp(s (x − p), f(x), u(x))
 //!
-//! During a step p is held. The new foot gives the very force of the old one, so nothing jumps where a step ends; and a
-//! event function ends steps where the rate changes its sign, because a turning point inside a step would be forgotten.
+//! During a step p is held constant. With the new foot the force is the same as with the old one, so the force does not
+//! jump at the end of a step. An event function ends steps where the rate changes its sign, because a turning point
+//! inside a step would be missed.
 //!
-//! Where what drags the foot and the foot are equal, `max` and `min` take their left operand, so what drags stands there: its derivatives count.
+//! If both operands are equal, `max` and `min` return the left one. So the curve that drags the foot is the left
+//! operand, and its derivatives count.
 
 use super::switch::Gate;
 use super::{Acts, AppliedForces, choose};
@@ -23,16 +27,18 @@ use crate::dynamics::numbers::{curve, number};
 use crate::expression::Expr;
 use crate::model::Hysteresis;
 
-/// By how much the abscissa is taken larger, or smaller, where the line meets a curve: while one of them drags the foot, they
-/// differ by rounding, which must not look like a kink. Well above the rounding of single precision.
+/// Relative change of the abscissa in the function that finds where the line meets a curve. While a curve drags the
+/// foot, the two differ only by rounding, which must not look like a kink. The value is well above the rounding of
+/// single precision.
 const APART: f64 = 1e-6;
 
-/// The elastic force of a law with hysteresis, and the foot p that its line has when it turns here.
+/// Returns the elastic force of a law with hysteresis, and the foot p of its line if the abscissa turns here.
 ///
-/// `owner` is the force that the memory belongs to ("contact seat"), `unit` that of the `abscissa`. `loading` is f at the
-/// abscissa. The abscissa must be one at which the curves have values whatever the state, such as max(δ, 0): what is remembered must be
-/// finite. `below` is the same abscissa made later, with its values below 0. [`watch_turns`] goes with it. While the force waits for its switch
-/// (`gate`), nothing is kept of how far it would have been loaded.
+/// `owner` names the force that the memory belongs to ("contact seat"), `unit` is the unit of the abscissa, and
+/// `loading` is f at the abscissa. The `abscissa` must be one at which the curves have values in every state, such as
+/// max(δ, 0), because the memory must be finite. `below` makes the same abscissa later, without the bound at 0.
+/// [`watch_turns`] must be called, too. While the force waits for its switch (`gate`), earlier loading leaves no trace
+/// in the memory.
 #[expect(
     clippy::too_many_arguments,
     reason = "whose, what law, when, and where on it"
@@ -60,7 +66,8 @@ pub fn apply<'g>(
         Some(unloading) => curve(graph, unloading, abscissa),
         None => graph.constant(0.0),
     };
-    // keep this order of operands: `max` and `min` pass on a NaN of their left operand, so leaving the curve shows as NaN
+    // keep this order of operands: `max` and `min` pass on a NaN of their left operand, so leaving the curve shows as
+    // NaN
     let line = slope * (abscissa - foot);
     let force = loading.min(unloading.max(line));
 
@@ -70,7 +77,8 @@ pub fn apply<'g>(
         None => furthest.max(kept),
     };
     applied.states.memory[index].next = renewed;
-    // the line is above a curve while that drags the foot, below after a turn
+    // While the loading curve drags the foot, the line is above it by APART; after a reversal the line is below it. The
+    // unloading curve has the opposite signs.
     applied.kink(
         format!("{owner}: the line meets the loading curve"),
         move || (1.0 + APART) * below() - loading / slope - foot,
@@ -88,7 +96,8 @@ pub fn apply<'g>(
     (force, renewed)
 }
 
-/// Ends steps where an abscissa turns, whose rate has the sign of `rate`. At 0 and below nothing touches, and the rate does not count.
+/// Ends steps where the abscissa turns, i.e. where `rate`, which has the sign of its rate, changes its sign. At
+/// abscissae of 0 and below there is no contact, and the rate does not count.
 pub fn watch_turns<'g>(
     applied: &mut AppliedForces<'g>,
     owner: &str,
@@ -103,10 +112,12 @@ pub fn watch_turns<'g>(
     );
 }
 
-/// The elastic force of a law with hysteresis on both sides of 0, and the sets above and below it that are left when it turns here.
+/// Returns the elastic force of a law with hysteresis on both sides of 0, and the permanent sets above and below 0 if
+/// the abscissa turns here.
 ///
-/// `owner` is the law that the memory belongs to ("joint man/head"), `unit` that of the abscissa, which is made by `argument`; `loading` is f
-/// at the abscissa, `rate` the abscissa's rate. While the force waits for its switch, nothing is kept of how far it would have been loaded.
+/// `owner` names the law that the memory belongs to ("joint man/head"), and `unit` is the unit of the abscissa, which
+/// `argument` makes. `loading` is f at the abscissa, `rate` the rate of the abscissa. While the force waits for its
+/// switch, earlier loading leaves no trace in the memory.
 #[expect(
     clippy::too_many_arguments,
     reason = "whose, what law, when, and where on it"
@@ -127,7 +138,7 @@ pub fn apply_both_ways<'g>(
     applied.event_function(format!("{owner}: turns from loading to unloading"), rate);
     let furthest = abscissa - loading / slope;
     let Some(unloading) = &law.unloading else {
-        // on each side of 0 the line of the other side has the wrong sign, so the clamp makes it 0
+        // on each side of 0 the force from the foot of the other side has the wrong sign, so the bound at 0 removes it
         let mut side = |which: &str, above: bool| {
             let name = format!("{owner}: permanent set {which}");
             let (index, foot) = applied.memory(name, unit, zero);
@@ -154,7 +165,8 @@ pub fn apply_both_ways<'g>(
     let (index, foot) = applied.memory(name, unit, zero);
     let (line, kept) = (slope * (abscissa - foot), gate.of(foot));
     let returns = abscissa - back / slope;
-    // keep this order of operands: `max` and `min` pass on a NaN of their left operand, so leaving the curve shows as NaN
+    // keep this order of operands: `max` and `min` pass on a NaN of their left operand, so leaving the curve shows as
+    // NaN
     let above = loading.min(back.max(line));
     let below = loading.max(back.min(line));
     let renewed = choose(

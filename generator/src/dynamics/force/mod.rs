@@ -1,6 +1,7 @@
 //! The force interactions of a scene, as forces and moments on its elements.
 //!
-//! Each [law](crate::law) adds to the [`Wrench`] of the elements that it touches and leaves its [`Measures`] for the outputs.
+//! Each [law](crate::law) adds to the [`Wrench`] of the elements that it touches and leaves its [`Measures`] for the
+//! outputs.
 
 pub mod events;
 pub(crate) mod fade;
@@ -24,22 +25,22 @@ use crate::expression::{Expr, Function, Graph};
 use crate::law::{Measures, Setting};
 use crate::model::{FieldComponent, Model};
 
-/// Everything that acts.
+/// All applied forces of a model, with the states and events of their laws.
 pub struct AppliedForces<'g> {
     /// The forces and moments on bodies.
     pub wrenches: Wrenches<'g>,
-    /// What laws keep besides q and v.
+    /// The states of laws besides q and v.
     pub states: States<'g>,
-    /// Where laws change their branch, are not smooth, begin to act.
+    /// Where laws change their branch, where they are not smooth, and when they begin to act.
     pub events: Events<'g>,
-    /// What each effect does work by, for the balance of energy.
+    /// The power of each effect, for the energy balance.
     pub works: Vec<Work<'g>>,
-    /// By force of the model: what can be asked of it.
+    /// By force of the model: the quantities that outputs can ask of it.
     pub measures: Vec<Box<dyn Measures<'g> + 'g>>,
 }
 
-/// The forces applied in a model in motion; `start` is its motion where a run starts, from which belts take their length, `charts` is
-/// the memory that comes before that of force laws.
+/// The forces applied in a model in motion. `start` is the motion at the start of a run, which determines the lengths
+/// of belts. `charts` are the memories that come before those of force laws.
 pub fn applied_forces<'g>(
     graph: &'g Graph,
     model: &Model,
@@ -76,8 +77,8 @@ pub fn applied_forces<'g>(
     applied
 }
 
-/// `then` where a < b, `otherwise` elsewhere. Both are computed: neither may be infinite or no number where it is not
-/// chosen, if derivatives are wanted.
+/// `then` if a < b, otherwise `otherwise`. Both are always computed. If derivatives are wanted, neither may be infinite
+/// or NaN even where it is not chosen.
 pub fn choose<'g>(a: Expr<'g>, b: Expr<'g>, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
     match (a.as_constant(), b.as_constant()) {
         (Some(a), Some(b)) if a < b => then,

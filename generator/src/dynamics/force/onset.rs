@@ -1,21 +1,26 @@
-//! When a law that does not act begins to: what lets a run know that no step went over it.
+//! Finds when a law begins to act, so that a run can tell that no step has skipped a short action.
 //!
-//! The *gap* of a law is positive while it certainly does not act; its *speed* is by how much the gap changes at most, per second. Where the
-//! gaps at the ends of a time h are g₀ and g₁ and the speed in between is at most c, no gap in between is below (g₀ + g₁ − c h)/2.
+//! The *gap* of a law is positive while the law certainly does not act; its *speed* is an upper bound of the rate of
+//! change of the gap. If the gaps at the ends of a time h are g₀ and g₁ and the speed in between is at most c, no gap
+//! in between is below (g₀ + g₁ − c h)/2.
 //!
 //! | law | gap | speed |
 //! |---|---|---|
 //! | ellipsoid and plane | −δ | \|n·v\| + \|ω\| r |
-//! | plane with edges | the largest of −δ and \|ξ_i\| − e_i | the largest of theirs, \|t_i·v\| + \|ω\| (a + a²/b) for ξ_i |
-//! | two ellipsoids | a distance that is at most theirs | the smaller of \|v\| + \|ω\| r₁, and \|ċ₂ − ċ₁\| + \|ω₁\| r₁ + \|ω₂\| r₂ |
+//! | plane with edges | the largest of −δ and \|ξ_i\| − e_i | the largest of the speeds of these, \|t_i·v\| + \|ω\| (a + a²/b) for ξ_i |
+//! | two ellipsoids | a lower bound of their distance | the smaller of \|v\| + \|ω\| r₁, and \|ċ₂ − ċ₁\| + \|ω₁\| r₁ + \|ω₂\| r₂ |
 //! | belt | ℓ − L | \|ḋ\| + \|ṙ\| |
-//! | stop | angle that is left | \|θ̇\| |
-//! | corner of a curve | how far it is from the abscissa, with a sign that changes at each corner | that of the abscissa |
+//! | stop | angle left to the stop | \|θ̇\| |
+//! | corner of a curve | distance of the abscissa from the corner, with a sign that changes at each corner | speed of the abscissa |
 //!
-//! v is the velocity of the (first) ellipsoid's centre relative to the other body's material there, ω the relative angular velocity, a and b
-//! the largest and the smallest semi-axis. r is how fast an ellipsoid's reach changes with the direction at most: a − b, and the
-//! distance of its farthest point where its degree is not 2, whose deepest point may move by any speed; there the same distance takes
-//! the place of a + a²/b. Speeds are those of the bodies concerned alone, so that what rides together is not fast.
+//! δ is the penetration of a plane with the normal n; ξ_i is the coordinate of the deepest point along the edge
+//! direction t_i, and e_i the half length. A belt has the length ℓ, and the path between its points has the length L. ḋ
+//! is the relative velocity of its points, ṙ the rate at which it is taken in; webbing that leaves through rings or off
+//! a film spool adds its rate. v is the velocity of the (first) ellipsoid's centre relative to the other body's
+//! material there, ω the relative angular velocity, ċ the velocity of a centre; a and b are the largest and the
+//! smallest semi-axis. r is the largest change of an ellipsoid's reach per angle: a − b. If the degree of the ellipsoid
+//! is not 2, r is the distance R of its farthest point; its deepest point may then jump, and 2R replaces a + a²/b. For
+//! a sphere both are 0. Speeds are relative between the two bodies, so bodies that move together have no speed.
 
 use super::events::exact;
 use super::switch::Gate;
@@ -26,28 +31,29 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Against, Contact, Dimension, Ellipsoid, Number, ScaledCurve};
 
-/// The gap of what does not begin before something else happens.
+/// The gap of a law that cannot begin before another event, such as a switch.
 pub const FAR: f64 = 1e30;
 
-/// The name of an onset, and what makes it when everything else is derived.
+/// The name of an onset, and the function that makes it after all other expressions are made.
 pub type Told<'g> = (String, Box<dyn Fn() -> Onset<'g> + 'g>);
 
-/// When a law begins to act.
+/// The gap and the speed of a law.
 #[derive(Clone, Copy)]
 pub struct Onset<'g> {
-    /// Positive while it certainly does not act.
+    /// Positive while the law certainly does not act.
     pub gap: Expr<'g>,
-    /// How fast the gap changes at most, in its unit per second.
+    /// Upper bound of the rate of change of the gap, in the gap's unit per second.
     pub speed: Expr<'g>,
 }
 
 impl<'g> AppliedForces<'g> {
-    /// Tells when a law begins to act. `onset` is called when everything else is derived.
+    /// Adds the onset of a law. `onset` is called after all other expressions are made.
     pub(crate) fn onset(&mut self, name: impl Into<String>, onset: impl Fn() -> Onset<'g> + 'g) {
         self.events.onsets.push((name.into(), Box::new(onset)));
     }
 
-    /// Tells where a curve of the state begins to act that is 0 on an interval. `speed` is by how much its argument changes, of any sign.
+    /// Adds the onset of a curve of the state that is 0 on an interval: the gap is the distance of the argument from
+    /// the end of the interval. `speed` is the rate of the argument, of any sign.
     pub(crate) fn onset_of_curve(
         &mut self,
         owner: &str,
@@ -80,8 +86,8 @@ impl<'g> AppliedForces<'g> {
         });
     }
 
-    /// Tells of the corners of a curve of the state, which no step may pass and leave again unseen. `which` it is of the `owner`; `speed` is by how
-    /// much its argument changes, of any sign.
+    /// Adds the corners of a curve of the state as onsets, so that a step that passes a corner and returns is noticed.
+    /// `which` names the curve of the `owner` for people; `speed` is the rate of the argument, of any sign.
     pub(crate) fn corners(
         &mut self,
         owner: &str,
@@ -106,7 +112,7 @@ impl<'g> AppliedForces<'g> {
         self.events.corners.push((name, Box::new(corner)));
     }
 
-    /// By how much a contact may be entered before its curve is anything but 0, in the curve's argument.
+    /// The depth of a contact up to which its curve is 0, in the unit of the curve's argument.
     pub(crate) fn lead(&self, graph: &'g Graph, curve: &ScaledCurve) -> Expr<'g> {
         let from_zero = |interval: &&[f64; 2]| interval[0] <= 0.0 && 0.0 < interval[1];
         let idle = self.events.idle[curve.curve].iter().find(from_zero);
@@ -126,11 +132,12 @@ impl<'g> AppliedForces<'g> {
         let made = onsets.iter().map(|(name, onset)| {
             graph.section(format!("onset {name}"));
             let Onset { gap, speed } = onset();
-            // a second derivative says something of a distance alone, not of a bound of it
+            // this gap is watched by its second derivative, too, which is meaningful for an exact distance but not for
+            // a bound
             let gap = exact(gap);
             (name.clone(), Onset { gap, speed })
         });
-        // what parameters alone decide does not begin
+        // an onset that depends on parameters alone cannot begin during a run
         let changes =
             |onset: &Onset<'g>| onset.gap.as_constant().is_none() && !onset.speed.is_zero();
         made.filter(|(_, onset)| changes(onset)).collect()
@@ -151,11 +158,12 @@ pub fn size<'g>(vector: Vec3<'g>) -> Expr<'g> {
     }
 }
 
-/// Bounds that the size of an ellipsoid gives, all in m: constants, or made of parameters.
+/// Bounds on the motion of an ellipsoid's surface points as it turns, in m per rad: constants, or expressions of
+/// parameters.
 struct Sizes<'g> {
-    /// By how much the reach changes with the direction, per rad.
+    /// Largest change of the reach (the extent in a direction) per angle.
     reach: Expr<'g>,
-    /// By how much the deepest point moves, per rad.
+    /// Largest displacement of the deepest point relative to the centre, per angle.
     deepest: Expr<'g>,
 }
 
@@ -191,19 +199,19 @@ impl<'g> Sizes<'g> {
     }
 }
 
-/// What is known of a contact's bodies, kept until everything else is derived.
+/// The bodies and places of a contact, kept until the onsets are made.
 pub struct Pair<'g> {
     graph: &'g Graph,
     dimension: Dimension,
     contact: Contact,
-    /// Those of the ellipsoid and of what it meets.
+    /// The motion of the ellipsoid's body, and of the body of the other surface.
     bodies: [ElementMotion<'g>; 2],
-    /// Centre of the ellipsoid, and centre or point of what it meets.
+    /// The centre of the ellipsoid, and the centre or point of the other surface.
     places: [Point<'g>; 2],
 }
 
 impl<'g> Pair<'g> {
-    /// The bodies of a contact.
+    /// The bodies and places of a contact.
     pub fn of(
         graph: &'g Graph,
         dimension: Dimension,
@@ -220,7 +228,8 @@ impl<'g> Pair<'g> {
         }
     }
 
-    /// By how much the distance of the bodies changes at most, of a plane along its `normal`, its edges left out.
+    /// The largest rate of change of the distance of the two bodies \[m/s\]; for a plane the distance along its
+    /// `normal`, without regard to its edges.
     pub fn closing(&self, normal: Vec3<'g>) -> Expr<'g> {
         match &self.contact.against {
             Against::Ellipsoid(second) => self.towards_ellipsoid(second),
@@ -231,8 +240,8 @@ impl<'g> Pair<'g> {
         }
     }
 
-    /// When the bodies touch: `gap` is a distance that is at most theirs, `normal` that of a plane, of which `tangents` and the places
-    /// along them say where its edges are.
+    /// The onset of a contact. `gap` is a lower bound of the distance of the bodies and `normal` the normal of a plane.
+    /// `tangents` are the directions of the plane's edges and `places` the coordinates of the deepest point along them.
     pub fn touches(
         &self,
         gap: Expr<'g>,
@@ -263,7 +272,7 @@ impl<'g> Pair<'g> {
         Sizes::of(self.graph, self.dimension, semi_axes, *degree)
     }
 
-    /// Velocity of the ellipsoid's centre and its angular velocity as the second body sees them.
+    /// The velocity of the ellipsoid's centre and its angular velocity, relative to the second body.
     fn relative(&self) -> [Vec3<'g>; 2] {
         let ([first, second], [centre, _]) = (&self.bodies, &self.places);
         let there = second.velocity_at(centre.position - second.position);

@@ -1,10 +1,11 @@
-//! What laws keep besides q and v: continuous states z, memory m that is renewed when a step is accepted, and what has fired.
+//! The states of laws besides q and v: continuous states z, the memory m, which is renewed after each accepted step,
+//! and the switches.
 
 use super::AppliedForces;
 use super::switch::Remembered;
 use crate::expression::{Expr, Symbol};
 
-/// A time that is never reached, finite as every memory must be \[s\].
+/// A time that is never reached \[s\]. It is finite, because every memory must be.
 pub const NEVER: f64 = 1e30;
 
 /// The states of all laws.
@@ -25,13 +26,13 @@ pub struct LawState<'g> {
     pub unit: &'static str,
     /// Value at the start of a run.
     pub initial: Expr<'g>,
-    /// Of an auxiliary its rate, of a memory its value after an accepted step. Before a law says otherwise an auxiliary
-    /// stays, and so does a memory.
+    /// For an auxiliary state its rate, for a memory its value after the next accepted step. Until a law sets it, the
+    /// state keeps its value.
     pub next: Expr<'g>,
 }
 
 impl<'g> AppliedForces<'g> {
-    /// A new state z of a force law, and its index, by which the law sets the rate.
+    /// Adds a state z of a force law. Returns its index, with which the law sets the rate, and its symbol.
     pub fn auxiliary(
         &mut self,
         name: impl Into<String>,
@@ -48,9 +49,10 @@ impl<'g> AppliedForces<'g> {
         (index, graph.symbol(Symbol::Auxiliary(index as u32)))
     }
 
-    /// A new memory m of a force law, and its index, by which the law sets what it becomes after an accepted step.
+    /// Adds a memory m of a force law. Returns its index, with which the law sets the value after an accepted step, and
+    /// its symbol.
     ///
-    /// Its value must always be finite: what has not happened yet happens at [`NEVER`].
+    /// The value must always be finite: the time of an event that has not happened yet is [`NEVER`].
     pub fn memory(
         &mut self,
         name: impl Into<String>,

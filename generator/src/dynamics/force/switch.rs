@@ -1,11 +1,11 @@
-//! Switches: two times that are remembered, that at which a switch fired and that from which on it acts.
+//! Switches: each remembers two times, the one at which it fired and the one from which on it acts.
 //!
 //! fired ← t where the trigger's event function G < 0 after an accepted step,   acts ← t where t ≥ fired + delay
 //!
-//! G is positive until the quantity passes its threshold: the change of its sign ends a step, which so ends at the crossing.
-//! Both times are held during a step, and a force that waits for a switch never jumps inside of one. A quantity that
-//! itself depends on the switch, such as an acceleration, is therefore no circle. What has happened has happened: a switch
-//! does not fire again, and its event function rests at 1.
+//! G is positive until the quantity passes its threshold. The change of its sign ends a step, so a step ends at the
+//! crossing. Both times are constant during a step, so a force that waits for a switch never jumps inside a step. For
+//! the same reason the quantity may itself depend on the switch, as an acceleration does, without a circular
+//! definition. A switch fires only once; afterwards its event function stays at 1.
 
 use super::onset::{FAR, Onset};
 use super::{AppliedForces, NEVER, choose};
@@ -15,29 +15,29 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph, Symbol};
 use crate::model::{Active, Model, Trigger};
 
-/// Times before this have come, those beyond are [`NEVER`] \[s\].
+/// The border between times that have come and [`NEVER`] \[s\].
 const EVER: f64 = 0.5 * NEVER;
 
 /// The memory of one switch.
 #[derive(Clone, Copy)]
 pub struct Remembered<'g> {
-    /// Index of the time at which it fired.
+    /// Index in m of the time at which the switch fired.
     fired: usize,
-    /// Index of the time from which on it acts: the same without a delay.
+    /// Index in m of the time from which on the switch acts; equal to `fired` if there is no delay.
     acts: usize,
-    /// The time from which on it acts, [`NEVER`] before \[s\].
+    /// The time from which on the switch acts, [`NEVER`] before \[s\].
     pub since: Expr<'g>,
 }
 
 impl<'g> Remembered<'g> {
-    /// `then` once it acts, `otherwise` before.
+    /// `then` while the switch acts, `otherwise` before.
     pub fn once(self, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
         let ever = then.graph().constant(EVER);
         choose(self.since, ever, then, otherwise)
     }
 }
 
-/// Whether a force acts.
+/// The switches that begin and end the action of a force.
 #[derive(Clone, Copy, Default)]
 pub struct Gate<'g> {
     since: Option<Remembered<'g>>,
@@ -59,7 +59,7 @@ impl<'g> Gate<'g> {
             .map_or(value, |switch| switch.once(otherwise, value))
     }
 
-    /// The onset of a law while the force acts; else nothing begins.
+    /// The onset of a law, with the gap [`FAR`] while the force does not act.
     pub fn of_onset(self, onset: Onset<'g>) -> Onset<'g> {
         let graph = onset.gap.graph();
         let far = graph.constant(FAR);
@@ -69,7 +69,7 @@ impl<'g> Gate<'g> {
         }
     }
 
-    /// Whether it waits for a switch, or ends with one.
+    /// True if the force waits for a switch, or ends with one.
     pub fn waits(self) -> bool {
         self.since.is_some() || self.until.is_some()
     }
@@ -81,8 +81,8 @@ impl<'g> Gate<'g> {
 }
 
 impl<'g> AppliedForces<'g> {
-    /// Makes room for the memory of all switches; what it becomes is said by [`complete`], once the quantities are known
-    /// that they wait for.
+    /// Adds the memory of all switches. [`complete`] sets how the memory changes, once the quantities that trigger the
+    /// switches are derived.
     pub(crate) fn declare_switches(&mut self, graph: &'g Graph, model: &Model) {
         for switch in &model.switches {
             let never = graph.constant(NEVER);
@@ -95,7 +95,7 @@ impl<'g> AppliedForces<'g> {
         }
     }
 
-    /// Whether what acts only at certain times acts.
+    /// The gate of a force that is active only between given switches.
     pub(crate) fn gate(&self, active: Active) -> Gate<'g> {
         let switch = |index: Option<usize>| index.map(|index| self.states.switches[index]);
         Gate {
@@ -105,7 +105,8 @@ impl<'g> AppliedForces<'g> {
     }
 }
 
-/// Says when switches fire. `quantities` are those that their triggers look at, by switch; anything for a time.
+/// Sets how the memory of the switches changes. `quantities` are the trigger quantities, by switch; a switch at a time
+/// needs none.
 pub fn complete<'g>(
     graph: &'g Graph,
     model: &Model,
@@ -122,14 +123,14 @@ pub fn complete<'g>(
         graph.section(format!("switch {}", switch.name));
         let Remembered { fired, acts, .. } = applied.states.switches[index];
         let memory = |index: usize| graph.symbol(Symbol::Memory(index as u32));
-        // rests at 1 once it has come
+        // an event function stays at 1 once its time has come
         let waiting = |index: usize, event_function: Expr<'g>| {
             choose(memory(index), ever, one, event_function)
         };
         let above = |threshold, quantity: Option<Expr<'g>>| {
             number(graph, threshold) - quantity.unwrap_or(zero)
         };
-        // a time has come where it is reached, a threshold is passed where it is left behind
+        // a time fires when it is reached, a threshold only when it is exceeded
         let (event_function, inclusive) = match &switch.trigger {
             Trigger::Time(time) => (number(graph, time) - now, true),
             Trigger::Above(_, threshold) => (above(threshold, quantities[index]), false),

@@ -5,28 +5,28 @@ use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::model::ElementId;
 
-/// How one effect does work.
+/// The power of one effect.
 pub struct Work<'g> {
     /// Name for people: "contact seat: friction".
     pub name: String,
-    /// Its power is their sum. Kept apart until everything else is derived, so that the balance of energy leaves no trace
-    /// in the equations.
+    /// The power is the sum of these products. They are multiplied after all other expressions are made, so that the
+    /// energy balance does not change the equations.
     pub products: Vec<Product<'g>>,
 }
 
-/// A factor of a power and the other.
+/// The two factors of a power.
 #[derive(Clone, Copy)]
 pub enum Product<'g> {
     /// A torque and a rate, a tension and the rate of a length.
     Scalars(Expr<'g>, Expr<'g>),
     /// A force and a velocity, a moment and an angular velocity.
     Vectors(Vec3<'g>, Vec3<'g>),
-    /// A field's acceleration and the momentum of an element that feels it.
+    /// The acceleration of a field, and the element whose momentum is the other factor.
     Field(Vec3<'g>, ElementId),
 }
 
 impl<'g> AppliedForces<'g> {
-    /// Counts a power to an effect.
+    /// Adds a power to the effect of this name.
     pub fn work(&mut self, name: impl Into<String>, product: Product<'g>) {
         let name = name.into();
         match self.works.iter_mut().find(|work| work.name == name) {

@@ -15,21 +15,22 @@ pub struct Wrench<'g> {
 }
 
 impl Wrench<'_> {
-    /// True where nothing acts.
+    /// True if force and moment are 0.
     pub fn is_zero(&self) -> bool {
         self.force.is_zero() && self.moment.is_zero()
     }
 }
 
-/// What acts on all bodies.
+/// The forces and moments on all bodies.
 pub struct Wrenches<'g> {
-    /// By system and element; without the fields common to a whole system.
+    /// By system and element; without the fields that act on a whole system.
     pub elements: Vec<Vec<Wrench<'g>>>,
-    /// By system and element: the moments of laws in its joint, on the element.
+    /// By system and element: the moments that laws apply in the element's joint, on the element.
     pub in_joints: Vec<Vec<Vec<Vec3<'g>>>>,
-    /// By system, element and freedom of its joint: the torques and forces of laws on its coordinate.
+    /// By system, element and degree of freedom of its joint: the torques and forces that laws apply on its coordinate.
     pub on_freedoms: Vec<Vec<Vec<Expr<'g>>>>,
-    /// By vehicle, moments about its origin: what nothing feels, but whatever moves it works against.
+    /// By vehicle: forces, and moments about its origin. A vehicle's motion is prescribed, so they do not change it,
+    /// but its drive works against them.
     pub vehicles: Vec<Wrench<'g>>,
     /// By system: the sum of the fields that act on all of its elements \[m/s²\].
     pub fields: Vec<Vec3<'g>>,
@@ -38,7 +39,7 @@ pub struct Wrenches<'g> {
 }
 
 impl<'g> Wrenches<'g> {
-    /// Nothing, on the bodies of a model.
+    /// No forces, on the bodies of a model.
     pub fn none(graph: &'g Graph, model: &Model) -> Self {
         let (zero, vector) = (graph.constant(0.0), Vec3::zero(graph));
         let none = Wrench {
@@ -95,7 +96,7 @@ impl<'g> AppliedForces<'g> {
         self.wrenches.in_joints[child.system][child.element].push(moment);
     }
 
-    /// What acts on a body; `None` for the absolute frame.
+    /// The wrench of a body; `None` for the absolute frame.
     pub(crate) fn on(&mut self, body: Body) -> Option<&mut Wrench<'g>> {
         match body {
             Body::Frame => None,

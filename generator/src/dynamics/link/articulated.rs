@@ -1,5 +1,5 @@
-//! Articulated inertia in the frames of links: for accelerations Δ beyond the reference motion, the bodies outboard of a joint
-//! need the wrench f = K Δa + Bᵀ Δα + f₀, n = B Δa + J Δα + n₀.
+//! Articulated inertia in the frames of links: for accelerations Δ in addition to the reference motion, the bodies
+//! outboard of a joint need the wrench f = K Δa + Bᵀ Δα + f₀, n = B Δa + J Δα + n₀.
 
 use super::frames::FramedLink;
 use super::turn::{Turn, through};
@@ -58,7 +58,7 @@ impl<'g> Articulated<'g> {
         self.combined(other, |a, b| a - b)
     }
 
-    /// The same, turned into the parent's axes.
+    /// The same articulated inertia in the axes of the parent.
     pub fn turned(&self, turns: &[Turn<'g>]) -> Self {
         let mut turned = *self;
         for turn in turns {
@@ -73,7 +73,8 @@ impl<'g> Articulated<'g> {
         turned
     }
 
-    /// The same, moved through the constant part of a link's joint to the parent's origin.
+    /// The same articulated inertia about the parent's origin and in its axes; only the constant part of the joint's
+    /// rotation is applied.
     pub fn by_constants(&self, frame: &FramedLink<'g>) -> Self {
         let graph = self.mass.diagonal[0].graph();
         let matrix = Mat3(frame.against.map(|row| row.map(|a| graph.constant(a))));
@@ -92,7 +93,7 @@ impl<'g> Articulated<'g> {
         turned.cleaned().moved(frame.place)
     }
 
-    /// The same, with constants that are only rounding set to 0.
+    /// The same articulated inertia, with constant entries that are only rounding set to 0.
     fn cleaned(&self) -> Self {
         let entries = |m: &Mat3<'g>| m.0.iter().flatten().copied().collect::<Vec<_>>();
         let full = |m: &Sym3<'g>| m.diagonal.iter().chain(&m.off).copied().collect::<Vec<_>>();
@@ -117,7 +118,8 @@ impl<'g> Articulated<'g> {
         }
     }
 
-    /// The rest after the elimination of a velocity with U, G = U/D, 1/D and u. The bias is multiplied as U (u/D) or as G u.
+    /// The articulated inertia that is left after the elimination of a velocity with U, G = U/D, 1/D and u. The term
+    /// added to the bias is computed as U (u/D) if `scales_bias`, otherwise as G u.
     pub fn less(
         &self,
         needed: &Wrench<'g>,
@@ -148,7 +150,7 @@ impl<'g> Articulated<'g> {
         rest
     }
 
-    /// The same about another origin; its own origin is at r from there.
+    /// The same articulated inertia about another origin; `r` points from there to its own origin.
     pub fn moved(&self, r: Vec3<'g>) -> Self {
         if r.is_zero() {
             return *self;
@@ -159,7 +161,7 @@ impl<'g> Articulated<'g> {
             self.coupling.column(j) + r.cross(column)
         });
         let coupling = Mat3::from_columns(columns);
-        // J' = J − B r̂ + r̂ B'ᵀ: axis by axis of r, so that every product is made once
+        // J' = J − B r̂ + r̂ B'ᵀ, component by component of r, so that every product is made only once
         let inertia = Sym3::from_fn(|i, j| {
             (0..3).fold(self.inertia.entry(i, j), |sum, k| {
                 if r.0[k].is_zero() {
@@ -186,7 +188,7 @@ impl<'g> Articulated<'g> {
         }
     }
 
-    /// Δa and Δα where nothing holds it in the plane across z.
+    /// Δa and Δα of a free link in the plane perpendicular to z.
     pub fn floating_in_plane(&self, graph: &'g Graph) -> (Vec3<'g>, Vec3<'g>) {
         let (k, b, zero) = (&self.mass, &self.coupling.0[2], graph.constant(0.0));
         let lower = vec![
@@ -200,7 +202,7 @@ impl<'g> Articulated<'g> {
         (Vec3([x[0], x[1], zero]), Vec3([zero, zero, x[2]]))
     }
 
-    /// Δa and Δα where nothing holds it.
+    /// Δa and Δα of a free link.
     pub fn floating(&self, graph: &'g Graph) -> (Vec3<'g>, Vec3<'g>) {
         let entry = |i: usize, j: usize| match (i < 3, j < 3) {
             (true, true) => self.mass.entry(i, j),
@@ -216,8 +218,9 @@ impl<'g> Articulated<'g> {
     }
 }
 
-/// The part that a rotation about z does not change and that the hinge does not feel, as numbers: K diag(k, k, k'), J diag(j, j,
-/// 0), B [[b, −t, 0], [t, b, 0], 0].
+/// The part of an articulated inertia that a rotation about z does not change and that a hinge about z does not feel: K
+/// = diag(k, k, k'), J = diag(j, j, 0) and B = \[\[b, −t, 0\], \[t, b, 0\], 0\]. k' is 0 unless `third`. `None` if an
+/// entry is not constant or if all are 0.
 pub fn invariant<'g>(
     graph: &'g Graph,
     of: &Articulated<'g>,

@@ -1,5 +1,5 @@
-//! One axis in the articulated-body algorithm. Its column is (z s, z t), so U = (K z s + Bᵀ z t,  B z s + J z t) and D = s U_fz + t
-//! U_nz.
+//! One axis in the articulated-body algorithm. The column of an axis is (z s, z t), so U = (K z s + Bᵀ z t,  B z s + J
+//! z t) and D = s U_fz + t U_nz.
 
 use super::articulated::Articulated;
 use super::frames::FramedLink;
@@ -12,10 +12,10 @@ use crate::expression::vector::{Sym3, Vec3};
 /// An axis while it is eliminated.
 #[derive(Clone, Copy)]
 pub struct Axis<'g> {
-    /// t and s
+    /// t and s of the column
     pub turn: f64,
     pub slide: Expr<'g>,
-    /// Inertia of a rotor on the axis
+    /// Inertia of a rotor on the axis, which only this velocity moves
     armature: Expr<'g>,
     /// U
     pub needed: Wrench<'g>,
@@ -25,22 +25,24 @@ pub struct Axis<'g> {
     pub inverse: Expr<'g>,
     /// U/D
     gain: Wrench<'g>,
-    /// Generalised force on its coordinate
+    /// Generalised force on the coordinate
     acting: Expr<'g>,
     /// u
     pub left: Expr<'g>,
 }
 
 impl<'g> Axis<'g> {
-    /// Whether it only turns or only slides, and has no rotor. Then the bodies outboard pass no inertia along it.
+    /// True if the joint only turns or only slides, and has no rotor. Then the bodies outboard pass no inertia along
+    /// the axis.
     fn is_pure(&self) -> bool {
         self.armature.is_zero() && (self.turn == 0.0 || self.slide.is_zero())
     }
 
-    /// q̈ minus its value in the reference motion.
+    /// q̈ minus its value in the reference motion. `a` and `alpha` are Δa and Δα of the link with the joint at rest.
     pub fn rate(&self, a: Vec3<'g>, alpha: Vec3<'g>, scales_rate: bool) -> Expr<'g> {
         let zero = self.left.graph().constant(0.0);
-        // for a pure hinge the factor of α_z is D/D = 1, for a slider that of a_z
+        // for a pure hinge the coefficient of α_z is exactly D/D = 1, for a pure slider that of a_z, so this term needs
+        // no product
         let hinge = self.is_pure() && self.turn != 0.0;
         let slider = self.is_pure() && self.turn == 0.0;
         let plain = match (hinge, slider) {
@@ -68,7 +70,7 @@ impl<'g> Axis<'g> {
         rate - plain
     }
 
-    /// Its U, D and u as those of a shared velocity.
+    /// U, D and u of the axis, as those of a shared velocity.
     pub fn velocity(&self, row: usize) -> Velocity<'g> {
         Velocity {
             row,
@@ -78,12 +80,13 @@ impl<'g> Axis<'g> {
         }
     }
 
-    /// The power of a wrench per velocity of this axis.
+    /// The power of a wrench per velocity of this axis: s f_z + t n_z.
     pub fn power(&self, wrench: &Wrench<'g>) -> Expr<'g> {
         self.slide * wrench.force.0[2] + self.turn * wrench.moment.0[2]
     }
 
-    /// The axis of a link, given the articulated inertia outboard of it and the reference acceleration of its coordinate.
+    /// The axis of a link, given the articulated inertia outboard of it and the reference acceleration of its
+    /// coordinate.
     pub fn of(
         outboard: &Articulated<'g>,
         link: &Link<'g>,
@@ -101,7 +104,7 @@ impl<'g> Axis<'g> {
         else {
             unreachable!("only axes are eliminated as such")
         };
-        // the generalised force of a slider is a force, in the unit of length
+        // a slider moves along a length, so its coordinate and its generalised force are scaled with the unit of length
         let (slide, acting, armature) = match turn == 0.0 {
             true => (slide, unit * acting, (unit * unit) * armature),
             false => ((1.0 / unit) * slide, acting, armature),
@@ -154,7 +157,7 @@ impl<'g> Axis<'g> {
             })
         };
         if self.turn != 0.0 {
-            // row and column of the rotation vanish, and the moment along it is the generalised force
+            // the row and the column of z vanish, and the moment along z is the generalised force
             rest.coupling.0[2] = [zero; 3];
             rest.inertia = without_z(rest.inertia);
             rest.bias.moment.0[2] = self.acting;

@@ -1,7 +1,8 @@
-//! The mass properties of a rigid body about a point, mass, first moment and second moment, and their change from one frame to another.
+//! The mass properties of a rigid body about a point (mass, first moment and second moment), and how they change from
+//! one frame to another.
 //!
-//! J = tr Σ · 1 − Σ is the inertia about the point. Σ = ∫ρρᵀ can be moved in parts, which regrouping needs: mass on the axis of a hinge
-//! acts on the carrier alone.
+//! J = tr Σ · 1 − Σ is the inertia about the point. Unlike J, Σ = ∫ρρᵀ can be divided into parts that are moved
+//! separately, as regrouping needs: mass on the axis of a hinge acts on the carrier alone.
 
 use super::frames::Matrix;
 use super::tree::LinkJoint;
@@ -18,7 +19,7 @@ pub struct Body<'g> {
     pub first: Vec3<'g>,
     /// Σ = ∫ρρᵀ \[kg m²\]
     pub second: Sym3<'g>,
-    /// The largest numbers from which h and Σ were computed. Values far below them are rounding.
+    /// The largest numbers from which h and Σ were computed. Entries far below these are rounding.
     pub sizes: [f64; 2],
 }
 
@@ -33,7 +34,7 @@ impl<'g> Body<'g> {
         }
     }
 
-    /// The body with the larger of these sizes and of its own.
+    /// The body with its sizes raised to the largest of its own entries and of `others`.
     fn sized(mut self, others: [f64; 2]) -> Self {
         let entries = self.second.diagonal.iter().chain(&self.second.off);
         let own = [largest(self.first.0.iter()), largest(entries)];
@@ -102,7 +103,7 @@ impl<'g> Body<'g> {
         .sized([0, 1].map(|i| self.sizes[i].max(other.sizes[i])))
     }
 
-    /// The part of a body that its joint does not feel.
+    /// The part of the body that does not resist the motion of its joint.
     pub fn unfelt(&self, joint: &LinkJoint<'g>) -> Self {
         let graph = self.mass.graph();
         let mut unfelt = Body::none(graph);
@@ -121,7 +122,8 @@ impl<'g> Body<'g> {
         unfelt
     }
 
-    /// The body without values that are only rounding, and with regrouped entries exactly 0; z is along the axis of the joint.
+    /// The body after regrouping, without entries that are only rounding; entries that a hinge about z does not feel
+    /// are set to exactly 0.
     pub fn felt(&self, joint: &LinkJoint<'g>) -> Self {
         let zero = self.mass.graph().constant(0.0);
         let mut felt = *self;
@@ -154,7 +156,7 @@ impl<'g> Body<'g> {
     }
 }
 
-/// A [`Body`] of numbers. Its operations are those of a body, in the same order.
+/// A [`Body`] in numbers. Its operations are the same as those of a body, in the same order.
 #[derive(Clone, Copy)]
 pub struct Numbers {
     mass: f64,
@@ -166,7 +168,7 @@ pub struct Numbers {
 }
 
 impl Numbers {
-    /// `None` if an entry is no number.
+    /// `None` if an entry is not a number.
     pub fn of(body: &Body<'_>) -> Option<Self> {
         let mut second = [[0.0; 3]; 3];
         for (i, row) in second.iter_mut().enumerate() {
@@ -182,7 +184,7 @@ impl Numbers {
         })
     }
 
-    /// A point at the origin.
+    /// A point mass at the origin.
     pub fn point(mass: f64) -> Self {
         Numbers {
             mass,
@@ -192,7 +194,7 @@ impl Numbers {
         }
     }
 
-    /// The same in a graph.
+    /// The body as constants of a graph.
     pub fn body<'g>(&self, graph: &'g Graph) -> Body<'g> {
         Body {
             mass: graph.constant(self.mass),
@@ -283,7 +285,7 @@ impl Numbers {
         self
     }
 
-    /// In another unit of length.
+    /// The body in another unit of length.
     pub fn in_unit(&self, unit: f64) -> Self {
         Numbers {
             mass: (unit * unit) * self.mass,
@@ -294,12 +296,12 @@ impl Numbers {
     }
 }
 
-/// The symmetric matrix with these entries, of which those with i ≤ j are asked for as in [`Sym3::from_fn`].
+/// The symmetric matrix with the entries `of(i, j)`, which is called with i ≤ j only, as in [`Sym3::from_fn`].
 fn symmetric(of: impl Fn(usize, usize) -> f64) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| of(i.min(j), i.max(j))))
 }
 
-/// The numbers of a constant vector; `None` if a component is no number.
+/// The components of a constant vector; `None` if a component is not a number.
 pub fn numbers(v: Vec3<'_>) -> Option<[f64; 3]> {
     let [x, y, z] = v.0.map(|e| e.as_constant());
     Some([x?, y?, z?])
@@ -326,7 +328,7 @@ pub fn cleaned(v: Vec3<'_>) -> Vec3<'_> {
     Vec3(v.0.map(|a| without_rounding(a, largest)))
 }
 
-/// The same of numbers.
+/// A vector of numbers without components that are only rounding.
 pub fn cleaned_numbers(v: [f64; 3]) -> [f64; 3] {
     let largest = v.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
     v.map(|c| {

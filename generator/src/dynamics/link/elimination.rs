@@ -1,7 +1,8 @@
-//! The articulated-body algorithm in the frames of links, relative to a reference motion.   \[Featherstone 2008, ch. 7\]
+//! The articulated-body algorithm in the frames of links, relative to a reference motion.   \[Featherstone 2008, ch.
+//! 7\]
 //!
-//! For accelerations Δ beyond the reference motion, the bodies outboard of a joint need the wrench f = K Δa + Bᵀ Δα + f₀, n = B Δa + J Δα + n₀. A
-//! joint has the column (z s, z t):
+//! For accelerations Δ in addition to the reference motion, the bodies outboard of a joint need the wrench f = K Δa +
+//! Bᵀ Δα + f₀, n = B Δa + J Δα + n₀. The joint has the column (z s, z t):
 //!
 //! | leaves to root | |
 //! |---|---|
@@ -9,8 +10,8 @@
 //! | (K, B, J) ← (K, B, J) − U Uᵀ / D | (f₀, n₀) ← (f₀, n₀) + U u / D |
 //! | turned by X; moved by r: B' = B + r̂ K,  J' = J − B r̂ + r̂ B'ᵀ | n₀' = n₀ + r × f₀ |
 //!
-//! For a hinge the row and column of z vanish in J and B, for a slider those in K and B, so 15 of 21 entries are left. From the root to the leaves,
-//! Δa = Xᵀ (Δa_p + Δα_p × r), Δα = Xᵀ Δα_p, and q̈ = q̈ref + (u − U · (Δa, Δα)) / D.
+//! For a hinge the row and the column of z vanish in J and B, for a slider those in K and B, so 15 of 21 entries are
+//! left. From the root to the leaves, Δa = Xᵀ (Δa_p + Δα_p × r), Δα = Xᵀ Δα_p, and q̈ = q̈ref + (u − U · (Δa, Δα)) / D.
 
 use super::articulated::{Articulated, invariant};
 use super::axis::Axis;
@@ -28,9 +29,9 @@ use rustc_hash::FxHashMap;
 
 /// The quantities of a joint that the pass outwards needs.
 enum Eliminated<'g> {
-    /// An axis, with E/D of the shared velocities that are not yet eliminated, by row.
+    /// An axis, with E/D of each shared velocity that is not eliminated yet, by row.
     Axis(Box<Axis<'g>>, Vec<(usize, Expr<'g>)>),
-    /// The joint has a share of a shared velocity: t and s of its column, and its share of the velocity in this row.
+    /// A joint that has a share of a shared velocity: t and s of its column, its share, and the row of the velocity.
     Share {
         turn: f64,
         slide: Expr<'g>,
@@ -58,11 +59,11 @@ pub struct Solved<'g> {
 
 /// A shared velocity that is eliminated at a certain link.
 struct Head<'g> {
-    /// Whether the joint of the link itself has a share of it.
+    /// True if the joint of the link itself has a share of the velocity.
     own: bool,
     velocity: Velocity<'g>,
     inverse: Expr<'g>,
-    /// D_rq of the velocities that are eliminated later, by row.
+    /// D_rq of the velocities q that are eliminated later, by row.
     crossing: Vec<(usize, Expr<'g>)>,
 }
 
@@ -74,14 +75,14 @@ struct Inwards<'g> {
     outboard: Vec<Articulated<'g>>,
 }
 
-/// An articulated inertia on the way to a parent.
+/// An articulated inertia and the rest of its way to the parent's origin.
 #[derive(Clone, Copy)]
 struct Passed<'g> {
     place: Vec3<'g>,
     what: Articulated<'g>,
 }
 
-/// The accelerations of all links. Each shared velocity must have a link among the [heads].
+/// The accelerations of all links. Each shared velocity must be eliminated at one of the [heads].
 pub fn accelerations<'g>(
     tree: &Tree<'g>,
     framed: &Framed<'g>,
@@ -166,8 +167,8 @@ fn inwards<'g>(
     }
 }
 
-/// Eliminates the joint of a link, and before it the shared velocities that end at this link. Returns the quantities for the pass outwards, the
-/// remaining articulated inertia, and those velocities.
+/// Eliminates the joint of a link, after the shared velocities that end at this link. Returns the quantities for the
+/// pass outwards, the remaining articulated inertia, and the shared velocities that ended here.
 fn joint<'g>(
     written: &Written<'g, '_>,
     (k, motion): (usize, &LinkMotion<'g>),
@@ -213,7 +214,7 @@ fn joint<'g>(
     (Eliminated::Axis(Box::new(axis), gains), rest, here)
 }
 
-/// Eliminates a shared velocity.
+/// Eliminates a shared velocity; `None` if there is no such velocity at this link.
 fn end<'g>(
     outboard: &mut Articulated<'g>,
     velocities: &mut Shared<'g>,
@@ -238,7 +239,7 @@ fn end<'g>(
 }
 
 impl<'g> Head<'g> {
-    /// v̇_r, given the motion of the link and the shared velocities that are already known.
+    /// v̇_r, given the accelerations of the link and the shared velocities that are already known.
     fn rate(&self, a: Vec3<'g>, alpha: Vec3<'g>, known: &FxHashMap<usize, Expr<'g>>) -> Expr<'g> {
         let Velocity { needed, left, .. } = &self.velocity;
         let others = self.crossing.iter();
@@ -283,7 +284,8 @@ struct Outwards<'a, 'g> {
     written: Written<'g, 'a>,
     motions: &'a [LinkMotion<'g>],
     inwards: &'a Inwards<'g>,
-    /// Of each link so far: the acceleration of its origin and its angular acceleration, in its axes.
+    /// For each link so far: the acceleration of its origin and its angular acceleration relative to the reference
+    /// motion, in its axes.
     moves: Vec<(Vec3<'g>, Vec3<'g>)>,
     /// v̇ of shared velocities, by row.
     known: FxHashMap<usize, Expr<'g>>,
@@ -317,7 +319,7 @@ impl<'g> Outwards<'_, 'g> {
             }
             Eliminated::Base => {
                 (a, alpha) = self.inwards.outboard[k].floating(graph);
-                // the origin of the joint, which differs from that of the frame
+                // for the origin of the joint, which is not that of the frame
                 let back = Vec3(choice.base.map(|b| graph.constant(-b / choice.unit)));
                 let turned = LinkMotion {
                     alpha,
@@ -369,14 +371,14 @@ impl<'g> Outwards<'_, 'g> {
                 }
             }
         }
-        // the shared velocities in which the joint of the link has no share, the last one first
+        // the shared velocities of which the joint of this link has no share; the one eliminated last comes first
         let others = self.inwards.heads[k].iter().filter(|head| !head.own);
         self.know(others.rev(), a, alpha);
         self.moves.push((a, alpha));
         result
     }
 
-    /// The accelerations that a link has where its joint is at rest, in its axes.
+    /// The accelerations that a link has if its joint is at rest, in its axes.
     fn carried(&self, k: usize) -> (Vec3<'g>, Vec3<'g>) {
         let Written {
             tree,
@@ -399,13 +401,13 @@ impl<'g> Outwards<'_, 'g> {
         )
     }
 
-    /// The acceleration where a slider has moved the origin to.
+    /// The acceleration of the origin at the place to which a slider has moved it.
     fn slid(&self, k: usize, a: Vec3<'g>, alpha: Vec3<'g>) -> Vec3<'g> {
         let along = self.written.along(k);
         along.map_or(a, |along| a + alpha.cross(along))
     }
 
-    /// Adds the rates of shared velocities, in this order.
+    /// Computes the rates of shared velocities, in this order.
     fn know<'h>(&mut self, heads: impl Iterator<Item = &'h Head<'g>>, a: Vec3<'g>, alpha: Vec3<'g>)
     where
         'g: 'h,
@@ -421,7 +423,8 @@ fn plus_along<'g>(v: Vec3<'g>, by: Expr<'g>) -> Vec3<'g> {
     Vec3([v.0[0], v.0[1], v.0[2] + by])
 }
 
-/// The wrench that a link's own body needs, minus the wrench that acts on it.
+/// The articulated inertia of a link alone; its bias is the wrench that the body needs in the reference motion, minus
+/// the wrench that acts on it.
 fn own<'g>(
     tree: &Tree<'g>,
     framed: &Framed<'g>,
@@ -469,7 +472,7 @@ impl<'g> FramedLink<'g> {
     }
 }
 
-/// The parent of a link, if the link turns about z alone relative to it and neither of the two keeps other axes.
+/// The parent of a link, if the link turns about z alone relative to the parent and neither of them is aligned.
 fn is_plain_hinge(k: usize, tree: &Tree<'_>, framed: &Framed<'_>) -> Option<usize> {
     let parent = tree.links[k].parent?;
     (tree.links[k].joint.is_hinge() && !framed.links[k].aligned && !framed.links[parent].aligned)
@@ -488,7 +491,7 @@ fn give_constants<'g>(
         return;
     };
     if let Some(part) = invariant(graph, &outboard[k], true) {
-        // h_z and m are 0 for hinges, so only J is left
+        // for hinges, m and h_z are 0 after regrouping, so the invariant part is J alone
         outboard[k] = outboard[k].minus(&part);
         outboard[parent] = outboard[parent].plus(&part.by_constants(&framed.links[k]));
     }
@@ -523,8 +526,8 @@ fn give_rest<'g>(
     }
 }
 
-/// The sum of the articulated inertias that several links pass on, moved to the origin of their parent axis by axis. Those with the same rest of the
-/// way are added first.
+/// The sum of the articulated inertias that several links pass on, moved to the origin of their parent axis by axis.
+/// Inertias that have the same rest of the way are added before they are moved on.
 fn together<'g>(mut group: Vec<Passed<'g>>, order: Option<[usize; 3]>) -> Articulated<'g> {
     let graph = group[0].place.0[0].graph();
     let axes: Vec<Option<usize>> = match order {
@@ -558,7 +561,7 @@ fn together<'g>(mut group: Vec<Passed<'g>>, order: Option<[usize; 3]>) -> Articu
 }
 
 impl<'g> Articulated<'g> {
-    /// The articulated inertia that remains when the element turns freely: no moment passes.
+    /// The articulated inertia that remains when the ball turns freely, so that no moment is passed on.
     fn without_ball(&self) -> (Eliminated<'g>, Self) {
         let graph = self.mass.diagonal[0].graph();
         let inertia = &self.inertia;

@@ -1,7 +1,8 @@
 //! Generalised forces in the frames of links, by the recursive Newton–Euler algorithm.   \[Featherstone 2008, ch. 5\]
 //!
-//! From the leaves to the root every link passes on the wrench that it and the links that it carries need, and each velocity takes the power of
-//! that wrench. The effect of a field a that is the same everywhere follows from the composite body of a link alone: (m a, h × a).
+//! From the leaves to the root, every link passes on the wrench that it and the links it carries need. The power of
+//! this wrench per velocity is the generalised force. The effect of a field a that is the same everywhere follows from
+//! the composite body of a link alone: (m a, h × a).
 
 use super::body::Body;
 use super::motion::LinkMotion;
@@ -12,7 +13,7 @@ use crate::dynamics::spatial::Wrench;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 
-/// Forces by row; for a part of a tree also the wrenches that it passes on to the rest.
+/// The generalised forces by row; for a part of a tree also the wrenches that the part passes on to the rest.
 pub struct Forces<'g> {
     /// Terms by row. Terms of the same row must be added.
     pub terms: Vec<(usize, Expr<'g>)>,
@@ -36,7 +37,8 @@ pub fn needed<'g>(written: &Written<'g, '_>, motions: &[LinkMotion<'g>]) -> Vec<
         .collect()
 }
 
-/// The power of wrenches on the links, in their axes, per velocity, by row: the sum over all links that the velocity moves.
+/// The power of wrenches per velocity, by row: for each velocity the sum over all links that it moves. The wrenches are
+/// in the axes of the links.
 pub fn powers<'g>(
     written: &Written<'g, '_>,
     wrenches: Vec<Wrench<'g>>,

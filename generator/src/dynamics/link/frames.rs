@@ -1,9 +1,10 @@
 //! The frames of links, and the constants of the system in these frames.
 //!
-//! The frame of a link is fixed to the link, with its origin on the axis of its joint and z along this axis. Two choices remain: the rotation about z
-//! and the place of the origin along z. The frame of a ball is that of its element, or the absolute frame.
+//! The frame of a link is fixed to the link, with its origin on the axis of its joint and z along this axis. Two
+//! choices remain: the rotation about z and the place of the origin along z. The frame of a link on a ball is that of
+//! its element, or the absolute frame.
 //!
-//! Bodies are regrouped, so of the bodies on a hinge only h_x, h_y and five entries of Σ are left.
+//! Bodies are regrouped, so a body on a hinge has only h_x, h_y and five entries of Σ.
 
 use super::body::{Body, Numbers, cleaned, cleaned_numbers, in_axes, numbers};
 use super::keep::{Constant, kept};
@@ -28,28 +29,30 @@ pub struct Choice {
 /// The choice of the frame of one link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkChoice {
-    /// Angle of its frame about z \[rad\].
+    /// Angle of the frame about z \[rad\].
     pub turn: f64,
-    /// Place of its origin along z \[m\].
+    /// Place of the origin along z \[m\].
     pub place: f64,
-    /// Whether it keeps the axes of the inboard side of its joint; for a ball, the absolute axes.
+    /// True if the link is aligned: its frame keeps the axes of the inboard side of the joint; for a ball, the absolute
+    /// axes.
     pub aligned: bool,
-    /// Its angular acceleration about z in the reference motion.
+    /// The link's angular acceleration about z in the reference motion.
     pub reference: ReferenceTurn,
-    /// Whether its moment in the reference motion is written with J instead of Σ.
+    /// True if the link's moment in the reference motion is written with J instead of Σ.
     pub by_inertia: bool,
-    /// The order of the axes along which the bodies that it carries are moved to its origin.
+    /// The order of the axes along which the bodies that the link carries are moved to its origin.
     pub order: [usize; 3],
-    /// The child that keeps a component of the first moment of this link in the reference motion, and the component.
+    /// The child that keeps a component of the first moment of this link in the reference motion (`keep`), and the
+    /// index of the component.
     pub keep: Option<(usize, usize)>,
-    /// Whether the pass inwards multiplies U by u/D; otherwise it multiplies G by u.
+    /// True if the pass inwards multiplies U by u/D; otherwise it multiplies G = U/D by u.
     pub scales_bias: bool,
-    /// Whether the pass outwards uses G; otherwise U and then 1/D.
+    /// True if the pass outwards uses G; otherwise it uses U and then 1/D.
     pub scales_rate: bool,
 }
 
 impl LinkChoice {
-    /// All of it, as numbers that are equal where the choices are.
+    /// The whole choice as numbers: equal numbers mean equal choices.
     pub fn words(&self) -> [u64; 3] {
         let keep = self
             .keep
@@ -61,7 +64,7 @@ impl LinkChoice {
         ]
     }
 
-    /// What is left of it when the link is in its frame: all but the frame and the body for the reference motion.
+    /// The part of the choice that does not change the frame or the body for the reference motion, as a number.
     pub fn flags(&self) -> u64 {
         let flags = [
             self.aligned,
@@ -78,12 +81,12 @@ impl LinkChoice {
     }
 }
 
-/// The choice of α⁰_z of a link.
+/// The choice of α⁰_z of a link, its angular acceleration about z in the reference motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReferenceTurn {
     /// 0
     Zero,
-    /// Its value for q̈ = 0
+    /// Its value for q̈ = 0, i.e. that of the carrier
     Rest,
     /// ω_x ω_y, so that Γ_xy is 0
     Product,
@@ -117,22 +120,23 @@ impl Choice {
 pub struct Framed<'g> {
     /// Each link in its frame.
     pub links: Vec<FramedLink<'g>>,
-    /// What each link was made of.
+    /// The constants from which each link was made.
     pub made_of: Vec<MadeOf<'g>>,
 }
 
-/// All numbers of a link in its frame, before the rotations of links that keep the axes of the inboard side.
+/// The numbers of a link in its frame, before the rotations of aligned links.
 pub struct MadeOf<'g> {
     /// The constant properties.
     pub constant: Constant<'g>,
     /// The body for the reference motion.
     pub in_reference: Body<'g>,
-    /// The constant part of its angle \[rad\], that of aligned parents included: a number of right angles, and the rest.
+    /// The constant part of the joint's angle \[rad\], including that of aligned parents: a number of right angles, and
+    /// the remainder.
     pub offset: (u8, f64),
 }
 
-/// Whether a link can keep the axes of the inboard side of its joint: it is a hinge whose children all turn about its axis, or a ball whose children
-/// are all on balls.
+/// True if a link can be aligned, i.e. can keep the axes of the inboard side of its joint: a hinge whose children all
+/// turn about its axis, or a ball whose children are all on balls.
 pub fn can_align(tree: &Tree<'_>, natural: &[(Matrix, f64)], k: usize) -> bool {
     let mut children = tree
         .links
@@ -161,24 +165,26 @@ pub struct FramedLink<'g> {
     pub place: Vec3<'g>,
     /// Its body after regrouping.
     pub body: Body<'g>,
-    /// The body for the reference motion: the same, or with a part of it moved elsewhere (`keep`).
+    /// The body for the reference motion: `body`, or `body` after a part of it is moved to or from another link
+    /// (`keep`).
     pub in_reference: Body<'g>,
-    /// Whether it keeps the axes of the inboard side of its joint.
+    /// True if the link is aligned: it keeps the axes of the inboard side of its joint.
     pub aligned: bool,
-    /// The sign of its axis relative to the axis of the model.
+    /// The sign of z relative to the axis of the joint in the model.
     pub sign: f64,
     /// The rotation from its axes to absolute axes.
     pub axes: Mat3<'g>,
-    /// Its origin from that of its element, in its axes.
+    /// The origin of the frame from that of the element, in the link's axes.
     pub origin: Vec3<'g>,
-    /// R, the constant part of its rotation relative to the parent.
+    /// R, the constant part of the rotation from the link's axes to the parent's.
     pub against: [[f64; 3]; 3],
 }
 
 /// The size below which an entry of a rotation counts as rounding.
 const ROUNDING: f64 = 4e-15;
 
-/// The axes of each link before the choice of the rotation about z, as columns, and the sign of the joint's axis.
+/// The axes of each link before the rotation about z is chosen, as columns, and the sign of z relative to the joint's
+/// axis.
 pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
     let mut found: Vec<(Matrix, f64)> = Vec::new();
     for link in &tree.links {
@@ -191,15 +197,15 @@ pub fn natural_axes(tree: &Tree<'_>) -> Vec<(Matrix, f64)> {
             let along = column(&carrier, 2);
             (0..3).all(|i| (axis[i] - sign * along[i]).abs() < ROUNDING)
         };
-        // if two axes point in opposite directions, one is reversed
+        // if the axis is opposite to z of the carrier, it is reversed
         let sign = if is_along(-1.0) { -1.0 } else { 1.0 };
         let parallel = is_along(sign);
         let axis = axis.map(|a| sign * a);
         let axes = match parallel {
             true => carrier,
             false => {
-                // x is along an axis of the carrier that is perpendicular to the joint's axis, if there is one, otherwise along any perpendicular
-                // direction
+                // x is along an axis of the carrier that is perpendicular to the joint's axis, if there is one,
+                // otherwise along any perpendicular direction
                 let square = (0..3)
                     .map(|i| column(&carrier, i))
                     .find(|c| dot(*c, axis).abs() < ROUNDING);
@@ -229,7 +235,7 @@ impl<'g> Framed<'g> {
         Self::with(tree, natural, choice, Purpose::Equations)
     }
 
-    /// The same for a trial, of which only the operations are counted.
+    /// The same for a trial, in which only operations are counted.
     pub fn in_trial(tree: &Tree<'g>, natural: &[(Matrix, f64)], choice: &Choice) -> Self {
         let axes = tree.needs_axes();
         Self::with(tree, natural, choice, Purpose::Trial { axes })
@@ -278,14 +284,14 @@ impl<'g> Framed<'g> {
     }
 }
 
-/// What the frames are for.
+/// The purpose of the frames.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Purpose {
     /// The equations themselves.
     Equations,
     /// A count of operations: numbers are computed without a graph.
     Trial {
-        /// Whether anything is in absolute axes.
+        /// True if any quantity is in absolute axes.
         axes: bool,
     },
 }
@@ -300,23 +306,23 @@ struct Framing<'a, 'g> {
     axes: Vec<Matrix>,
     links: Vec<FramedLink<'g>>,
     constants: Vec<Constant<'g>>,
-    /// For each link, the rotations of links that keep the axes of the inboard side.
+    /// For each link, the rotations by which aligned frames turn its body.
     aligning: Vec<Vec<Turn<'g>>>,
-    /// For each aligned link, the sum of the angles, variable and constant.
+    /// For each link, the angle of its joint including those of aligned parents: variable and constant part.
     angles: Vec<(Expr<'g>, f64)>,
-    /// By link, in the plane: the angles that it and its axes have in the absolute frame.
+    /// By link, in the plane: the angle of the link and the angle of its axes in the absolute frame.
     turned: Vec<[Expr<'g>; 2]>,
 }
 
-/// How a link stands on its parent.
+/// The position and rotation of a link relative to its parent.
 struct Placed<'g> {
     /// The rotations from its axes to the parent's, in order.
     turns: Vec<Turn<'g>>,
     /// Its origin from the parent's, in the parent's axes.
     place: Vec3<'g>,
-    /// The angle of its joint about z, variable and constant; that of aligned parents included.
+    /// The angle of the joint about z, including those of aligned parents: variable and constant part.
     angle: (Expr<'g>, f64),
-    /// In the plane: its angle in the absolute frame.
+    /// In the plane: the angle of the link in the absolute frame.
     own_turned: Expr<'g>,
 }
 
@@ -325,13 +331,13 @@ impl<'g> Framing<'_, 'g> {
         self.choice.links[k].aligned
     }
 
-    /// The axes of what carries a link, in absolute axes.
+    /// The axes of the carrier of a link, in absolute axes.
     fn carrier_axes(&self, k: usize) -> Mat3<'g> {
         let parent = self.tree.links[k].parent;
         parent.map_or(self.tree.ground.axes, |p| self.links[p].axes)
     }
 
-    /// Brings link `k` into its frame; its parent is there already.
+    /// Brings link `k` into its frame; its parent must be in its frame already.
     fn add(&mut self, k: usize) {
         let (graph, link) = (self.tree.graph, &self.tree.links[k]);
         let constant = self.constant(k);
@@ -393,7 +399,8 @@ impl<'g> Framing<'_, 'g> {
         self.constants.push(constant);
     }
 
-    /// What does not depend on the coordinates: the body, the place on the parent and the rotation against it.
+    /// The constants of a link, which do not depend on the coordinates: its body, its place on the parent and its
+    /// constant rotation.
     fn constant(&self, k: usize) -> Constant<'g> {
         let carrier = self.tree.links[k].parent.map_or(IDENTITY, |p| self.axes[p]);
         let against = snapped(&product(&transpose(&carrier), &self.axes[k]));
@@ -409,7 +416,7 @@ impl<'g> Framing<'_, 'g> {
         }
     }
 
-    /// The body of a link and its place on the parent, whose axes are given.
+    /// The body of a link and its place on the parent, as nodes; `carrier` are the parent's axes.
     fn constant_in_nodes(&self, k: usize, carrier: &Matrix) -> (Body<'g>, Vec3<'g>) {
         let (tree, unit) = (self.tree, self.choice.unit);
         let (graph, link) = (tree.graph, &tree.links[k]);
@@ -434,7 +441,7 @@ impl<'g> Framing<'_, 'g> {
         (body, place)
     }
 
-    /// The same by the same operations, without a node for each step; `None` if something is no number.
+    /// The same by the same operations on numbers, without a node for each step; `None` if an entry is not a number.
     fn constant_in_numbers(&self, k: usize, carrier: &Matrix) -> Option<(Body<'g>, Vec3<'g>)> {
         let (tree, unit) = (self.tree, self.choice.unit);
         let (graph, link) = (tree.graph, &tree.links[k]);
@@ -454,7 +461,7 @@ impl<'g> Framing<'_, 'g> {
         Some((body, Vec3(place.map(|r| graph.constant(r)))))
     }
 
-    /// A link on a ball.
+    /// The place of a link on a ball.
     fn on_ball(&self, k: usize, constant: &Constant<'g>) -> Placed<'g> {
         let (tree, link) = (self.tree, &self.tree.links[k]);
         let own = match self.is_aligned(k) {
@@ -478,7 +485,7 @@ impl<'g> Framing<'_, 'g> {
         }
     }
 
-    /// A link on an axis, with the coordinate of its joint.
+    /// The place of a link on an axis, with the coordinate of its joint.
     fn on_axis(
         &self,
         k: usize,
@@ -513,7 +520,7 @@ impl<'g> Framing<'_, 'g> {
             offset += self.angles[p].1 + outer;
         }
         let mut turns = Vec::new();
-        // for aligned links, the angle turns the links that they carry
+        // the angle of an aligned link turns the links that it carries instead
         if !self.is_aligned(k) {
             push_about(graph, &mut turns, 2, angle, offset);
         }
@@ -529,7 +536,7 @@ impl<'g> Framing<'_, 'g> {
         }
     }
 
-    /// The rotation from the axes of a link to absolute axes; `turns` are those to its parent's.
+    /// The rotation from the axes of a link to absolute axes; `turns` are the rotations to the parent's axes.
     fn absolute_axes(&self, k: usize, turns: &[Turn<'g>]) -> Mat3<'g> {
         let (graph, link) = (self.tree.graph, &self.tree.links[k]);
         // in a joint of several degrees of freedom, the last link has the axes of the element
@@ -586,7 +593,8 @@ fn turned_about_z<'g>(v: Vec3<'g>, (angle, offset): (Expr<'g>, f64)) -> Vec3<'g>
     super::turn::through(&turns, v)
 }
 
-/// Adds a rotation by a variable and a constant angle. Right angles are split off, because they cost nothing.
+/// Adds a rotation by the sum of a variable and a constant angle. Right angles are split off, because they need no
+/// operations.
 fn push_about<'g>(
     graph: &'g Graph,
     turns: &mut Vec<Turn<'g>>,
@@ -625,7 +633,7 @@ fn push_constant<'g>(graph: &'g Graph, turns: &mut Vec<Turn<'g>>, axis: usize, a
     }
 }
 
-/// The number of right angles in an angle, 0 to 3, and the rest, which is 0 if it is only rounding.
+/// The number of right angles in an angle, modulo 4, and the remainder, which is set to 0 if it is only rounding.
 fn right_angles(angle: f64) -> (u8, f64) {
     let quarter = std::f64::consts::FRAC_PI_2;
     let quarters = (angle / quarter).round();
@@ -634,18 +642,19 @@ fn right_angles(angle: f64) -> (u8, f64) {
     (quarters.rem_euclid(4.0) as u8, rest)
 }
 
-/// R = Rz(outer) Rx(tilt) Rz(inner).
+/// The angles outer, tilt and inner of a rotation R = Rz(outer) Rx(tilt) Rz(inner).
 fn z_x_z(r: &Matrix) -> [f64; 3] {
     let across = (r[0][2] * r[0][2] + r[1][2] * r[1][2]).sqrt();
     if across < 1e-14 {
-        // a rotation about z alone, or one after half a turn about x
+        // a rotation about z alone, or a rotation about z followed by half a turn about x
         return match r[2][2] > 0.0 {
             true => [0.0, 0.0, libm::atan2(r[1][0], r[0][0])],
             false => [0.0, std::f64::consts::PI, -libm::atan2(r[1][0], r[0][0])],
         };
     }
     let (outer, tilt) = (libm::atan2(r[0][2], -r[1][2]), libm::atan2(across, r[2][2]));
-    // a small tilt leaves `outer` uncertain by ε/tilt; `inner` is the rest of the rotation, so that both together are exact
+    // a small tilt leaves `outer` uncertain by ε/tilt; `inner` is the rest of the rotation, so that both together are
+    // exact
     let (so, co) = (libm::sin(outer), libm::cos(outer));
     let (st, ct) = (libm::sin(tilt), libm::cos(tilt));
     let left = |j: usize| {
@@ -666,7 +675,7 @@ fn is_identity(m: &Mat3<'_>) -> bool {
     })
 }
 
-/// A rotation without entries that are only rounding.
+/// A rotation matrix in which entries that differ from an integer only by rounding are set to that integer.
 fn snapped(r: &Matrix) -> Matrix {
     r.map(|row| {
         row.map(|a| match a.round() {

@@ -1,8 +1,9 @@
-//! Moves a part of the regrouped bodies back to a child, for the reference motion only.
+//! For the reference motion only, moves a part of the regrouped bodies from a link back to its child.
 //!
-//! A point of mass μ on the axis of a hinge moves with both of its links. Let the joint to the hinge be at r on the parent. If a point of μ = h_k /
-//! r_k is taken from the parent and given to the child, h_k of the parent is 0 and the child has m = μ. The part of the point that the parent's own
-//! hinge does not feel is passed on to its parent.
+//! A point mass μ on the axis of a hinge moves with both links of the hinge, so it may be counted to either. Let the
+//! hinge be at r on the parent. If a point mass μ = h_k / r_k is moved from the parent to the child, h_k of the parent
+//! becomes 0 and the child gets m = μ. The part of the change that the parent's own hinge does not feel is passed on to
+//! the parent's parent.
 
 use super::body::{Body, Numbers, numbers};
 use super::frames::{Choice, Matrix};
@@ -15,17 +16,17 @@ pub struct Constant<'g> {
     pub body: Body<'g>,
     /// Its origin from the parent's origin, in the parent's axes.
     pub place: Vec3<'g>,
-    /// The rotation from its axes to the parent's, without its own rotation about z.
+    /// The constant rotation from the link's axes to the parent's, without the joint's rotation about z.
     pub against: Matrix,
 }
 
-/// How many times as large the numbers of a first and of a second moment may become: larger ones of opposite signs lose that factor of their digits. Of
-/// h 256 is little: some 50 roundings of 256 ε are 3e-12.
+/// How many times larger the numbers of a first and of a second moment may become. Large numbers of opposite signs lose
+/// this factor of their accuracy. For h, 256 is harmless: some 50 roundings of 256 ε are 3e-12.
 ///
-/// The numbers of a link, of sizes h and Σ, are those of a mass h²/Σ, so that |μ| ≤ 256 h²/Σ.
+/// A body with the sizes h and Σ has about the mass h²/Σ, so the bound on the point mass is |μ| ≤ 256 h²/Σ.
 const LARGER: [f64; 2] = [256.0, 16.0];
 
-/// Whether a child can keep h_k of its parent.
+/// True if a child can keep h_k of its parent.
 fn can_keep(tree: &Tree<'_>, parent: usize, child: usize, place: Vec3<'_>, k: usize) -> bool {
     let carries = match &tree.links[parent].joint {
         LinkJoint::Ball { .. } => parent == 0 && tree.free && tree.carrier.is_none(),
@@ -66,7 +67,7 @@ pub fn kept<'g>(tree: &Tree<'g>, choice: &Choice, links: &[Constant<'g>]) -> Vec
     let body = |k: usize| match keeper.numbers[k] {
         Some(numbers) if changed[k] => numbers.body(graph),
         Some(_) => links[k].body,
-        // a body with parameters takes the point as it is
+        // a body with parameters gets the point mass as nodes
         None => links[k]
             .body
             .plus(&Numbers::point(keeper.points[k]).body(graph)),
@@ -74,19 +75,20 @@ pub fn kept<'g>(tree: &Tree<'g>, choice: &Choice, links: &[Constant<'g>]) -> Vec
     (0..links.len()).map(body).collect()
 }
 
-/// Moves points between bodies, as numbers: a trial does so for every link of a part, and each change goes through all links that carry it.
+/// Moves point masses between bodies in numbers. A trial does so for every link of a part, and each change passes
+/// through all links inboard.
 struct Keeper<'a, 'g> {
     tree: &'a Tree<'g>,
     links: &'a [Constant<'g>],
-    /// The bodies; `None` for those that are no numbers.
+    /// The bodies; `None` for those with entries that are not numbers.
     numbers: Vec<Option<Numbers>>,
-    /// The mass of the point that each link keeps \[kg\].
+    /// The point mass that each link keeps \[kg\].
     points: Vec<f64>,
 }
 
 impl Keeper<'_, '_> {
-    /// Gives a component of the first moment of link `k` to a child. Returns the mass of the point, or `None` if something is no number or too large. `before`
-    /// gets the bodies that were changed.
+    /// Gives a component of the first moment of link `k` to a child. Returns the point mass, or `None` if an entry is
+    /// not a number or becomes too large. Appends the bodies before their change to `before`.
     fn keep(
         &mut self,
         (k, child, axis): (usize, usize, usize),
@@ -126,7 +128,7 @@ impl Keeper<'_, '_> {
                 Some(parent) if parent > 0 || tree.carrier.is_none() => {
                     let place = numbers(links[link].place)?;
                     let passed = unfelt.in_axes(&links[link].against).moved(place);
-                    // what is no number has no size that could be compared
+                    // a body that is not in numbers has no size for the comparison
                     rest = self.numbers[parent]?.plus(&passed);
                     link = parent;
                 }

@@ -1,7 +1,7 @@
 //! S in the frames of links, by the composite-body algorithm.   \[Featherstone 2008, ch. 6\]
 //!
-//! The composite body of a link consists of the link and all links that turn with it: m, h and Σ about its origin. For regrouped bodies m is
-//! mostly 0. The wrench that it needs for v̇ = 1 of its joint,
+//! The composite body of a link consists of the link and all links that turn with it, with m, h and Σ about the link's
+//! origin. Regrouped bodies mostly have m = 0. The wrench that the composite body needs for v̇ = 1 of the link's joint,
 //!
 //! f = s m z + t z × h,   n = s h × z + t J z   with   J z = (−Σ_xz, −Σ_yz, Σ_xx + Σ_yy)
 //!
@@ -109,11 +109,11 @@ fn needed<'g>(written: &Written<'g, '_>, k: usize, body: &Body<'g>) -> Wrench<'g
     }
 }
 
-/// A velocity, for which the wrenches are computed.
+/// A velocity for which wrenches are computed.
 struct Column<'g> {
     /// Index in v.
     row: usize,
-    /// The share that the joint has in this velocity; the wrenches are for 1.
+    /// The share that the joint has in this velocity; the wrenches are those for a unit rate of the joint itself.
     share: Expr<'g>,
 }
 
@@ -156,7 +156,7 @@ impl<'g> Entries<'g> {
     ) {
         for (row, power) in written.powers(k, wrench) {
             let power = column.share * power;
-            // on the diagonal, the common term of two links counts twice
+            // on the diagonal, the cross term of two links counts twice
             let together = if row == column.row {
                 2.0 * power
             } else {
@@ -166,7 +166,7 @@ impl<'g> Entries<'g> {
         }
     }
 
-    /// Passes a wrench on a link to all links that carry it.
+    /// Passes the wrench on link `k` to all links that carry it, and adds its powers.
     fn inwards(
         &mut self,
         written: &Written<'g, '_>,

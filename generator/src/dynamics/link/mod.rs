@@ -1,18 +1,19 @@
-//! Systems that have joints other than balls, in the frames of their links: S, r_s and r_k, and the accelerations by two routes.
+//! Systems that have joints other than balls, in the frames of their links: S, r_s and r_k, and the accelerations by
+//! two routes.
 //!
-//! In axes fixed to a link, the inertia of its body is constant, many of its entries are 0 in a suitable frame, and a rotation about the
-//! joint's axis mixes only two components. Mass on the axis of a hinge is regrouped to the parent beforehand. Velocities enter by a reference
-//! motion, so they are never multiplied by an articulated inertia.
+//! In axes fixed to a link, the inertia of its body is constant, many of its entries are 0 in a suitable frame, and a
+//! rotation about the joint's axis mixes only two components. Mass on the axis of a hinge is regrouped to the parent
+//! beforehand. Velocities enter by a reference motion, so they are never multiplied by an articulated inertia.
 //!
 //! | file | |
 //! |---|---|
 //! | `tree` | the links of a system |
 //! | `body` | mass, first and second moment |
 //! | `frames` | the frames of links, and regrouping |
-//! | `keep` | a part of the regrouped bodies moved back |
+//! | `keep` | regrouping partly undone, for the reference motion |
 //! | `turn` | rotations between two frames |
 //! | `motion` | the reference motion |
-//! | `elimination` | the articulated-body algorithm |
+//! | `elimination` | v̇ by the articulated-body algorithm |
 //! | `articulated`, `axis` | the articulated inertia outboard of a joint, and an axis in it |
 //! | `shared` | velocities that several links share |
 //! | `wrench` | how bodies and wrenches are passed from a link to its parent |
@@ -51,7 +52,7 @@ use search::Aim;
 use tree::{LinkJoint, Tree};
 use wrench::Written;
 
-/// v̇ of the system, by row, without S; `None` if link frames do not apply.
+/// v̇ of the system by row, without S; `None` if link frames cannot be used ([`Tree::of`], [`shared::heads`]).
 pub fn accelerations<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
@@ -65,7 +66,8 @@ pub fn accelerations<'g>(
     Some(rates(spatial, applied, &tree, &solved))
 }
 
-/// Replaces S, r_s and r_k of a system by those in link frames where these take fewer operations: S and r_s together, r_k by itself.
+/// Replaces S, r_s and r_k of a system by those in link frames if these take fewer operations. S and r_s are compared
+/// together, r_k by itself.
 pub fn cheaper_matrices<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
@@ -143,7 +145,7 @@ pub struct Matrices<'g> {
     pub applied_forces: Vec<(usize, Expr<'g>)>,
 }
 
-/// S and the forces of the links of a system, in chosen frames.
+/// S, and the forces that the reference motion of a system needs, in chosen frames.
 struct Needs<'g> {
     /// The composite body of each link.
     composites: Vec<Body<'g>>,
@@ -151,7 +153,7 @@ struct Needs<'g> {
     pub matrix: Vec<(usize, usize, Expr<'g>)>,
     /// The reference motion of each link.
     motions: Vec<LinkMotion<'g>>,
-    /// Terms, by row, of the forces that the reference motion needs, without the forces that act.
+    /// Terms, by row, of the forces that the reference motion needs, without applied forces.
     forces: Vec<(usize, Expr<'g>)>,
 }
 
@@ -277,7 +279,7 @@ pub fn rates<'g>(
     let mut rates = Vec::new();
     for (link, solved) in tree.links.iter().zip(solved) {
         if !link.joint.is_ball() {
-            // of the links that share a velocity, only the first counts
+            // links that share a velocity have the same rate, so only the first counts
             if !rates.iter().any(|(row, _)| *row == link.row) {
                 rates.push((link.row, solved.rotation.0[0]));
             }

@@ -1,6 +1,7 @@
 //! The reference motion: any motion that the joints allow at the given velocities, in the frames of the links.
 //!
-//! It goes from the root to the leaves. X is the rotation from the axes of a link to its parent's, and r the place of the link there:
+//! It goes from the root to the leaves. X is the rotation from the axes of a link to its parent's, and r the place of
+//! the link there:
 //!
 //! | | |
 //! |---|---|
@@ -8,8 +9,8 @@
 //! | a⁰ = Xᵀ (a⁰_p + Γ_p r) | Γ = α̂⁰ + ω̂ ω̂:  Γ_ij = ω_i ω_j ∓ α⁰_k,  Γ_ii = −(ω_j² + ω_k²) |
 //! | along a slide d = z s q: a⁰ += Γ d + 2 ω × z s q̇ + z s q̈ref | with ω and α⁰ before the turn about z |
 //!
-//! q̈ref is chosen such that α⁰_z, or a⁰_z of a slider, costs least; mostly these are 0. On a ball α⁰ = 0, and for a free base a⁰ = 0, so
-//! the acceleration of a field is not turned from link to link.
+//! q̈ref is chosen such that α⁰_z, or a⁰_z of a slider, costs the fewest operations; mostly these are 0. On a ball α⁰ =
+//! 0, and for a free base a⁰ = 0, so that a field need not be turned from link to link.
 
 use super::body::Body;
 use super::frames::{Choice, Framed, ReferenceTurn};
@@ -58,7 +59,7 @@ impl<'g> LinkMotion<'g> {
         }))
     }
 
-    /// Adds the motion along z to a displacement, at this speed.
+    /// Adds the acceleration due to a slide along z with this displacement and speed.
     fn slide(&mut self, displacement: Expr<'g>, speed: Expr<'g>) {
         let graph = speed.graph();
         let mut along = Vec3::zero(graph);
@@ -70,7 +71,7 @@ impl<'g> LinkMotion<'g> {
             + Vec3([y * coriolis, -(x * coriolis), graph.constant(0.0)]);
     }
 
-    /// Adds the rotation about z at this rate.
+    /// Adds a rotation about z at this rate.
     fn turn(&mut self, rate: Expr<'g>) {
         self.omega.0[2] = self.omega.0[2] + rate;
         let [x, y, _] = self.omega.0;
@@ -78,7 +79,7 @@ impl<'g> LinkMotion<'g> {
         self.alpha.0[1] = self.alpha.0[1] - x * rate;
     }
 
-    /// Adds q̈ref of a joint that turns, slides, or both.
+    /// Adds the reference acceleration q̈ref of a joint that turns, slides, or does both.
     fn accelerate(&mut self, turns: bool, slides: bool, chosen: ReferenceTurn) {
         let zero = self.reference.graph().constant(0.0);
         match (turns, slides) {
@@ -102,7 +103,7 @@ impl<'g> LinkMotion<'g> {
         }
     }
 
-    /// The wrench that a body needs in this motion.
+    /// The wrench that a body needs in this motion; `by_inertia` writes its moment with J instead of Σ.
     pub fn inertia(&self, body: &Body<'g>, by_inertia: bool) -> Wrench<'g> {
         let h = body.first;
         let force = self.gamma(h) + body.mass * self.acceleration;
@@ -142,7 +143,7 @@ impl<'g> LinkMotion<'g> {
     }
 }
 
-/// A vector as a sum of vectors along the axes, in this order, without zeros.
+/// A vector as a sum of vectors along the axes in the given order; zero vectors are left out.
 pub fn steps<'g>(v: Vec3<'g>, order: [usize; 3]) -> Vec<Vec3<'g>> {
     let graph = v.0[0].graph();
     let along = |axis: usize| {
@@ -170,14 +171,14 @@ pub fn slide<'g>(joint: &LinkJoint<'g>, unit: f64, sign: f64) -> Option<(Expr<'g
     }
 }
 
-/// The kind of reference motion.
+/// The kind of reference motion: its accelerations.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Reference {
-    /// As chosen, with α⁰ = 0 for balls.
+    /// As chosen for each axis; α⁰ = 0 for balls.
     Chosen,
-    /// As chosen, but with the motion of v̇ = 0 for balls.
+    /// As chosen for each axis; balls have the motion of v̇ = 0.
     ChosenOfAxes,
-    /// The motion of v̇ = 0.
+    /// v̇ = 0 in all joints.
     Rest,
 }
 

@@ -1,13 +1,13 @@
-//! Velocities that several links share, because degrees of freedom follow others. Each is eliminated at the first link that carries all
-//! links that it moves.
+//! Velocities that several links share, because degrees of freedom follow others. Each is eliminated at the first link
+//! that carries all links that this velocity moves.
 //!
-//! On the way there its column is passed along: for v̇_r = 1 the bodies outboard need U_r, and D_r v̇_r = u_r − U_r · (Δa, Δα) − Σ D_rq
-//! v̇_q.
+//! On the way there, the column of the velocity is passed along: for v̇_r = 1 the bodies outboard need U_r, and D_r
+//! v̇_r = u_r − U_r · (Δa, Δα) − Σ D_rq v̇_q.
 //!
 //! | | |
 //! |---|---|
-//! | at a link whose joint has the share σ v_r along its column H | U_r += σ I H,  D_r += 2 σ Hᵀ U_r + σ² Hᵀ I H,  D_rq += σ Hᵀ U_q,  u_r += σ u |
-//! | where (U, D, u) is eliminated, with E_r = Hᵀ U_r or D_r | U_r −= U E_r/D,  D_rq −= E_r E_q/D,  u_r −= E_r u/D |
+//! | at a link whose joint has the rate σ v_r along its column H | U_r += σ I H,  D_r += 2 σ Hᵀ U_r + σ² Hᵀ I H,  D_rq += σ Hᵀ U_q,  u_r += σ u |
+//! | where another velocity (U, D, u) is eliminated, with E_r = Hᵀ U_r or D_r of the two | U_r −= U E_r/D,  D_rq −= E_r E_q/D,  u_r −= E_r u/D |
 
 use super::tree::Tree;
 use crate::dynamics::spatial::Wrench;
@@ -34,8 +34,8 @@ pub struct Velocity<'g> {
     pub left: Expr<'g>,
 }
 
-/// For each shared velocity, its row and the link where it is eliminated; `None` if no link carries all of its links, or if a ball is
-/// between.
+/// For each shared velocity, its row and the link where it is eliminated. `None` if no link carries all links of a
+/// velocity, or if a ball is between them.
 pub fn heads(tree: &Tree<'_>) -> Option<Vec<(usize, usize)>> {
     let mut heads: Vec<(usize, usize)> = Vec::new();
     for (k, link) in tree.links.iter().enumerate() {
@@ -47,7 +47,7 @@ pub fn heads(tree: &Tree<'_>) -> Option<Vec<(usize, usize)>> {
             other.joint.is_coupled() && other.row == link.row
         });
         let mut members: Vec<usize> = same.collect();
-        // replaces the last one by its parent, which carries it, until one is left
+        // replaces the last member by its parent, which carries it, until one member is left
         while members.len() > 1 {
             let last = members.pop()?;
             let carrier = &tree.links[last];
@@ -89,7 +89,7 @@ impl<'g> Shared<'g> {
         }
     }
 
-    /// The same, with all wrenches moved elsewhere.
+    /// The same velocities with all wrenches mapped by `of`, which moves them to another link.
     pub fn passed(mut self, of: impl Fn(Wrench<'g>) -> Wrench<'g>) -> Self {
         for velocity in &mut self.velocities {
             velocity.needed = of(velocity.needed);
@@ -103,8 +103,8 @@ impl<'g> Shared<'g> {
         each.map(|v| (v.row, power(&v.needed))).collect()
     }
 
-    /// Adds a link whose joint has a share of a velocity, with the U, D and u of its joint alone, and the powers of the velocities that are
-    /// already there.
+    /// Adds a link whose joint has a share of a velocity. `own` has U, D and u of the joint alone, and `powers` are the
+    /// powers Hᵀ U_q of the velocities that are already present.
     pub fn add(&mut self, share: Expr<'g>, own: Velocity<'g>, powers: &[(usize, Expr<'g>)]) {
         let row = own.row;
         let added = Velocity {
@@ -133,7 +133,7 @@ impl<'g> Shared<'g> {
         }
     }
 
-    /// The velocities that remain after the elimination of U, given 1/D, u and E by row.
+    /// Updates the velocities for the elimination of another one, which has U, 1/D, u and E by row.
     pub fn eliminate(
         &mut self,
         needed: &Wrench<'g>,
@@ -156,7 +156,7 @@ impl<'g> Shared<'g> {
         }
     }
 
-    /// Removes one velocity and returns it, with D_rq by q.
+    /// Removes one velocity and returns it, with its D_rq by q.
     pub fn take(&mut self, row: usize) -> Option<(Velocity<'g>, Vec<(usize, Expr<'g>)>)> {
         let at = self.velocities.iter().position(|v| v.row == row)?;
         let velocity = self.velocities.remove(at);

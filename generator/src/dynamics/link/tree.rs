@@ -1,6 +1,7 @@
 //! The links of a system: one for every degree of freedom of an element's joint, and none for a weld.
 //!
-//! All quantities are in the axes of the elements, about their origins. The axes along a joint are parallel when its degrees of freedom are at 0.
+//! All quantities are in the axes of the elements, about their origins. The axes along a joint are taken in its zero
+//! position, where the axes of its links are parallel.
 
 use super::articulated::Articulated;
 use super::body::Body;
@@ -20,17 +21,20 @@ pub struct Tree<'g> {
     pub links: Vec<Link<'g>>,
     /// The carrier of the first link.
     pub ground: Ground<'g>,
-    /// Whether the reference joint is free; then the first link is on a ball.
+    /// True if the reference joint is free; then the first element is on a ball (in the plane, a hinge with an absolute
+    /// angle).
     pub free: bool,
     /// Index in v of the first velocity of a free reference joint.
     pub base: Option<usize>,
     /// The absolute axes along which a free reference joint moves.
     pub directions: &'static [usize],
-    /// ω, α⁰ and a⁰ of the first link, where it stands for what carries a part of a tree.
+    /// ω, α⁰ and a⁰ of the first link, if this tree is a part of a larger one and its first link stands for the carrier
+    /// of the part.
     pub carrier: Option<[Vec3<'g>; 3]>,
 }
 
-/// The carrier of the first link: the absolute frame, or the vehicle on which its joint is, if that joint is no ball.
+/// The carrier of the first link: the vehicle that carries the reference joint, if the first joint is no ball;
+/// otherwise the absolute frame.
 #[derive(Clone, Copy)]
 pub struct Ground<'g> {
     /// Rotation from its axes to absolute axes.
@@ -39,7 +43,8 @@ pub struct Ground<'g> {
     pub omega: Vec3<'g>,
     /// Angular acceleration α, in its axes.
     pub alpha: Vec3<'g>,
-    /// Acceleration of the reference joint minus the field common to all elements, in its axes; 0 for a free one.
+    /// Acceleration of the reference joint minus the field common to all elements, in the ground's axes; 0 for a free
+    /// reference joint.
     pub acceleration: Vec3<'g>,
     /// φ in the plane, 0 in space.
     pub angle: Expr<'g>,
@@ -48,11 +53,11 @@ pub struct Ground<'g> {
 /// One link.
 #[derive(Clone)]
 pub struct Link<'g> {
-    /// Index of its element.
+    /// Index of the link's element.
     pub element: usize,
-    /// Index in v of its first velocity.
+    /// Index in v of the first velocity of its joint.
     pub row: usize,
-    /// Index of its carrier.
+    /// Index of the link that carries it.
     pub parent: Option<usize>,
     pub joint: LinkJoint<'g>,
     /// The position of its joint from the parent's origin, in the parent's axes.
@@ -60,24 +65,24 @@ pub struct Link<'g> {
     pub body: Body<'g>,
     /// A, the rotation from its axes to absolute axes.
     pub rotation: Mat3<'g>,
-    /// The wrench that acts on it, in absolute axes.
+    /// The wrench that acts on the link, in absolute axes.
     pub load: Wrench<'g>,
-    /// Quantities that stand for omitted links that it carries.
+    /// Quantities that replace the links that it carries, if these are left out of this tree.
     pub carries: Option<Carried<'g>>,
 }
 
-/// The quantities that omitted links pass on.
+/// Quantities that omitted links pass on to their carrier.
 #[derive(Clone)]
 pub enum Carried<'g> {
-    /// Those for accelerations.
+    /// For accelerations: their articulated inertia.
     Articulated(Articulated<'g>),
-    /// Those for S and for forces.
+    /// For S and for forces.
     Composite {
         /// Their composite bodies.
         body: Body<'g>,
-        /// The wrench that they need.
+        /// The wrench that the omitted links need.
         needed: Wrench<'g>,
-        /// The wrenches that they need for each of their velocities.
+        /// The wrenches that the omitted links need for each of their velocities.
         columns: Vec<Wrench<'g>>,
     },
 }
@@ -94,7 +99,8 @@ pub enum LinkJoint<'g> {
         /// The axes about which its velocities turn it, as columns: ω = Σ e_j v_j
         columns: Mat3<'g>,
     },
-    /// An axis: the link turns by `turn` and slides by `slide` times its coordinate, about and along it.
+    /// An axis: a unit of the coordinate turns the link by `turn` about the axis, and slides it by `slide` along the
+    /// axis.
     Axis {
         axis: [f64; 3],
         turn: f64,
@@ -103,45 +109,47 @@ pub enum LinkJoint<'g> {
         rate: Expr<'g>,
         /// The generalised force of laws on the coordinate.
         acting: Expr<'g>,
-        /// The ratio of its velocity to the velocity in its row.
+        /// The ratio of the joint's velocity to the velocity in its row.
         ratio: Expr<'g>,
-        /// The inertia that its velocity alone moves.
+        /// The inertia that only this velocity moves.
         armature: Expr<'g>,
-        /// Whether other links share the same row.
+        /// True if other links share the same row.
         coupled: bool,
-        /// Whether it is a hinge of the plane whose angle is absolute: its carrier's turn does not turn it.
+        /// True for a hinge in the plane whose angle is absolute, so that the turning of its carrier does not turn it.
         absolute: bool,
     },
 }
 
 impl LinkJoint<'_> {
-    /// Whether it is a ball joint.
+    /// True for a ball joint.
     pub fn is_ball(&self) -> bool {
         matches!(self, LinkJoint::Ball { .. })
     }
 
-    /// Whether its velocities turn it against the absolute frame, so that it does not turn with its carrier.
+    /// True if the joint's velocities are relative to the absolute frame, so that the link does not turn with its
+    /// carrier.
     pub fn is_absolute(&self) -> bool {
         self.is_ball() || matches!(self, LinkJoint::Axis { absolute: true, .. })
     }
 
-    /// Whether other links have a share of its velocity.
+    /// True if other links have a share of the joint's velocity.
     pub fn is_coupled(&self) -> bool {
         matches!(self, LinkJoint::Axis { coupled: true, .. })
     }
 
-    /// Whether it is a slider, which does not turn.
+    /// True for a slider, which does not turn.
     pub fn slides_alone(&self) -> bool {
         matches!(self, LinkJoint::Axis { turn: 0.0, .. })
     }
 
-    /// Whether it is a hinge.
+    /// True for a hinge, which does not slide.
     pub fn is_hinge(&self) -> bool {
         matches!(self, LinkJoint::Axis { turn, slide, .. } if *turn != 0.0 && slide.is_zero())
     }
 }
 
-/// The joints of the links of an element, each with the row of its velocity, from the carrier outwards. `None` if an axis is a parameter.
+/// The joints of the links of an element, from the carrier outwards, each with the row of its velocity. `None` if an
+/// axis depends on parameters.
 fn joints<'g>(
     spatial: &Spatial<'g, '_>,
     applied: Option<&AppliedForces<'g>>,
@@ -205,9 +213,9 @@ fn joints<'g>(
 }
 
 impl<'g> Tree<'g> {
-    /// The links of a system, with the wrenches on them. Without `applied` no force acts, and the reference joint is at rest. `None` if link frames do
-    /// not apply: an axis is a parameter; a free reference joint has a first element that is not on a ball; or, in the plane, an element has an
-    /// absolute orientation.
+    /// The links of a system, with the wrenches on them. Without `applied` no force acts, and the reference joint does
+    /// not accelerate. `None` if link frames cannot be used: an axis depends on parameters; the reference joint is free
+    /// but the first element is not on a ball; or a gyroscopic moment is left out.
     pub fn of(spatial: &Spatial<'g, '_>, applied: Option<&AppliedForces<'g>>) -> Option<Self> {
         let (graph, system) = (spatial.graph, spatial.of_system());
         let free = matches!(system.reference, Reference::Free);
@@ -219,7 +227,7 @@ impl<'g> Tree<'g> {
         graph.section(format!("system {}: links", system.name));
         let none = Vec3::zero(graph);
         let mut links: Vec<Link<'g>> = Vec::new();
-        // for every element, its link and its origin from that of the link
+        // for every element, its link and the origin of the element from that of the link
         let mut seats: Vec<(Option<usize>, Vec3<'g>)> = Vec::new();
         for (k, element) in system.elements.iter().enumerate() {
             let motion = spatial.motion_of(k);
@@ -274,7 +282,8 @@ impl<'g> Tree<'g> {
         Some(tree)
     }
 
-    /// Whether anything is in absolute axes: a force on a link, or a ball other than that of a free first link.
+    /// True if any quantity is in absolute axes: a force on a link, a ball other than that of a free first link, or, in
+    /// the plane, a free first link.
     pub fn needs_axes(&self) -> bool {
         self.links.iter().enumerate().any(|(k, link)| {
             let of = |v: &Vec3<'g>| v.0.iter().any(|e| !e.is_zero());
@@ -283,7 +292,7 @@ impl<'g> Tree<'g> {
         })
     }
 
-    /// The generalised forces of laws on coordinates, by row.
+    /// The generalised forces that laws apply on coordinates, by row.
     pub fn on_coordinates(&self) -> Vec<(usize, Expr<'g>)> {
         let of = |link: &Link<'g>| match link.joint {
             LinkJoint::Axis { acting, ratio, .. } => Some((link.row, ratio * acting)),
@@ -360,11 +369,12 @@ impl<'g> Tree<'g> {
         }
     }
 
-    /// Regroups bodies: gives the parent of every link the part of its body that its joint does not feel, because that part moves the parent in any
-    /// case.
+    /// Regroups bodies: moves the part of each body that its joint does not feel to the parent of the link, because
+    /// that part moves with the parent in any case.
     ///
-    /// A hinge does not feel the mass on its axis e: m, (h · e) e and (e · Σ e) e eᵀ. A slider does not feel Σ, and a ball not m. The regrouped
-    /// bodies give the same motion of the system; a single one has no physical meaning, and its mass may be negative.
+    /// A hinge does not feel the mass on its axis e: m, (h · e) e and (e · Σ e) e eᵀ. A slider does not feel Σ, and a
+    /// ball does not feel m. The motion of the system is the same with regrouped bodies. A single regrouped body has no
+    /// physical meaning, and its mass may be negative.
     fn regroup(&mut self) {
         for k in (0..self.links.len()).rev() {
             let link = &self.links[k];
@@ -374,7 +384,7 @@ impl<'g> Tree<'g> {
             let passed = link.body.unfelt(&link.joint);
             let (parent, place) = (link.parent, link.place);
             let moved = match link.joint.slides_alone() {
-                // Σ is the same everywhere
+                // Σ without mass and first moment is the same about every origin
                 true => passed,
                 false => passed.moved(place),
             };
@@ -387,7 +397,8 @@ impl<'g> Tree<'g> {
 }
 
 impl<'g> Ground<'g> {
-    /// The ground of a system. Without `applied` its reference joint does not accelerate, but the ground still turns.
+    /// The ground of a system. Without `applied`, the reference joint does not accelerate, but a vehicle still turns
+    /// the ground.
     fn of(
         spatial: &Spatial<'g, '_>,
         applied: Option<&AppliedForces<'g>>,

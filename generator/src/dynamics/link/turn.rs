@@ -1,4 +1,4 @@
-//! Constant and variable rotations between the axes of two links, in the fewest operations.
+//! Constant and variable rotations between the axes of two links, in few operations.
 
 use crate::dynamics::augmented::rotated;
 use crate::expression::Expr;
@@ -117,7 +117,7 @@ fn in_plane<'g>(
     (sine, cosine): (Expr<'g>, Expr<'g>),
 ) -> [Expr<'g>; 3] {
     let difference = xx - yy;
-    // constants give one harmonic: s² and s c are shared by everything that turns by this angle
+    // if the entries are constant, s² and s c are shared by all matrices that turn by this angle
     let constant = |e: Expr<'g>| e.as_constant().is_some();
     if constant(difference) && constant(xy) {
         if xy.is_zero() {

@@ -1,7 +1,7 @@
-//! How the bodies and wrenches of links are passed from a link to its parent.
+//! How bodies and wrenches are passed from a link to its parent.
 //!
-//! A wrench is about the origin of its link, in the axes of the link. On a ball it is in absolute axes, because its velocities turn
-//! about those. A joint with an axis passes the whole wrench, a ball only the force.
+//! A wrench is about the origin of its link and in the axes of the link; for a link on a ball it is in absolute axes,
+//! because the velocities of the ball are. A joint with an axis passes the whole wrench, a ball only the force.
 
 use super::body::Body;
 use super::frames::{Choice, Framed};
@@ -12,7 +12,7 @@ use crate::dynamics::spatial::Wrench;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 
-/// A tree with its frames and the choice of these.
+/// A tree, its frames, and the choice of the frames.
 #[derive(Clone, Copy)]
 pub struct Written<'g, 'a> {
     pub tree: &'a Tree<'g>,
@@ -39,7 +39,7 @@ impl<'g> Arrived<'g> {
 }
 
 impl<'g> Written<'g, '_> {
-    /// Whether a link is on a ball.
+    /// True if a link is on a ball.
     pub fn is_ball(&self, k: usize) -> bool {
         self.tree.links[k].joint.is_ball()
     }
@@ -78,7 +78,7 @@ impl<'g> Written<'g, '_> {
         }
     }
 
-    /// The wrench in the axes that its link uses.
+    /// The wrench in the axes that its link uses: absolute axes on a ball, otherwise the link's axes.
     pub fn settled(&self, k: usize, arrived: Arrived<'g>) -> Wrench<'g> {
         match arrived {
             Arrived::InLink(wrench) if self.is_ball(k) => self.absolute(k, wrench),
@@ -137,7 +137,7 @@ impl<'g> Written<'g, '_> {
     /// The acceleration of the coordinate of a link in the reference motion; 0 for a ball and for a coupled coordinate.
     pub fn reference(&self, k: usize, motion: &LinkMotion<'g>) -> Expr<'g> {
         let joint = &self.tree.links[k].joint;
-        // for a slider it is a length
+        // for a slider, the coordinate is a length
         let unit = if joint.slides_alone() {
             self.choice.unit
         } else {
@@ -160,7 +160,7 @@ impl<'g> Written<'g, '_> {
         directions.map(|(i, &d)| (base + i, force.0[d])).collect()
     }
 
-    /// The velocity of a link about its z axis, as a share of the velocity in its row.
+    /// The velocity of a link about or along its z axis, as a share of the velocity in its row.
     pub fn share(&self, k: usize) -> Expr<'g> {
         match self.tree.links[k].joint {
             LinkJoint::Axis { ratio, .. } => self.framed.links[k].sign * ratio,
@@ -168,7 +168,7 @@ impl<'g> Written<'g, '_> {
         }
     }
 
-    /// The same share, in the unit of length for a slider.
+    /// The same share, for a slider in the unit of length of the choice.
     pub fn scaled_share(&self, k: usize) -> Expr<'g> {
         match self.tree.links[k].joint.slides_alone() {
             true => (1.0 / self.choice.unit) * self.share(k),

@@ -1,17 +1,20 @@
-//! The accelerations by the articulated-body algorithm. A reference motion replaces the velocity terms: accelerations are those for v̇ = 0 plus a
-//! rest Δ, and only Δ is multiplied by articulated inertias.   \[Featherstone 2008, ch. 7\]
+//! The accelerations by the articulated-body algorithm. A reference motion replaces the velocity terms: the
+//! accelerations are those for v̇ = 0 plus a remainder Δ, and only Δ is multiplied by articulated inertias.
+//! \[Featherstone 2008, ch. 7\]
 //!
 //! For the accelerations of its element, the bodies outboard of a joint need the wrench
 //!
-//! f = K Δa + Bᵀ Δα + f₀,   n = B Δa + J Δα + n₀      (K, J symmetric; of a body alone K = m 1, B = ŵ, with û the matrix of u ×)
+//! f = K Δa + Bᵀ Δα + f₀,   n = B Δa + J Δα + n₀
 //!
-//! | leaves to root, columns H = (s, e), Q what acts on their coordinates | |
+//! K and J are symmetric. Of a body alone K = m 1 and B = ŵ, where û is the matrix of u ×.
+//!
+//! | leaves to root, with the columns H = (s, e) of a joint and the generalised forces Q on its coordinates | |
 //! |---|---|
 //! | U = (K s + Bᵀ e,   B s + J e),   D = Hᵀ U = L d Lᵀ | y = L⁻¹ Uᵀ,   z = d⁻¹ y |
-//! | (K, B, J) ← (K, B, J) − Σ z yᵀ | symmetric to the last bit: of K and J six numbers |
+//! | (K, B, J) ← (K, B, J) − Σ z yᵀ | K and J stay exactly symmetric: six entries each |
 //! | r = Q − Hᵀ (f₀, n₀) | (f₀, n₀) ← (f₀, n₀) + Σ (d⁻¹ L⁻¹ r) y |
-//! | moved by u to the carrier: B' = B + û K,   J' = J − B û + û B'ᵀ,   n₀' = n₀ + u × f₀ | of a ball joint B = J = n₀ = 0 then |
-//! | root to leaves: Δa' = Δa_p + Δα_p × u,   v̇ = L⁻ᵀ (d⁻¹ L⁻¹ r − zᵀ (Δa', Δα_p)) | Δα_p ⇢ 0 on a ball joint |
+//! | moved by u to the carrier: B' = B + û K,   J' = J − B û + û B'ᵀ,   n₀' = n₀ + u × f₀ | through a ball joint, with B = J = n₀ = 0 |
+//! | root to leaves: Δa' = Δa_p + Δα_p × u,   v̇ = L⁻ᵀ (d⁻¹ L⁻¹ r − zᵀ (Δa', Δα_p)) | on a ball joint, with Δα_p = 0 |
 
 use super::{Column, Spatial, Wrench};
 use crate::dynamics::factorization::Ldl;
@@ -37,14 +40,15 @@ struct Articulated<'g> {
 /// The quantities of an element that the pass outwards needs.
 struct Eliminated<'g> {
     factors: Ldl<'g>,
-    /// z, first of forces, then of moments.
+    /// z: its force parts, then its moment parts.
     forces: Vec<Vec3<'g>>,
     moments: Vec<Vec3<'g>>,
     /// d⁻¹ L⁻¹ r
     bias: Vec<Expr<'g>>,
 }
 
-/// The pass from the leaves to the root: the bodies outboard of each joint, after its elimination, and what the pass outwards needs.
+/// The pass from the leaves to the root. Returns for each joint the articulated inertia that is left after its
+/// elimination, and the quantities that the pass outwards needs.
 fn inwards<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
@@ -109,7 +113,7 @@ pub fn accelerations<'g>(
     let (graph, system) = (spatial.graph, spatial.system);
     let elements = &spatial.of_system().elements;
     let free = spatial.layout.reference_velocities(system);
-    // in a frame in which the common field vanishes
+    // all accelerations are relative to a frame in which the common field vanishes
     let field = applied.wrenches.fields[system];
     let given = match free {
         Some(_) => Vec3::zero(graph),
@@ -175,7 +179,7 @@ pub fn accelerations<'g>(
 /// The columns that are eliminated together.
 struct Columns<'g> {
     columns: Vec<Column<'g>>,
-    /// Whether they are the columns of v. For Bryant angles they are the absolute axes instead.
+    /// True if the columns belong to the entries of v. For Bryant angles the columns are the absolute axes instead.
     own: bool,
 }
 
@@ -252,7 +256,8 @@ impl<'g> Articulated<'g> {
         (eliminated, left)
     }
 
-    /// The same, moved to the carrier, whose origin is at −u.
+    /// The same articulated inertia, moved to the carrier, whose origin is at −u. `turns_with_carrier` is false for a
+    /// ball joint.
     fn moved(self, u: Vec3<'g>, turns_with_carrier: bool) -> Self {
         let graph = u.0[0].graph();
         let none = Vec3::zero(graph);
@@ -260,13 +265,13 @@ impl<'g> Articulated<'g> {
             true => (self.coupling, self.inertia, self.bias.moment),
             false => (Mat3([none.0; 3]), Sym3::zero(graph), none),
         };
-        // û K and û B'ᵀ: vectors of the columns of one and of the rows of the other, crossed with u
+        // û K and û B'ᵀ are cross products of u with the columns of K and with the rows of B'
         let across = Mat3::from_columns([0, 1, 2].map(|j| {
             let column = [0, 1, 2].map(|i| self.mass.entry(i, j));
             u.cross(Vec3(column))
         }));
         let moved = Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| coupling.0[i][j] + across.0[i][j])));
-        // −B û has the rows u × b of the rows b of B; û B'ᵀ the columns u × b' of the rows b' of B'
+        // the rows of −B û are u × b for the rows b of B; the columns of û B'ᵀ are u × b' for the rows b' of B'
         let left = coupling.0.map(|row| u.cross(Vec3(row)));
         let right = moved.0.map(|row| u.cross(Vec3(row)));
         Articulated {
@@ -292,7 +297,7 @@ impl<'g> Articulated<'g> {
         }
     }
 
-    /// Δa of the origin of a free base: f = 0.
+    /// Δa of the origin of a free base, from f = 0.
     fn floating(&self, spatial: &Spatial<'g, '_>) -> Vec3<'g> {
         let directions = spatial.layout.directions;
         let matrix = (directions.iter().enumerate())
@@ -314,7 +319,7 @@ impl<'g> Articulated<'g> {
 }
 
 impl<'g> Eliminated<'g> {
-    /// v̇, given Δa' and Δα' of the carrier of the degrees of freedom.
+    /// v̇ of a joint, given the Δa' and Δα' that its element has if the joint is at rest.
     fn rates(&self, a: Vec3<'g>, alpha: Vec3<'g>) -> Vec<Expr<'g>> {
         let rest = (self.bias.iter().zip(&self.forces).zip(&self.moments))
             .map(|((bias, force), moment)| *bias - (force.dot(a) + moment.dot(alpha)))

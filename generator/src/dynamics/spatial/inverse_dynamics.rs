@@ -1,5 +1,5 @@
-//! Generalised forces by the recursive Newton–Euler algorithm. From the leaves to the root, every element passes on the wrench that it and
-//! the elements that it carries need, and each velocity takes the power of that wrench.
+//! Generalised forces by the recursive Newton–Euler algorithm. From the leaves to the root, every element passes on the
+//! wrench that it and the elements that it carries need, and each velocity takes the power of that wrench.
 
 use super::{Spatial, Wrench};
 use crate::dynamics::force::AppliedForces;
@@ -22,7 +22,8 @@ pub fn velocity_forces<'g>(spatial: &Spatial<'g, '_>, forces: &mut [Expr<'g>]) {
     }
 }
 
-/// Sets the rows of r_k of the system: the applied forces, minus the inertia against a given acceleration of the reference joint.
+/// Sets the rows of r_k of the system: the applied forces, minus the inertia against a given acceleration of the
+/// reference joint.
 pub fn applied_forces<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,

@@ -1,8 +1,9 @@
-//! The mass matrix S by the composite-body algorithm. Column j follows from the wrench that the composite body of its element needs for
-//! v̇_j = 1: its power per velocity of the element and of all elements that carry it.   \[Featherstone 2008, ch. 6\]
+//! The mass matrix S by the composite-body algorithm. Column j follows from the wrench that the composite body of its
+//! element needs for v̇_j = 1: its power per velocity of the element and of all elements that carry it.
+//! \[Featherstone 2008, ch. 6\]
 //!
-//! The composite body of an element consists of the element and all elements that turn with it. Elements that it carries on a ball joint count
-//! as a point mass.
+//! The composite body of an element consists of the element and all elements that turn with it. Elements that it
+//! carries on a ball joint count as a point mass.
 
 use super::{Column, Spatial, Wrench};
 use crate::dynamics::augmented::AugmentedBody;
@@ -11,7 +12,7 @@ use crate::expression::vector::{Sym3, Vec3};
 
 /// Sets the entries of S of the system; entries that are not set are 0 in every state.
 pub fn mass_matrix<'g>(spatial: &Spatial<'g, '_>, matrix: &mut [Vec<Option<Expr<'g>>>]) {
-    // adds over all columns that are shares of the same velocity
+    // sums the terms of all columns that are shares of the same velocity
     let mut add = |i: usize, j: usize, value: Expr<'g>| {
         if !value.is_zero() {
             let sum = matrix[i][j].map_or(value, |entry| entry + value);
@@ -41,7 +42,7 @@ pub fn mass_matrix<'g>(spatial: &Spatial<'g, '_>, matrix: &mut [Vec<Option<Expr<
             };
             add(j, j, column.armature);
             add(j, j, column.power(&wrench));
-            // on the diagonal, the common term of two columns counts twice
+            // on the diagonal, the cross term of two columns counts twice
             let mut beside = |other: &Column<'g>, wrench: &Wrench<'g>| {
                 let together = other.power(wrench);
                 match other.row == j {

@@ -1,12 +1,13 @@
 //! Systems that have joints other than balls, by spatial algebra in absolute axes.   \[Featherstone 2008\]
 //!
-//! An element k has the origin p_k, in its joint, and the columns (s_j, e_j) of its velocities (`joint::twist`). With the carrier p and
-//! u = p_k − p_p (if k is on a ball joint, it does not turn with its carrier, so α_k has no term α_p),
+//! An element k has the origin p_k, in its joint, and the columns (s_j, e_j) of its velocities (`joint::twist`). With
+//! the carrier p and u = p_k − p_p (if k is on a ball joint, it does not turn with its carrier, so α_k has no term
+//! α_p),
 //!
-//! a_k = a_p + α_p × u + c_k + Σ s_j v̇_j,   α_k = α_p + Σ e_j v̇_j + …      (… and c_k: what is there when v̇ = 0)
+//! a_k = a_p + α_p × u + c_k + Σ s_j v̇_j,   α_k = α_p + Σ e_j v̇_j + …      (c_k and … are the terms without v̇)
 //!
-//! A wrench (f, n) on k, with n about p_k, has the power (s_j · f + e_j · n) v_j. Its carrier feels (f, n + u × f); through a ball joint no n
-//! passes.
+//! A wrench (f, n) on k, with n about p_k, has the power (s_j · f + e_j · n) v_j. Its carrier feels (f, n + u × f);
+//! through a ball joint no n passes.
 //!
 //! | file | |
 //! |---|---|
@@ -14,12 +15,12 @@
 //! | `inverse_dynamics` | r_s and r_k by the recursive Newton–Euler algorithm |
 //! | `articulated_body` | v̇ by the articulated-body algorithm |
 //!
-//! A degree of freedom that follows another has q̇ = ratio · q̇ of the leader: its column, times the ratio, is added to the leader's. The
-//! articulated-body algorithm of this module cannot handle this, because the two are at different places of the tree; then v̇ follows from S.
-//! The algorithm in [the frames of the links](super::link) can handle it.
+//! A degree of freedom that follows another has q̇ = ratio · q̇ of the leader: its column, times the ratio, is added to
+//! the leader's. The articulated-body algorithm of this module cannot handle this, because the two are at different
+//! places of the tree; then v̇ follows from S. The algorithm in [the frames of the links](super::link) can handle it.
 //!
-//! Systems whose joints are all balls have a shorter algorithm (`elimination`), in which the mass of the carried elements is a point of
-//! the carrier.
+//! Systems whose joints are all balls have a shorter algorithm (`elimination`), which treats the mass of carried
+//! elements as a point mass of the carrier.
 
 mod articulated_body;
 mod inverse_dynamics;
@@ -54,11 +55,11 @@ pub struct Spatial<'g, 'a> {
     pub system: usize,
     /// Its motion.
     pub motion: &'a Motion<'g>,
-    /// The augmented bodies of its elements; they also say which gyroscopic moment is left out.
+    /// The augmented bodies of its elements; they also tell which gyroscopic moment is left out.
     pub tree: &'a AugmentedTree<'g>,
 }
 
-/// A velocity of an element: how it moves the origin relative to the carrier, and how it turns the element.
+/// A column (s, e) of a velocity of an element: s moves the origin relative to the carrier, e turns the element.
 #[derive(Clone, Copy)]
 struct Column<'g> {
     /// Index in v.
@@ -168,7 +169,8 @@ impl<'g, 'a> Spatial<'g, 'a> {
             && self.of_system().elements[element].joint == Joint::Ball
     }
 
-    /// The velocities of an element's joint. If a degree of freedom follows another, its column belongs to the leader's velocity.
+    /// The velocities of an element's joint. If a degree of freedom follows another, its column belongs to the leader's
+    /// velocity.
     fn columns(&self, element: usize) -> Vec<Column<'g>> {
         let motion = self.motion_of(element);
         let none = Vec3::zero(self.graph);
@@ -190,7 +192,7 @@ impl<'g, 'a> Spatial<'g, 'a> {
             .collect()
     }
 
-    /// Whether a degree of freedom follows another. Then S is not as sparse as the tree.
+    /// True if a degree of freedom follows another. Then S has more entries than the tree alone tells.
     pub fn is_coupled(&self) -> bool {
         self.of_system().is_coupled()
     }

@@ -1,11 +1,12 @@
 //! Reduces operations without changing values: a·x + b·x = (a + b)·x and c·(d·x) = (c d)·x; common pairs of operands of
 //! sums and products are computed once; a/d and b/d share one reciprocal.
 //!
-//! Sums and products are taken apart into lists (`flatten`). Parts that several lists have in common are shared (`pairs`).
-//! Then the lists are put together again, with common factors outside. This is repeated until nothing is gained. A node is
-//! taken apart only if nothing else uses it, so no value is computed twice that was computed once. Operands that depend on
-//! parameters alone come first in a list, so that they form one part, which is computed once per simulation. The others are
-//! ordered by age, so that a sum need not wait for an operand that could have been added last.
+//! Sums and products are taken apart into lists (`flatten`). Parts that several lists have in common are shared
+//! (`pairs`). Then the lists are put together again, with common factors outside. This is repeated until nothing is
+//! gained. A node is taken apart only if it has a single user, so no value is computed twice that was computed once.
+//! Operands that depend on parameters alone come first in a list, so that they form one part, which is computed once
+//! per simulation. The others are ordered by age: an operand that is computed late is added last, so that the sum does
+//! not wait for it.
 //!
 //! Values change only by rounding, as those of a + b + c do with the order. One reciprocal and k products replace k
 //! quotients: one operation more, but a quotient takes as long as [`QUOTIENT`] products.
@@ -18,10 +19,10 @@ use crate::expression::graph::{Expr, Graph};
 use crate::expression::live::{Dependence, Live};
 use crate::expression::node::{Node, NodeId};
 
-/// Number of products that take as long as a quotient.
+/// Number of products that take as long as one quotient.
 pub const QUOTIENT: usize = 4;
 
-/// Largest number of rounds. Each is linear in the number of nodes, and later ones seldom gain anything.
+/// Largest number of rounds. Each takes time linear in the number of nodes; later ones seldom gain anything.
 const ROUNDS: usize = 6;
 
 /// The same roots with fewer operations.
@@ -39,7 +40,7 @@ pub fn factor(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     best
 }
 
-/// The cost that the pass reduces: operations, where a quotient counts several times.
+/// The cost that the pass reduces: operations, each quotient counted as [`QUOTIENT`].
 pub fn cost(count: &Count) -> usize {
     count.total() + (QUOTIENT - 1) * count.div
 }
@@ -69,7 +70,7 @@ fn round(graph: &Graph, roots: &[NodeId]) -> Rewritten {
         copy.enter_section_of(id);
         let new = match flat.role[at] {
             Role::Term(_) => continue,
-            // The sign of a member of a list is stored in that list.
+            // A list stores the signs of its members.
             Role::Within => match node {
                 Node::Neg(a) => match copy.get(a) {
                     Some(a) => (-a).id(),
@@ -102,7 +103,7 @@ fn round(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     copy.finish(roots)
 }
 
-/// For each node, how many quotients have it, or its negative, as the denominator.
+/// For each node, the number of quotients with the node or its negative as the denominator.
 fn divisions(graph: &Graph, live: &Live) -> Vec<u32> {
     let nodes = graph.nodes();
     let mut divisions = vec![0; nodes.len()];
@@ -114,7 +115,7 @@ fn divisions(graph: &Graph, live: &Live) -> Vec<u32> {
     divisions
 }
 
-/// Operands that are not members of a list are already copied, because they are older than their users.
+/// The copy of an operand that is not a member of a list. Operands are older than their users, so it exists already.
 fn copied<'c>(copy: &'c Copier<'_>, id: NodeId) -> Expr<'c> {
     copy.get(id)
         .expect("operands are copied before their users")
@@ -130,17 +131,17 @@ struct Term {
     factors: Vec<Element>,
 }
 
-/// The lists while they are put together again.
+/// The lists while sums and products are put together again.
 struct Lists {
-    /// Number of old nodes; elements from this index on are pairs.
+    /// Number of old nodes; an element from this index on is a pair.
     nodes: usize,
-    /// The pairs, with true for products.
+    /// The pairs, each with true for a product and false for a sum.
     pairs: Vec<(Pair, bool)>,
     /// For each pair, its node in the new graph.
     made: Vec<Option<NodeId>>,
-    /// For each operand, its position among others.
+    /// For each operand, its sort key: parameters alone first, then by age.
     order: Vec<(bool, Element)>,
-    /// For each node that is 1/d and is used once, d.
+    /// For each node 1/d that is used once, d.
     reciprocal_of: Vec<Option<NodeId>>,
 }
 
@@ -176,7 +177,7 @@ impl Lists {
         }
     }
 
-    /// Makes the pairs of a list, and the pairs inside them.
+    /// Makes the nodes of the pairs in a list, and of the pairs inside them.
     fn make(&mut self, copy: &Copier<'_>, list: &Signed) {
         let mut wanted: Vec<Element> = list.iter().map(|&(_, e)| e).collect();
         while let Some(&element) = wanted.last() {
@@ -209,7 +210,7 @@ impl Lists {
         }
     }
 
-    /// An operand in the new graph; pairs must have been made before.
+    /// The node of an operand in the new graph; a pair must have been made before.
     fn value<'c>(&self, copy: &'c Copier<'_>, element: Element) -> Expr<'c> {
         match (element as usize).checked_sub(self.nodes) {
             None => copied(copy, NodeId(element)),
@@ -222,7 +223,7 @@ impl Lists {
 
     fn product<'c>(&self, copy: &'c Copier<'_>, mut factors: Vec<Element>) -> Expr<'c> {
         factors.sort_by_key(|&f| self.order[f as usize]);
-        // A reciprocal that nothing else uses becomes a quotient.
+        // A reciprocal with no other user becomes a quotient.
         let below = |f: &Element| self.reciprocal_of.get(*f as usize).copied().flatten();
         let one = copy.graph().constant(1.0);
         let above = factors.iter().filter(|&f| below(f).is_none());
@@ -231,7 +232,7 @@ impl Lists {
         below.fold(product, |product, d| product / copied(copy, d))
     }
 
-    /// The terms of a sum. A term that nothing else uses is split into its factors.
+    /// The terms of a sum. A term with no other user is split into its factors.
     fn terms(&mut self, copy: &Copier<'_>, flat: &Flat, list: &Signed) -> Vec<Term> {
         self.make(copy, list);
         let mut terms = Vec::with_capacity(list.len());
@@ -254,7 +255,7 @@ impl Lists {
         terms
     }
 
-    /// The sum, with common factors outside. Each level of recursion has one factor less.
+    /// The sum with common factors taken out. Each level of recursion has one factor less.
     fn sum<'c>(&self, copy: &'c Copier<'_>, terms: Vec<Term>) -> Expr<'c> {
         let mut parts: Vec<((bool, Element), Expr<'c>)> = Vec::with_capacity(terms.len());
         let mut terms: Vec<Option<Term>> = terms.into_iter().map(Some).collect();
@@ -294,7 +295,7 @@ impl Lists {
     }
 }
 
-/// Factors that more than one term has, with these terms, the most frequent factor first.
+/// The factors that more than one term has, each with the indices of these terms; the most frequent factor comes first.
 fn common_factors(terms: &[Option<Term>]) -> Vec<(Element, Vec<usize>)> {
     let mut entries: Vec<(Element, usize)> = Vec::new();
     for (at, term) in terms.iter().enumerate() {

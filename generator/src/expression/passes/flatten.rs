@@ -1,16 +1,17 @@
 //! Sums and products with any number of operands, read from the binary nodes: a + b − (c − d) is the list a, b, −c, d.
 //!
-//! A sum becomes part of the list of the sum that uses it, if nothing else uses it. The same holds for products. A node that is used more
-//! than once is an operand like any other. A sign belongs to the operand and is never a node of its own.
+//! A sum with a single user that is a sum, too, becomes part of the list of that sum. The same holds for products. A
+//! node that is used more than once is an operand like any other. A sign belongs to the operand and is never a node of
+//! its own.
 //!
-//! A sum of one element does not become part of a sum of another element. It is the one value that one element passes to the other; its
-//! terms would be many.
+//! A sum of one element does not become part of a sum of another element: it is a single value that one element passes
+//! to the other, while its terms would be many.
 
 use crate::expression::graph::Graph;
 use crate::expression::live::Live;
 use crate::expression::node::{Node, NodeId};
 
-/// Index of an operand: a node, or, beyond the nodes, a pair that was found later.
+/// Index of an operand: a node or, from the number of nodes on, a pair that was found later.
 pub(super) type Element = u32;
 
 /// A list of operands with signs.
@@ -19,7 +20,7 @@ pub(super) type Signed = Vec<(bool, Element)>;
 /// The role of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
-    /// Not needed, or a sign, or a member of the list of its only user.
+    /// Not live, or a sign, or a member of the list of its only user.
     Within,
     /// A sum: its index in `sums`.
     Sum(u32),
@@ -31,7 +32,7 @@ pub(super) enum Role {
     Other,
 }
 
-/// The lists.
+/// The lists of sums and products.
 pub(super) struct Flat {
     /// The role of each node.
     pub role: Vec<Role>,
@@ -76,7 +77,7 @@ pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
         products: Vec::new(),
         negative: Vec::new(),
     };
-    // Lists of nodes that will become part of a list of a later node.
+    // Lists that will become part of the list of a later node.
     let mut open: Vec<Signed> = vec![Vec::new(); nodes.len()];
     for &id in live.nodes() {
         let at = id.0 as usize;
@@ -98,7 +99,7 @@ pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
                     for (sign, _) in &mut inner {
                         *sign ^= negative;
                     }
-                    // The longer list stays where it is, because appending it each time would take quadratic time.
+                    // The shorter list is appended to the longer one; otherwise the time would be quadratic.
                     if inner.len() > list.len() {
                         std::mem::swap(&mut inner, &mut list);
                     }
@@ -161,7 +162,7 @@ fn is_product(node: &Node) -> bool {
     matches!(node, Node::Mul(..))
 }
 
-/// The terms, ordered, without pairs a and −a.
+/// The terms in order, without pairs of opposite terms a and −a.
 fn without_opposites(mut terms: Signed) -> Signed {
     terms.sort_unstable_by_key(|&(sign, term)| (term, sign));
     let mut kept = Signed::with_capacity(terms.len());

@@ -1,8 +1,9 @@
 //! Selects fused multiply-adds: a·b + c, a·b − c, c − a·b and −a·b − c, each with one rounding.
 //!
-//! A product is fused with the sum that uses it, if nothing else uses it: a fused product is not available elsewhere, and
-//! computing it twice would save nothing. Signs go to the operands, where they cost nothing: c − a·b = (−a)·b + c,
-//! −(a·b + c) = (−a)·b + (−c). A sum of products becomes a chain: a·b + c·d + e·f = fma(e, f, fma(c, d, a·b)).
+//! A product is fused with the sum that uses it, unless it has other users: a fused product is not available to them,
+//! and computing it twice would save nothing. Signs are moved to the operands, where they cost nothing: c − a·b =
+//! (−a)·b + c, −(a·b + c) = (−a)·b + (−c). A sum of products becomes a chain: a·b + c·d + e·f = fma(e, f, fma(c, d,
+//! a·b)).
 //!
 //! A product that depends on parameters alone is not fused if its user depends on more, because it is computed once per
 //! simulation.
@@ -12,8 +13,8 @@ use crate::expression::graph::{Expr, Graph, opposite_name};
 use crate::expression::live::{Dependence, Live};
 use crate::expression::node::{Node, NodeId};
 
-/// The graph with fused multiply-adds. All roots belong to one evaluation: a product that another root uses, too, is not
-/// fused.
+/// The graph with fused multiply-adds. All roots must belong to one evaluation, because a product that another root
+/// uses, too, is not fused.
 pub fn fuse(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     let live = Live::new(graph, roots);
     let fused = select(graph, &live);
@@ -45,7 +46,7 @@ pub fn fuse(graph: &Graph, roots: &[NodeId]) -> Rewritten {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Choice {
     Keep,
-    /// A product, or a sum that is negated: its only user computes it.
+    /// A product or a negated sum, which is computed within its only user.
     Absorbed,
     /// A sum or difference that is fused with this product, one of its operands.
     Fuse(NodeId),
@@ -78,7 +79,7 @@ fn select(graph: &Graph, live: &Live) -> Vec<Choice> {
                 choice[at] = Choice::Fuse(product);
                 choice[product.0 as usize] = Choice::Absorbed;
                 let addend = if product == a { b } else { a };
-                // The product alone would have taken as long as the fused operation.
+                // Without fusion, the product alone would take as long as the fused operation.
                 latency[at] = ready(product).max(ready(addend) + cost(&node));
                 continue;
             }
@@ -111,7 +112,7 @@ fn fused_sum(graph: &Graph, copy: &Copier<'_>, sum: Node, product: NodeId, negat
     };
     let mut addend = copied(copy, if first { y } else { x });
     if negate != (minus_y && !first) {
-        // The sign of a number costs nothing.
+        // The sign of a constant costs nothing.
         match b.as_constant() {
             Some(_) => b = -b,
             None => a = -a,
@@ -123,7 +124,7 @@ fn fused_sum(graph: &Graph, copy: &Copier<'_>, sum: Node, product: NodeId, negat
     mul_add(a, b, addend).id()
 }
 
-/// Operands of live nodes that were not absorbed are already copied, because they are older than their users.
+/// The copy of an operand that was not absorbed. Operands are older than their users, so it exists already.
 fn copied<'c>(copy: &'c Copier<'_>, id: NodeId) -> Expr<'c> {
     copy.get(id)
         .expect("operands are copied before their users")

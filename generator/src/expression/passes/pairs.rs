@@ -1,5 +1,6 @@
-//! Pairs of operands that several sums (or several products) have in common, the most frequent first. With a + b + c and
-//! a + b − d the pair a + b is computed once. In sums, pairs are equal up to sign: a − b serves c + b − a.
+//! Shares pairs of operands that several sums (or several products) have in common, the most frequent first. With
+//! a + b + c and a + b − d, the pair a + b is computed once. In sums, pairs may differ in sign: a − b also serves
+//! c + b − a.
 //!
 //! Taking a pair out of k lists saves k − 1 operations, so it never adds any.
 
@@ -19,8 +20,8 @@ pub(super) struct Pair {
     pub opposite: bool,
 }
 
-/// Takes pairs that occur in at least two lists out of the lists. The new operands are numbered from `next`. A pair may
-/// contain older pairs. Lists must be ordered by operand, and stay so.
+/// Removes pairs that occur in at least two lists from these lists, and appends new operands, numbered from `next`,
+/// that stand for them. A pair may contain older pairs. Lists must be ordered by operand, and stay so.
 pub(super) fn extract_pairs(lists: &mut [Signed], next: Element) -> Vec<Pair> {
     let mut entries = Vec::new();
     for (at, list) in lists.iter().enumerate() {

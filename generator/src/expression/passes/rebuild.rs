@@ -1,7 +1,7 @@
 //! Copies the nodes that some roots need into a new graph, one by one. Every pass uses this.
 //!
-//! Nodes that are not needed are left behind, the folding constructors see every node again, and sections and names are
-//! kept.
+//! Nodes that are not needed are left out, each node can pass the folding constructors again, and sections and names
+//! are kept.
 
 use crate::expression::graph::{Expr, Graph};
 use crate::expression::live::Live;
@@ -24,8 +24,8 @@ pub fn rebuild(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     copy.finish(roots)
 }
 
-/// One graph with everything that several graphs compute; the roots of one follow those of the other. Equal operations
-/// become one.
+/// One graph with everything that several graphs compute; the roots of each graph follow those of the graph before.
+/// Equal operations become one.
 pub fn join(parts: &[(&Graph, &[NodeId])]) -> Rewritten {
     let mut joined = Rewritten {
         graph: Graph::new(),
@@ -113,7 +113,7 @@ impl<'a> Copier<'a> {
         }
     }
 
-    /// Copies a node with the folding constructors. Its operands must have been copied before.
+    /// Copies a node by the folding constructors. Its operands must have been copied before.
     pub fn fold(&mut self, id: NodeId) {
         self.enter_section_of(id);
         let operand = |id: NodeId| self.new.expr(self.target(id));
@@ -129,7 +129,7 @@ impl<'a> Copier<'a> {
         self.set(id, new);
     }
 
-    /// Makes a second copy of a node as it is, even if an equal one exists. From here on users get the new one.
+    /// Makes another copy of a node as it is, even if an equal one exists. From here on, users get the new copy.
     pub fn repeat(&mut self, id: NodeId) {
         self.enter_section_of(id);
         let node = self.old.node(id).map_operands(|id| self.target(id));
@@ -146,8 +146,7 @@ impl<'a> Copier<'a> {
         }
     }
 
-    /// The new node of an old node. Operands and roots of live nodes are live and older than their users, so they were
-    /// copied.
+    /// The new node of an old node. Operands and roots of live nodes are live and were copied before their users.
     fn target(&self, id: NodeId) -> NodeId {
         self.map[id.0 as usize].expect("nodes are copied in order of creation")
     }
@@ -173,7 +172,7 @@ pub(super) fn construct<'g>(
         Node::Atan2(a, b) => operand(a).atan2(operand(b)),
         Node::Max(a, b) => operand(a).max(operand(b)),
         Node::Min(a, b) => operand(a).min(operand(b)),
-        // The operands of a call keep their packing.
+        // The packing of a call's operands is kept.
         Node::Call(function, arguments) => {
             graph.intern(Node::Call(function, arguments.map(|id| operand(id).id())))
         }
@@ -183,7 +182,7 @@ pub(super) fn construct<'g>(
     }
 }
 
-/// a · b + c with one rounding; folded plain operations if nothing would be rounded twice.
+/// a · b + c with one rounding; folded plain operations if there is only one rounding anyway.
 pub(super) fn mul_add<'g>(a: Expr<'g>, b: Expr<'g>, c: Expr<'g>) -> Expr<'g> {
     let trivial = |x: Expr<'g>| x.is_zero() || x.is_one();
     if trivial(a) || trivial(b) || c.is_zero() {

@@ -1,11 +1,11 @@
-//! Replaces functions that are called, in one expression of a graph that continues to grow.
+//! Replaces the functions of calls in one expression of a graph that continues to grow.
 
 use super::rebuild::construct;
 use crate::expression::graph::Expr;
 use crate::expression::node::{Function, Node, NodeId};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// The expression with each called function replaced by `of` of it. Nodes that call no replaced function stay as they are.
+/// The expression with each called function mapped by `of`. Nodes without a changed call are reused.
 pub fn recall<'g>(expression: Expr<'g>, of: impl Fn(Function) -> Function) -> Expr<'g> {
     let (graph, root) = (expression.graph(), expression.id());
     let mut moved: FxHashMap<NodeId, NodeId> = FxHashMap::default();
@@ -24,7 +24,8 @@ pub fn recall<'g>(expression: Expr<'g>, of: impl Fn(Function) -> Function) -> Ex
     graph.expr(moved.get(&root).copied().unwrap_or(root))
 }
 
-/// The nodes that an expression needs, in order of creation. The time grows with their number, not with that of the graph.
+/// The nodes that an expression needs, in order of creation. The time grows with their number, not with that of the
+/// graph.
 fn below(expression: Expr<'_>) -> Vec<NodeId> {
     let nodes = expression.graph().nodes();
     let mut found = FxHashSet::from_iter([expression.id()]);

@@ -1,25 +1,26 @@
 //! Computes values a second time if that is less work than storing them.
 //!
-//! A long function goes through the elements from the leaves to the root and back again. On the way back it needs values of an element
-//! that were computed on the way there, and that have left the first cache by then. A value that takes few operations on inputs alone,
-//! like the axes of an element, is better computed again from the inputs.
+//! A long function goes through the elements from the leaves to the root and back again. On the way back it needs
+//! values of an element that were computed on the first way, and have left the first-level cache by then. A value that
+//! takes few operations on inputs alone, such as the axes of an element, is better computed again from the inputs.
 
 use super::rebuild::{Copier, Rewritten};
 use crate::expression::graph::Graph;
 use crate::expression::node::{Node, NodeId};
 use std::collections::BTreeSet;
 
-/// The number of operations that are less work than writing a value that leaves the first cache and reading it again. In a chain of 100
-/// elements it takes 38 operations to avoid storing 12 values. Measured: one state then takes as long as before. Eight states in registers
-/// take a fifth less, on a processor that does one operation on such registers in a cycle.
+/// Number of operations that take less time than writing a value that leaves the first-level cache and reading it
+/// again. In a chain of 100 elements, 38 operations avoid storing 12 values. Measured: the evaluation of one state then
+/// takes as long as before; that of eight states in registers takes a fifth less, on a processor that does one
+/// operation on such registers per cycle.
 const WORTH: usize = 4;
 
-/// The same values. `blocks` are all operations that the roots need, in the order of their evaluation; each block has the operations of
-/// one owner.
+/// The same values, some of them computed twice. `blocks` are all operations that the roots need, in the order of their
+/// evaluation; each block has the operations of one owner.
 ///
-/// A value that a block reads from an earlier one is computed again in the last block of the same owner before or at the reader.
-/// Conditions: it is made from inputs by sums and products of that owner, no call has it as an argument, and the saving in that block is
-/// worth it.
+/// A value that a block reads from an earlier one is computed again in the last block of the same owner before or at
+/// the reader, if it is made from inputs by sums and products of that owner alone, if no call has it as an argument,
+/// and if that is worth it in this block.
 pub fn repeat(graph: &Graph, roots: &[NodeId], blocks: &[Vec<NodeId>]) -> Rewritten {
     let repeated = repeated(graph, blocks);
     let mut copy = Copier::new(graph);
@@ -33,7 +34,7 @@ pub fn repeat(graph: &Graph, roots: &[NodeId], blocks: &[Vec<NodeId>]) -> Rewrit
         copy.keep(input);
     }
     for (block, repeated) in blocks.iter().zip(repeated) {
-        // From here on, users get these new copies.
+        // From here on, users get the new copies.
         for id in repeated {
             copy.repeat(id);
         }
@@ -59,14 +60,15 @@ fn repeated(graph: &Graph, blocks: &[Vec<NodeId>]) -> Vec<BTreeSet<NodeId>> {
         }
     }
 
-    // Sine and cosine are computed together if they have the same operand; so are the results of a call.
+    // Operands of calls are not repeated: results of one call, and sine and cosine of one operand, are computed
+    // together, so they must keep a common operand.
     let of_calls: BTreeSet<NodeId> = (blocks.iter().flatten())
         .map(|&id| graph.node(id))
         .filter(is_call)
         .flat_map(|node| node.operands())
         .collect();
 
-    // made from inputs by sums and products of one owner
+    // values made from inputs by sums and products of one owner
     let mut cheap = vec![false; graph.len()];
     for &id in blocks.iter().flatten() {
         let node = graph.node(id);
@@ -95,7 +97,8 @@ fn repeated(graph: &Graph, blocks: &[Vec<NodeId>]) -> Vec<BTreeSet<NodeId>> {
     wanted.iter().map(|values| worth(graph, values)).collect()
 }
 
-/// The operations that compute values again, as far as that is worth it. One owner has few values.
+/// The operations that compute again those of the `values` for which that is worth it. The time is quadratic, but one
+/// owner has few values.
 fn worth(graph: &Graph, values: &BTreeSet<NodeId>) -> BTreeSet<NodeId> {
     let mut values = values.clone();
     // A value is stored if it takes many operations that the others do not need.

@@ -1,4 +1,5 @@
-//! Replaces values that are already known by inputs, so that the nodes below them are not needed; and inputs by values that another graph computes.
+//! Replaces known values by inputs, so that the nodes below them are not needed; and replaces inputs by values that
+//! another graph computes.
 
 use super::rebuild::{Copier, Rewritten};
 use crate::expression::graph::Graph;
@@ -6,8 +7,8 @@ use crate::expression::live::Live;
 use crate::expression::node::{Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 
-/// The graph with each replaced node turned into the input, or into its negative if the flag is set. Nodes that only
-/// replaced nodes need are left out.
+/// The graph with each node of `by` replaced by its input, or by the negative of the input if the flag is set. Nodes
+/// that only replaced nodes need are left out.
 pub fn replace(
     graph: &Graph,
     roots: &[NodeId],
@@ -30,7 +31,8 @@ pub fn replace(
     copy.finish(roots)
 }
 
-/// The graph with each of these inputs turned into a value of `other`, and with the nodes that compute it. The opposite of [`replace`].
+/// The graph with each of these inputs replaced by a value of `other`, together with the nodes that compute the value.
+/// The opposite of [`replace`].
 pub fn restore(rewritten: &Rewritten, other: &Graph, by: &FxHashMap<Symbol, NodeId>) -> Rewritten {
     let Rewritten { graph, roots } = rewritten;
     let live = Live::new(graph, roots);
@@ -58,7 +60,7 @@ pub fn restore(rewritten: &Rewritten, other: &Graph, by: &FxHashMap<Symbol, Node
     copy.finish(roots)
 }
 
-/// The nodes that the roots need, in order of creation, without those below replaced nodes.
+/// The nodes that the roots need, in order of creation, without nodes that only replaced nodes need.
 pub fn needed(
     graph: &Graph,
     roots: &[NodeId],

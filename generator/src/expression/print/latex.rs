@@ -5,8 +5,8 @@ use super::listing::{Line, Notation, Operand, listing};
 use crate::expression::graph::Graph;
 use crate::expression::node::NodeId;
 
-/// The roots as equations, after definitions of the values that they share, with the sections as lines of text. The
-/// names of roots and inputs are already LaTeX; those of nodes and functions are identifiers.
+/// The roots as equations, after definitions of the values that they share; sections are lines of text. The names of
+/// roots and inputs must be LaTeX; those of nodes and functions are identifiers.
 pub fn latex(graph: &Graph, roots: &[(String, NodeId)], names: &Names<'_>) -> String {
     let mut lines = Vec::new();
     for line in listing(graph, roots, names, &Latex) {

@@ -1,4 +1,4 @@
-//! The text of a listing: which values get a line of their own, and how the rest is written.
+//! The text of a listing: decides which values get a line of their own, and how the others are written in place.
 //!
 //! A value gets a line of its own if it has a name, if it is used more than once and is not cheap to repeat, or if
 //! another line would become too long without it. Sums are lists of signed terms and products lists of factors, in the
@@ -12,12 +12,13 @@ use crate::expression::node::{Function, Node, NodeId, Symbol};
 use rustc_hash::FxHashSet;
 use std::mem::take;
 
-/// The length in characters above which a part of a line gets a line of its own.
+/// Largest total length of a node's operands on one line, in characters; beyond, the longest operands get lines of
+/// their own.
 const LONGEST: usize = 160;
 
 /// The notation of a language.
 pub(super) trait Notation {
-    /// A finite number ≥ 0 or one that is not finite.
+    /// A finite number ≥ 0, or infinity or NaN.
     fn number(&self, value: f64) -> String;
     fn input(&self, name: String) -> String;
     /// The name of a value with a line of its own.
@@ -33,7 +34,7 @@ pub(super) trait Notation {
     fn call(&self, name: &str, arguments: &[String]) -> String;
 }
 
-/// The text of an operand, and how tightly it binds.
+/// The text of an operand, and its precedence.
 pub(super) struct Operand {
     pub text: String,
     pub form: Binding,
@@ -109,7 +110,7 @@ pub(super) fn listing(
     writer.lines
 }
 
-/// Whether a node is repeated rather than defined.
+/// True if a node is written again at each use rather than defined once.
 fn cheap(graph: &Graph, node: Node) -> bool {
     match node {
         Node::Constant(_) | Node::Symbol(_) | Node::Neg(_) => true,
@@ -118,7 +119,7 @@ fn cheap(graph: &Graph, node: Node) -> bool {
     }
 }
 
-/// How often each node would be written if every value that is not cheap had a line of its own.
+/// How often each node is written if every value that is not cheap gets a line of its own.
 fn occurrences(graph: &Graph, live: &Live) -> Vec<u32> {
     let mut occurrences = vec![0u32; graph.len()];
     for root in live.roots() {
@@ -139,10 +140,10 @@ fn occurrences(graph: &Graph, live: &Live) -> Vec<u32> {
     occurrences
 }
 
-/// The parts of a signed value.
+/// A value in parts, with its sign.
 #[derive(Clone)]
 struct Piece {
-    /// Whether the value is negated; never for sums, whose terms have signs.
+    /// True if the value is negated; always false for sums, whose terms have signs.
     negative: bool,
     form: Form,
 }
@@ -170,7 +171,7 @@ struct Term {
     text: String,
 }
 
-/// Sort key: numbers first, then by age; quotients come last in a product.
+/// Sort key of terms and factors: numbers come first, then all others by age; in a product, quotients come last.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Order(u8, NodeId);
 
@@ -224,7 +225,7 @@ struct Writer<'a> {
     notation: &'a dyn Notation,
     /// The piece of each node.
     pieces: Vec<Piece>,
-    /// For each node, whether it has a line of its own.
+    /// By node: true if the node has a line of its own.
     defined: Vec<bool>,
     lines: Vec<Line>,
     section: String,
@@ -288,7 +289,7 @@ impl Writer<'_> {
             let total: usize = node.operands().map(length).sum();
             let longest = node.operands().max_by_key(|&id| length(id));
             match longest {
-                // Names can be long, too; a further line would not shorten them.
+                // Names can be long, too, but a further line would not shorten them.
                 Some(id) if total > LONGEST && length(id) > LONGEST / 4 && !self.named(id) => {
                     self.define(id);
                 }
@@ -360,7 +361,7 @@ impl Writer<'_> {
             Form::Sum(mut terms) => {
                 let text = self.notation.parenthesised(&sum_text(&terms));
                 terms.iter_mut().for_each(|t| t.negative = !t.negative);
-                // The negative of a + b is longer, and no better in a product.
+                // A longer negative, such as that of a + b, would be no improvement.
                 let opposite = Some(self.notation.parenthesised(&sum_text(&terms)))
                     .filter(|opposite| opposite.len() <= text.len());
                 vec![Factor {
@@ -396,7 +397,7 @@ impl Writer<'_> {
         Piece::atom(self.notation.call(&name, &texts))
     }
 
-    /// The operand without the sign of the whole.
+    /// The operand without its sign.
     fn unsigned(&self, piece: &Piece) -> Operand {
         let (text, form) = match &piece.form {
             Form::Atom(text) => (text.clone(), Binding::Atom),

@@ -8,8 +8,8 @@
 //! b = q2 - t1*t1
 //! ```
 //!
-//! `listing` decides which values are written out and where signs and parentheses go. [`text()`] and [`latex()`] decide how
-//! it looks.
+//! `listing` decides which values are written out, and where signs and parentheses are placed. [`text()`] and
+//! [`latex()`] decide on the notation.
 
 pub mod latex;
 mod listing;

@@ -1,26 +1,28 @@
-//! Live-through values: what a call of a subroutine leaves for the next call alone.
+//! Live-through values: results of a call of a subroutine that only the next call of the same subroutine reads.
 //!
-//! In a chain each call returns what the next one starts from, and what is read much later. The latter needs a place of its own for each
-//! element. The former stands in one variable for the whole run of calls. It is overwritten in turn, and so stays in the first cache, where
-//! the state of a hundred elements in wide registers has no room. After the last call of a run anybody may read it.
+//! In a chain, each call returns values from which the next call starts, and values that are read much later. The
+//! latter need memory for each element. The former are kept in one variable for a whole run of calls. The calls
+//! overwrite it in turn, so it stays in the first-level cache, which is too small for the state of a hundred elements
+//! in wide registers. After the last call of a run, any code may read it.
 
 use super::{Item, Origins, Place, Port, Subroutine, read_by_lines};
 use crate::expression::NodeId;
 use crate::program::schedule::Schedule;
 use std::collections::BTreeSet;
 
-/// The live-through values of a subroutine: what it reads by one port, and nobody else reads but behind the last call of a run.
+/// The live-through values of a subroutine: those that it reads through one port, and that other code reads only after
+/// the last call of a run.
 pub(crate) struct LiveThrough {
     pub port: usize,
-    /// The values.
+    /// The values, by their numbers in the block.
     pub numbers: Vec<usize>,
-    /// By block: in which run of calls, each with a variable of its own, it is.
+    /// By block: the run of calls that it belongs to. Each run has a variable of its own.
     pub runs: Vec<usize>,
-    /// By block: whether it is the last of its run.
+    /// By block: true if it is the last of its run.
     pub last: Vec<bool>,
 }
 
-/// What calls of a subroutine hand to the next call, by the port that takes most.
+/// The live-through values of a subroutine, by the port with the most of them.
 pub(crate) fn live_through(
     subroutines: &[Subroutine],
     subroutine: usize,
@@ -35,7 +37,7 @@ pub(crate) fn live_through(
     live_through.max_by_key(|live_through| live_through.numbers.len())
 }
 
-/// What they hand over by one port; `None` where anybody else reads it.
+/// The live-through values of one port; `None` if other code reads them too early.
 // Long: three conditions on the same few lists, one after the other.
 fn live_through_by(
     subroutines: &[Subroutine],
@@ -66,7 +68,7 @@ fn live_through_by(
         }
     }
 
-    // Each block is followed by one other at most.
+    // Each block may be followed by only one other.
     let mut last = vec![true; blocks.len()];
     let mut runs = Vec::new();
     let mut count = 0;
@@ -85,7 +87,7 @@ fn live_through_by(
         }
     }
 
-    // Nobody else reads what is overwritten.
+    // No other code may read a value that is overwritten.
     let mut read = read_by_lines(schedule, items);
     for item in items {
         let Item::Call {
@@ -104,7 +106,7 @@ fn live_through_by(
                     Port::Returned { subroutine: of, .. } => *of == subroutine,
                     Port::Argument { .. } => false,
                 };
-                // others are shown what calls return
+                // a port of another subroutine, or another port, shows the whole returned value
                 if !itself && shown && numbers.contains(&number) {
                     return None;
                 }

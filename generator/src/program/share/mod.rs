@@ -1,18 +1,22 @@
-//! Shared subroutines: what like elements compute in the same way is written once and called for each.
+//! Shared subroutines: equal computations of like elements are written once and called for each element.
 //!
-//! Two elements are like each other where they do the same operations, but for what they start from and for numbers. A long function outgrows
-//! the caches of the processor, and then most of its time goes into fetching it; and it takes long to compile. The elements of a chain are like
-//! each other, so the function becomes a list of calls of a few short subroutines.
+//! Two elements are alike if they do the same operations, apart from numbers and the values from which they start. A
+//! long function exceeds the caches of the processor, and then most of its time goes into fetching code; it also takes
+//! long to compile. The elements of a chain are alike, so the function becomes a list of calls of a few short
+//! subroutines.
 //!
-//! A block is a run of lines that belong to one element. It is read as a sequence of [`Token`]s: the block's own values are numbered in order,
-//! whatever it reads from elsewhere is a slot, and each of its numbers a place in a list. Blocks of the same tokens are like each other. What
-//! differs is handed over by ports: a reference to the part of an argument that is the element's own, a reference to what
-//! another call returned, a list of numbers; and what fits nowhere is copied into an array. What only the next call of the same subroutine
-//! reads is not returned (`live_through`): it stands in one variable, which such calls overwrite in turn, and so stays in the first cache.
+//! A block is a run of lines that belong to one element. It is read as a sequence of [`Token`]s: its own values are
+//! numbered in order, each value that it reads from elsewhere is a slot, and each of its numbers is a place in a list.
+//! Blocks with the same tokens are alike. The values that differ between them are passed by ports: a reference to the
+//! element's own part of an argument, a reference to the values that another call returned, or a list of numbers;
+//! values that fit no port are copied into an array. Values that only the next call of the same subroutine reads are
+//! not returned (`live_through`): they are kept in one variable, which the calls overwrite in turn, and so stay in the
+//! first-level cache.
 //!
-//! Of the models at hand only chains have such subroutines: the methods of a person in a car, of a humanoid and of dummy15 are shorter than
-//! [`Options::merged`](super::Options::merged), or have less than half in common. The derivative of the state of a chain, compiled by rustc
-//! 1.95 with `-C opt-level=3` (Intel family 6, model 167; processor time of one compilation; the shortest of 3000 evaluations):
+//! Of the models at hand only chains have such subroutines: the methods of a person in a car, of a humanoid and of
+//! dummy15 are shorter than [`Options::merged`](super::Options::merged), or have less than half in common. The
+//! derivative of the state of a chain, compiled by rustc 1.95 with `-C opt-level=3` (Intel family 6, model 167;
+//! processor time of one compilation; the shortest of 3000 evaluations):
 //!
 //! | | shared | in pieces | in one |
 //! |---|---:|---:|---:|
@@ -42,111 +46,114 @@ use std::ops::Range;
 
 pub(crate) use live_through::LiveThrough;
 
-/// Lines below which a call costs more than it saves.
+/// Smallest number of lines of a block; a shorter one is not worth a call.
 const SHORT: usize = 8;
-/// Elements from which on what they have in common becomes a subroutine.
+/// Smallest number of like blocks that become a subroutine.
 const MANY: usize = 3;
 
-/// Steps that may be left beside what is shared: they are one function, which takes rustc a fifth longer than pieces of 900 do.
+/// Largest number of steps that may be left outside of subroutines. They form one function, which takes rustc a fifth
+/// longer than pieces of 900 steps.
 const LEFT: usize = 3000;
 
-/// The function that stands for a call and for all that call alike.
+/// Maps each function to one that represents all functions that are called alike.
 type Callee<'a> = dyn Fn(Function) -> Function + 'a;
 
-/// A schedule with what its elements have in common.
+/// The subroutines of a schedule, and the steps that call them.
 pub(crate) struct Sharing {
     pub subroutines: Vec<Subroutine>,
-    /// What is left: lines, and calls in their places.
+    /// The steps of the calling function: remaining lines, and calls in place of the others.
     pub items: Vec<Item>,
 }
 
-/// A step of the function that calls.
+/// A step of the calling function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Item {
     /// A line of the schedule.
     Line(usize),
-    /// A call for one of the blocks that are like each other.
+    /// A call that replaces one of the like blocks.
     Call { subroutine: usize, block: usize },
 }
 
-/// What several blocks have in common.
+/// A computation that several blocks have in common.
 pub(crate) struct Subroutine {
-    /// In order; the first gives the subroutine its names.
+    /// The blocks, in order; the first gives the subroutine its names.
     pub blocks: Vec<Block>,
-    /// Which of the values of a block others read, by their number.
+    /// Numbers of the values of a block that are read outside of it.
     pub outputs: Vec<usize>,
-    /// Where each slot is found.
+    /// Where each slot is read from.
     pub slots: Vec<Place>,
-    /// Where each number is found: in the subroutine, or in the list.
+    /// Where each number is read from: the subroutine, or the list.
     pub numbers: Vec<Number>,
     pub ports: Vec<Port>,
-    /// By block: what is copied, as many for each.
+    /// By block: the copied values, equally many for each.
     pub copied: Vec<Vec<NodeId>>,
-    /// By block: the list of numbers, as many for each.
+    /// By block: the list of numbers, equally many for each.
     pub listed: Vec<Vec<f64>>,
-    /// What a call leaves for the next one alone.
+    /// The values that a call leaves for the next call alone.
     pub live_through: Option<LiveThrough>,
 }
 
 /// A run of lines of one element.
 pub(crate) struct Block {
     pub lines: Range<usize>,
-    /// What it binds.
+    /// The values that it binds.
     pub values: Vec<NodeId>,
-    /// What it reads from elsewhere, by slot.
+    /// The values that it reads from elsewhere, by slot.
     pub slots: Vec<NodeId>,
-    /// Its numbers, in the order in which they are printed.
+    /// Its numbers, in the order of writing.
     pub numbers: Vec<f64>,
-    /// The places among the results that it puts something at, by runs of neighbours.
+    /// The indices of the results that it writes, as ranges of adjacent indices.
     pub puts: Vec<Range<usize>>,
 }
 
-/// Where a slot is found.
+/// Where a slot is read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// In the mechanism, or the time: the same for all blocks.
+    /// The mechanism, or the time: the same for all blocks.
     Common(NodeId),
-    /// An element of what a port of an argument shows.
+    /// An entry of an argument, relative to the begin that the port gives.
     Element { port: usize, index: usize },
-    /// A value of what a port of a call shows, by its number.
+    /// A returned value, by its number, through a port of a call.
     Value { port: usize, number: usize },
-    /// A copy.
+    /// A copy, by its index.
     Copied(usize),
 }
 
-/// Where a number is found.
+/// Where a number is read from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Number {
     Same(f64),
     Listed(usize),
 }
 
-/// What blocks are handed by reference.
+/// A reference that a call passes to the subroutine.
 pub(crate) enum Port {
-    /// So many elements of an argument, and by block where they begin.
+    /// A part of an argument: by block the index where it starts, and its length.
     Argument {
         argument: Argument,
         starts: Vec<usize>,
         length: usize,
     },
-    /// What a call of another, or the same, subroutine returned: by block, which of its blocks it was made for, if any.
+    /// The values returned by a call of this or another subroutine: by block, the block for which that call was made,
+    /// if any.
     Returned {
         subroutine: usize,
         blocks: Vec<Option<usize>>,
-        /// By block: values by the numbers under which they are read, where no one call returned them all.
+        /// By block: the values with their numbers, if they were not all returned by one call.
         gathered: Vec<Option<Gathered>>,
     },
 }
 
-/// Values by the numbers under which they are read.
+/// Values, each with the number under which it is read.
 pub(crate) type Gathered = Vec<(usize, NodeId)>;
 
-/// Where a value was made: subroutine, block, number.
+/// By value, where it is computed: subroutine, block and number.
 pub(crate) type Origins = FxHashMap<NodeId, (usize, usize, usize)>;
 
 impl Sharing {
-    /// The same values in the order of elements, with what those have in common; `None` where that is less than half of it, or too much is
-    /// left. What is soon made of inputs is not handed from call to call. `callee` says which function stands for those that call alike.
+    /// The same values in the order of elements, with subroutines. `None` if less than half of the lines is shared, or
+    /// if too many steps are left. Values that are quickly computed from inputs are recomputed instead of passed from
+    /// call to call. `callee` maps each function to one that represents all that are called alike.
     pub(crate) fn in_order_of_owners(
         schedule: &Schedule,
         labels: &[String],
@@ -192,13 +199,13 @@ impl Sharing {
         Some(Self { subroutines, items })
     }
 
-    /// What lines, calls and the results read.
+    /// The values that lines, calls and results read.
     pub(crate) fn read(&self, schedule: &Schedule) -> BTreeSet<NodeId> {
         read(&self.subroutines, schedule, &self.items)
     }
 }
 
-/// How many of the steps bind something.
+/// Number of the steps that bind values.
 fn binding(items: &[Item], schedule: &Schedule) -> usize {
     let binds = |item: &Item| match *item {
         Item::Line(line) => schedule.binding(line..line + 1),
@@ -213,12 +220,12 @@ impl Subroutine {
         &self.blocks[0]
     }
 
-    /// Whether it puts anything into an output writer.
+    /// True if it writes results to an output writer.
     pub(crate) fn puts(&self) -> bool {
         !self.first().puts.is_empty()
     }
 
-    /// Finds the ports.
+    /// Finds the source of each slot and number, and creates the ports.
     fn connect(&mut self, schedule: &Schedule, inputs: &Inputs, origins: &Origins) {
         let count = self.first().slots.len();
         for slot in 0..count {
@@ -248,7 +255,7 @@ impl Subroutine {
         common.then_some(Place::Common(first))
     }
 
-    /// The element of an argument, at the same distance from that of the port for all blocks.
+    /// The entry of an argument, if it is at the same distance from the port's begin in all blocks.
     fn element(
         &mut self,
         schedule: &Schedule,
@@ -281,7 +288,8 @@ impl Subroutine {
             if *of != argument || !elements.iter().zip(&*starts).all(same) {
                 continue;
             }
-            // Far apart they are better off alone, but no model has elements with so many coordinates.
+            // Entries far apart would better have ports of their own, but no model has elements with so many
+            // coordinates.
             let before = usize::try_from(-distance).unwrap_or(0);
             for start in &mut *starts {
                 *start -= before;
@@ -308,7 +316,7 @@ impl Subroutine {
         Some(Place::Element { port, index: 0 })
     }
 
-    /// The value of another call, if that is what most blocks read.
+    /// The value returned by another call, if most blocks read such a value.
     fn returned(&mut self, sources: &[NodeId], origins: &Origins) -> Option<Place> {
         let found: Vec<_> = sources.iter().map(|id| origins.get(id).copied()).collect();
         let mut counts: FxHashMap<(usize, usize), usize> = FxHashMap::default();
@@ -318,7 +326,7 @@ impl Subroutine {
         let (&(subroutine, number), &most) = counts
             .iter()
             .max_by_key(|&(&place, &count)| (count, std::cmp::Reverse(place)))?;
-        // More than half, so that two slots of one port cannot be the same value.
+        // More than half, so that two slots of a port cannot be the same value.
         if 2 * most <= sources.len() {
             return None;
         }
@@ -356,7 +364,7 @@ impl Subroutine {
         Some(Place::Value { port, number })
     }
 
-    /// Has gathered what a port shows where not all of it is what one call returned.
+    /// Gathers the values of a port for the blocks in which one call did not return all of them.
     fn gather(&mut self, origins: &Origins) {
         for (port, shown) in self.ports.iter_mut().enumerate() {
             let Port::Returned {
@@ -416,7 +424,7 @@ impl Subroutine {
     }
 }
 
-/// What blocks have in common.
+/// The subroutines of the blocks that are alike.
 fn subroutines(schedule: &Schedule, callee: &Callee<'_>) -> Vec<Subroutine> {
     let mut place: FxHashMap<Vec<Token>, usize> = FxHashMap::default();
     let mut subroutines: Vec<Vec<Block>> = Vec::new();
@@ -444,7 +452,7 @@ fn subroutines(schedule: &Schedule, callee: &Callee<'_>) -> Vec<Subroutine> {
     subroutine.collect()
 }
 
-/// The runs of lines of one element, as far as they are long enough.
+/// The runs of lines of one element that are long enough.
 fn blocks(schedule: &Schedule) -> Vec<Range<usize>> {
     let mut start = 0;
     let runs = schedule
@@ -495,21 +503,21 @@ impl Block {
     }
 }
 
-/// Places by runs of neighbours.
+/// Sorted indices as ranges of adjacent indices.
 fn neighbours(places: BTreeSet<usize>) -> Vec<Range<usize>> {
     let places = Vec::from_iter(places);
     let runs = places.chunk_by(|a, b| a + 1 == *b);
     runs.map(|run| run[0]..run[0] + run.len()).collect()
 }
 
-/// In which run a place is, and how far from its begin.
+/// The range that an index belongs to, and the distance from its begin.
 pub(crate) fn place_in(runs: &[Range<usize>], place: usize) -> (usize, usize) {
     let run = runs.partition_point(|run| run.end <= place);
     (run, place - runs[run].start)
 }
 
-/// What a block does, operands first. Values are told by their order; slots and numbers by the order in which they are met, in which they are
-/// handed over, too.
+/// An operation or operand of a block, operands first. Values are numbered in their order; slots and numbers in the
+/// order in which they first occur, which is also the order in which they are passed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Token {
     Value(usize),
@@ -523,15 +531,15 @@ enum Token {
     Arguments,
     /// The end of a statement that binds values.
     Binds,
-    /// The end of one that binds sine and cosine.
+    /// The end of a statement that binds a sine and a cosine.
     BindsPair,
-    /// Whether a value that a statement might bind is used.
+    /// Whether a value that a statement can bind is used.
     Used(bool),
-    /// The end of a statement that writes a result: in which run of places, how far from its begin.
+    /// The end of a statement that writes a result: the range of indices, and the distance from its begin.
     Puts(usize, usize),
 }
 
-/// Reads a block.
+/// Reads a block as tokens.
 struct Reader<'a> {
     values: FxHashMap<NodeId, usize>,
     callee: &'a Callee<'a>,
@@ -571,7 +579,7 @@ impl Reader<'_> {
     }
 }
 
-/// The tokens of some operands, and of what is done to them.
+/// The tokens of operands, followed by that of their operation.
 fn of(operands: impl IntoIterator<Item = Vec<Token>>, done: Token) -> Vec<Token> {
     let mut tokens: Vec<Token> = operands.into_iter().flatten().collect();
     tokens.push(done);
@@ -640,7 +648,7 @@ impl Form for Reader<'_> {
     }
 }
 
-/// Calls in the places of their blocks, and the lines that are left.
+/// The steps of the calling function: a call in place of each block, and the remaining lines.
 fn items(subroutines: &[Subroutine], lines: usize) -> Vec<Item> {
     let mut call: Vec<Option<Item>> = vec![None; lines];
     let mut left = vec![true; lines];
@@ -673,7 +681,7 @@ fn origins(subroutines: &[Subroutine]) -> Origins {
     origins
 }
 
-/// What is read of a block outside of it, for all blocks that are like it.
+/// Finds the values of each subroutine's blocks that are read outside of their block.
 fn find_outputs(
     subroutines: &mut [Subroutine],
     schedule: &Schedule,
@@ -690,7 +698,7 @@ fn find_outputs(
     }
 }
 
-/// What lines, calls and the results read.
+/// The values that lines, calls and results read.
 fn read(subroutines: &[Subroutine], schedule: &Schedule, items: &[Item]) -> BTreeSet<NodeId> {
     let mut read = read_by_lines(schedule, items);
     for item in items {
@@ -701,7 +709,7 @@ fn read(subroutines: &[Subroutine], schedule: &Schedule, items: &[Item]) -> BTre
     read
 }
 
-/// What lines and the results read.
+/// The values that lines and results read.
 pub(crate) fn read_by_lines(schedule: &Schedule, items: &[Item]) -> BTreeSet<NodeId> {
     let mut read = BTreeSet::new();
     for item in items {
