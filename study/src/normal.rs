@@ -30,7 +30,7 @@ pub fn quantile(p: f64) -> f64 {
 /// The quantile u of the distribution truncated to the interval from `low` to `high`; both may be infinite.
 pub fn truncated(u: f64, low: f64, high: f64) -> f64 {
     let mass = between(low, high);
-    // each half uses its own tail, so that neither loses digits
+    // each half is computed from its own tail, so that neither loses digits
     let below_it = below(low) + u * mass;
     let above_it = below(-high) + (1.0 - u) * mass;
     let z = if below_it < above_it {

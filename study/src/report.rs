@@ -7,7 +7,7 @@ use crate::summary::{Summary, summarize, text};
 use bryant_picture::{Format, RasterError};
 use std::path::PathBuf;
 
-/// Why there is no report.
+/// Why a report could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The results are incomplete or damaged.

@@ -31,7 +31,7 @@ pub struct Limits {
     pub tibia: Option<[f64; 2]>,
 }
 
-/// [`Neck`] in the form of the file.
+/// The critical values of the neck as `limits.json` has them.
 #[derive(Deserialize)]
 #[serde(remote = "Neck", deny_unknown_fields)]
 struct WrittenNeck {
@@ -41,7 +41,7 @@ struct WrittenNeck {
     extension: f64,
 }
 
-/// [`Chest`] in the form of the file.
+/// The dimensions of the chest as `limits.json` has them.
 #[derive(Deserialize)]
 #[serde(remote = "Chest", deny_unknown_fields)]
 struct WrittenChest {
@@ -64,7 +64,7 @@ fn chest<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Chest>, D::Error> 
 /// The limits of all regulations.
 ///
 /// # Panics
-/// Never: a test reads the file.
+/// Never: a test reads `limits.json`.
 pub fn all() -> Vec<Limits> {
     let read = serde_json::from_str(include_str!("limits.json"));
     read.unwrap_or_else(|error| unreachable!("limits.json: {error}"))

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `limits` | limits by regulation and dummy, `limits.json` |
 //! | `places` | the places where a dummy measures, and their channel codes |
-//! | `choice` | which channels or outputs are at these places: of one occupant, none that failed, none by chance |
+//! | `choice` | finds the channels or outputs that measure at these places |
 //! | `judge` | the criteria of a model |
 //!
 //! The filter is applied to what a sensor measures, before a resultant is formed.
@@ -31,7 +31,8 @@ pub struct Criterion {
     pub unit: &'static str,
     /// SI value of that unit.
     pub scale: f64,
-    /// The filter of its signals by SAE J211-1, if they are filtered; [`Criterion::class`] is that of a regulation.
+    /// Filter class of its signals by SAE J211-1, if they are filtered; a regulation may have another, see
+    /// [`Criterion::class`].
     filter: Option<Class>,
     measure: Measure,
 }
@@ -158,13 +159,15 @@ impl Criterion {
         own.or(self.filter)
     }
 
-    /// Whether a signal that was filtered by this class before can be judged, although the class of the criterion is a wider one: tables of
-    /// SAE J211-1 and ISO 6487 differ for deflections of the chest, and tests have them by either class.
+    /// True if a signal that was filtered by the class `before` may be judged, although its class is narrower than that
+    /// of the criterion. SAE J211-1 and ISO 6487 have different classes for deflections of the chest, and tests use
+    /// either.
     pub fn allows(&self, before: Class) -> bool {
         self.name == "chest deflection" && before == Class::Cfc180
     }
 
-    /// The signals of the criterion. `has` says which places are available; nothing moves along y if the motion is `planar`.
+    /// The signals of the criterion. `has` is true for available places; if the motion is `planar`, components along y
+    /// are not needed.
     ///
     /// # Errors
     /// A place is not available, or the regulation has no critical values.

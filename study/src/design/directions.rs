@@ -4,8 +4,8 @@
 /// Number of dimensions that have direction numbers.
 pub const DIMENSIONS: usize = 256;
 
-/// For each dimension but the first, which is the van der Corput sequence: the primitive polynomial modulo 2, one bit for each coefficient,
-/// the leading one first; and as many odd initial numbers m as its degree.
+/// One entry for each dimension after the first, which is the van der Corput sequence. An entry has a primitive
+/// polynomial modulo 2, as bits with the leading coefficient first, and as many odd initial numbers m as its degree.
 #[rustfmt::skip]
 pub const DIRECTIONS: [(u32, &[u32]); DIMENSIONS - 1] = [
     (3, &[1]),

@@ -215,7 +215,7 @@ fn bell(reader: &Reader, at: At<'_>, fact: &ParameterFact, kind: &str) -> Option
     };
     let ends = distribution.ends();
     let empty = kind == "lognormal" && max.is_some_and(|max| max <= 0.0);
-    // below this, shares of the probability cannot be resolved
+    // a smaller probability is lost in rounding
     let mass = normal::between(ends[0], ends[1]);
     if empty || mass.is_nan() || mass < 1e-290 {
         let message = format!(

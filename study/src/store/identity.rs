@@ -10,7 +10,7 @@ use sha2::{Digest, Sha256};
 
 /// Largest number of rows in a block.
 const LARGEST_BLOCK: u64 = 4096;
-/// Least number of rows in a block, if the study has so many.
+/// Least number of rows in a block, if the study has that many.
 const SMALLEST_BLOCK: u64 = 16;
 /// Number of blocks of a small study, so that there is work for every thread.
 const BLOCKS: u64 = 256;
@@ -51,7 +51,7 @@ impl Identity {
     /// # Errors
     /// The study has a number that JSON cannot hold; a study that was read from a file does not have one.
     pub fn of(study: &Study, program: &Program) -> Result<Identity, serde_json::Error> {
-        // The keys of both are in the order of declaration: the text is the same wherever it is written.
+        // Fields are stored in the order of their declaration, so the text is the same on every machine.
         let meaning = (part::MAGIC, response::REVISION);
         let text = serde_json::to_string(&(meaning, study, program))?;
         Ok(Identity {

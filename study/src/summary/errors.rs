@@ -1,4 +1,4 @@
-//! The accuracy of the rows, by their own estimates.
+//! The accuracy of the rows, by the error estimate of each.
 
 use super::sample::{is_in, quantile};
 use crate::study::Study;
@@ -41,7 +41,7 @@ impl Errors {
         Errors::none(asked, study.rows)
     }
 
-    /// No rows yet, of so many.
+    /// No rows yet; `rows` are to come.
     fn none(asked: Option<f64>, rows: u64) -> Errors {
         Errors {
             asked,
