@@ -38,7 +38,7 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
     pub kind: Kind,
-    /// Indices of values, as many as the kind has operands.
+    /// The operands, as indices of values; only as many as the kind has.
     pub operands: [u32; 3],
     /// Index of the first value that it defines.
     pub defines: u32,
@@ -54,12 +54,13 @@ pub struct Call {
     pub results: u32,
 }
 
-/// Operations that are done one after the other. Each except the first has the result of the one before as its addend.
+/// Operations that are executed one after the other. The third operand of each, except the first, is the result of the
+/// one before.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain {
     links: [Link; LONGEST],
     length: usize,
-    /// The index of the call, if the chain is one.
+    /// The index of its call, if the chain is a call.
     call: usize,
 }
 
