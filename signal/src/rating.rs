@@ -4,13 +4,10 @@
 //!
 //! | part | weight | what |
 //! |---|---|---|
-//! | corridor | 0.4 | mean over all samples of a score: 1 if \|R − C\| is within a = 5 % of max \|R\|, 0 beyond b = 50
-//! %, between them ((b − \|R − C\|)/(b − a))² |
+//! | corridor | 0.4 | mean over all samples of a score: 1 if \|R − C\| is within a = 5 % of max \|R\|, 0 beyond b = 50 %, between them ((b − \|R − C\|)/(b − a))² |
 //! | phase | 0.2 | C is shifted to the best correlation with R, by at most 20 % of N samples: 1 − shift/(0.2 N) |
-//! | magnitude | 0.2 | the overlap of the shifted signals, with C warped in time onto R (dynamic time warping, within
-//! 10 %): 1 − E/0.5, E = Σ\|C − R\|/Σ\|R\| |
-//! | slope | 0.2 | the overlap of the shifted signals, with slopes that are smoothed over nine samples in place of C
-//! and R in E: 1 − E/2 |
+//! | magnitude | 0.2 | the overlap of the shifted signals, with C warped in time onto R (dynamic time warping, within 10 %): 1 − E/0.5, E = Σ\|C − R\|/Σ\|R\| |
+//! | slope | 0.2 | the overlap of the shifted signals, with slopes that are smoothed over nine samples in place of C and R in E: 1 − E/2 |
 //!
 //! Of the shifts with the best correlation, the phase uses the smallest, and a shift of C to the left before one to the
 //! right. Periodic signals, ramps and exponentials correlate equally well at many shifts; correlations count as equal

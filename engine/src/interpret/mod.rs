@@ -4,8 +4,7 @@
 //!
 //! | step | where |
 //! |---|---|
-//! | operations are joined into chains, if only the next one uses the result; changes of sign become part of fused
-//! operations | `chain` |
+//! | operations are joined into chains, if only the next one uses the result; changes of sign become part of fused operations | `chain` |
 //! | chains are ordered such that runs of one shape are long | `order` |
 //! | values get places in a frame; a place is reused after the last use of its value | `encode` |
 //! | one loop executes each run | `run` |
