@@ -4,10 +4,10 @@ use super::cells;
 use crate::stability::Outcome;
 use std::fmt::Write as _;
 
-/// Largest number of characters of a criterion with its variant, and of a measured statement.
+/// Largest width of a criterion with its variant, and of the observation of a statement, in characters.
 const WIDTHS: [usize; 2] = [64, 48];
 
-/// Groups, cases, checks; at the end how many held.
+/// The table as text: groups, cases and checks, then a summary.
 pub fn text(outcomes: &[Outcome], laws: bool) -> String {
     let mut text = String::new();
     let mut group = None;
