@@ -110,8 +110,8 @@ pub enum StateError {
 /// Allowed deviation of the length of a quaternion from 1: a state that was written by hand may lack a few digits.
 const QUATERNION_TOLERANCE: f64 = 1e-4;
 
-/// Evaluates the equations, which must have been derived with S, r_s and r_k. Parameters are in the model's order (SI). `users` are the
-/// functions of user forces, if the model has any.
+/// Evaluates the equations, which must have been derived with S, r_s and r_k. Parameters are in the model's order (SI).
+/// `users` are the functions of user forces, if the model has any.
 pub fn at(
     model: &Model,
     equations: &Equations,

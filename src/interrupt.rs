@@ -46,7 +46,8 @@ mod unix {
     use libc::{SA_RESETHAND, SA_RESTART, SIG_IGN, SIGINT, c_int, c_void, sigaction};
 
     pub fn watch() {
-        // SAFETY: the handler lives as long as the program, and uses only an atomic flag and `write`. A structure of zeros has no flags.
+        // SAFETY: the handler lives as long as the program, and uses only an atomic flag and `write`. A structure of
+        // zeros has no flags.
         unsafe {
             let mut action: sigaction = std::mem::zeroed();
             sigaction(SIGINT, std::ptr::null(), &mut action);

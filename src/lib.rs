@@ -7,8 +7,9 @@
 //!                     └─generator→ Rust source ─rustc→ model of a crate of your own
 //! ```
 //!
-//! This crate contains all of bryant: the other crates under short names, and the parts of the command `bryant`. A crate that needs only
-//! the equations of its own mechanism uses [`generator`] in its build script and [`runtime`] in its program, and nothing of this crate.
+//! This crate contains all of bryant: the other crates under short names, and the parts of the command `bryant`. A
+//! crate that needs only the equations of its own mechanism uses [`generator`] in its build script and [`runtime`] in
+//! its program, and nothing of this crate.
 //!
 //! | module | what it holds |
 //! |---|---|

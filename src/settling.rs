@@ -1,10 +1,11 @@
 //! Searches a state of rest: a state in which the forces on every body are in balance.
 //!
-//! The model is released from its start while time stands still. Its motion is stopped whenever its kinetic energy has passed a maximum
-//! (kinetic damping, Cundall 1976; the older method is dynamic relaxation, Day 1965). Each stop removes energy, so the search ends in a
-//! position from which nothing moves. This is a state of rest of the unchanged equations, because nothing was added to them. A law that
-//! dissipates only during motion, such as damping or friction by speed, does not act there. Memory of a law, such as a permanent set or a
-//! hold, has the value that it took on the way to rest.
+//! The model is released from its start while time stands still. Its motion is stopped whenever its kinetic energy has
+//! passed a maximum (kinetic damping, Cundall 1976; the older method is dynamic relaxation, Day 1965). Each stop
+//! removes energy, so the search ends in a position from which nothing moves. This is a state of rest of the unchanged
+//! equations, because nothing was added to them. A law that dissipates only during motion, such as damping or friction
+//! by speed, does not act there. Memory of a law, such as a permanent set or a hold, has the value that it took on the
+//! way to rest.
 //!
 //! Strongly damped motions creep, and stopping them does not help. So after some stops the model follows its
 //! accelerations a(q) by q' = a(q), in implicit steps δ = (1/h − ∂a/∂q)⁻¹ a with the model's Jacobian: pseudo-transient

@@ -33,9 +33,11 @@ pub struct Recording {
     pub last_state: Vec<f64>,
     /// The cost of the run, or its failure.
     pub result: Result<Report, RunError>,
-    /// [Responses](bryant_runtime::program::Reading) that the job requests; empty if the run did not reach its end or cannot be trusted.
+    /// [Responses](bryant_runtime::program::Reading) that the job requests; empty if the run did not reach its end or
+    /// cannot be trusted.
     pub answers: Vec<Answer>,
-    /// Samples of the channels that the job wants [kept](bryant_runtime::program::Kept); empty if the run did not reach its end.
+    /// Samples of the channels that the job wants [kept](bryant_runtime::program::Kept); empty if the run did not reach
+    /// its end.
     pub kept: Vec<Vec<f64>>,
     /// Works of effects over time, if the job requests them.
     pub history: Option<History>,
@@ -95,7 +97,8 @@ impl Runs for RustcModel {
     }
 }
 
-/// Runs a job until its end, or until an [interrupt]; `progress` is called from time to time with the time reached \[s\].
+/// Runs a job until its end, or until an [interrupt]; `progress` is called from time to time with the time reached
+/// \[s\].
 pub fn run(model: &dyn Runs, job: &Job, progress: &mut dyn FnMut(f64)) -> Recording {
     run_with_poses(model, job, MOST_INSTANTS, progress)
 }

@@ -137,9 +137,9 @@ pub struct Read {
 /// between quaternions and Bryant angles if necessary. `end` is the time at which the run ends \[s\].
 ///
 /// # Errors
-/// The file cannot be read or is not a state, its time is negative or not before the end of the run, file and model have
-/// no system in common, or only some of the entries of a system are in one of them. The message has the file, the names
-/// and a remedy.
+/// The file cannot be read or is not a state, its time is negative or not before the end of the run, file and model
+/// have no system in common, or only some of the entries of a system are in one of them. The message has the file, the
+/// names and a remedy.
 pub fn read(path: &Path, info: &Info, own: &[f64], end: f64) -> Result<Read, String> {
     let shown = path.display();
     let text =

@@ -10,8 +10,9 @@ use std::fmt::Debug;
 pub trait UserFunctions: Debug + Send + Sync {
     /// True if there is a function for the force with this index in the model.
     fn knows(&self, force: usize) -> bool;
-    /// Calls the function of a force, lane by lane: `arguments` has the words of all arguments, `results` takes the words of all results,
-    /// those of the first lane first. A function that fails writes NaN to all results, and reports the reason elsewhere.
+    /// Calls the function of a force, lane by lane: `arguments` has the words of all arguments, `results` takes the
+    /// words of all results, those of the first lane first. A function that fails writes NaN to all results, and
+    /// reports the reason elsewhere.
     fn call(&self, force: usize, form: Form, arguments: &[f64], results: &mut [f64]);
 }
 
@@ -21,7 +22,8 @@ thread_local! {
 }
 
 impl dyn UserFunctions {
-    /// Calls the function of a force over a scalar that has a [form](Real::FORM). Over any other scalar all results are NaN.
+    /// Calls the function of a force over a scalar that has a [form](Real::FORM). Over any other scalar all results are
+    /// NaN.
     #[inline(always)]
     pub fn call_over<T: Real>(&self, force: usize, arguments: &[T], results: &mut [T]) {
         let Some(form) = T::FORM else {

@@ -1,4 +1,5 @@
-//! Ratios of masses, vanishing moments of inertia, coincident joints: S is far from a multiple of the unit matrix, and may be singular.
+//! Ratios of masses, vanishing moments of inertia, coincident joints: S is far from a multiple of the unit matrix, and
+//! may be singular.
 
 mod singular;
 

@@ -9,7 +9,8 @@ use std::path::Path;
 /// Reads a table, with fields between `,`, `;` or tabs, as in the tables of curves. An empty cell is a missing sample.
 ///
 /// # Errors
-/// The file cannot be read, a cell is not a number, a line has too many or too few fields, or times are not at equal intervals.
+/// The file cannot be read, a cell is not a number, a line has too many or too few fields, or times are not at equal
+/// intervals.
 pub fn read(path: &Path) -> Result<Recording, ReadError> {
     let text = text_of(path)?;
     let wrong = |fault: Fault| {

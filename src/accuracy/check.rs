@@ -1,8 +1,9 @@
 //! Checks a run by a second run, which uses another formula and a tenth of the tolerance.
 //!
-//! A run at the default tolerance promises an error of at most [`PROMISED`] in every output, relative to the output's largest magnitude. If
-//! the second run differs by more, in an output or in a response (relative to the response itself), the run is repeated, each time at a
-//! tenth of the tolerance and by the other formula, until two successive runs agree. The sharper of the two is the result.
+//! A run at the default tolerance promises an error of at most [`PROMISED`] in every output, relative to the output's
+//! largest magnitude. If the second run differs by more, in an output or in a response (relative to the response
+//! itself), the run is repeated, each time at a tenth of the tolerance and by the other formula, until two successive
+//! runs agree. The sharper of the two is the result.
 //!
 //! A quantity that is exactly 0, such as the velocity of a ball at rest, decreases with the tolerance, and two runs
 //! never agree on it. An output counts as such a quantity if its size has fallen below a hundredth of that in the first

@@ -1,4 +1,5 @@
-//! The head injury criterion: HIC = max (t₂ − t₁) [ 1/(t₂ − t₁) ∫ a dt ]^2.5, a in g, t₂ − t₁ at most 15 ms \[SAE J1727\].
+//! The head injury criterion: HIC = max (t₂ − t₁) [ 1/(t₂ − t₁) ∫ a dt ]^2.5, a in g, t₂ − t₁ at most 15 ms \[SAE
+//! J1727\].
 //!
 //! The acceleration is linear between its samples. Windows begin and end at samples; but if a window of the largest
 //! length begins or ends at a sample, its other end may be between two samples.
@@ -9,8 +10,8 @@ const G: f64 = 9.806_65;
 /// The longest window of HIC15 \[s\].
 pub const WINDOW: f64 = 15e-3;
 
-/// HIC of accelerations \[m/s²\] at increasing times \[s\], over windows of at most `window` \[s\]; `None` if there are fewer than two
-/// samples, or one is not finite.
+/// HIC of accelerations \[m/s²\] at increasing times \[s\], over windows of at most `window` \[s\]; `None` if there are
+/// fewer than two samples, or one is not finite.
 pub fn hic(times: &[f64], accelerations: &[f64], window: f64) -> Option<f64> {
     let samples = times.len().min(accelerations.len());
     let finite = |values: &[f64]| values.iter().take(samples).all(|v| v.is_finite());

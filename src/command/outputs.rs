@@ -125,8 +125,8 @@ fn exists_on_windows(option: &str, path: &Path) -> Result<(), Error> {
 
 /// True if a path stands for standard output.
 pub fn is_standard(path: &Path) -> bool {
-    // other names of standard output lead to standard error here, because standard output was moved out of reach of user
-    // forces
+    // other names of standard output lead to standard error here, because standard output was moved out of reach of
+    // user forces
     ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"]
         .iter()
         .any(|name| path == Path::new(name))

@@ -221,8 +221,8 @@ fn verdict_of(value: f64, limit: f64) -> String {
     }
 }
 
-/// The mode of Nij at its maximum, with its time. The filtered signals are the shear force, the axial force and the moment of the neck's
-/// load cell; their samples are `interval` \[s\] apart, and the first is at `first` \[s\].
+/// The mode of Nij at its maximum, with its time. The filtered signals are the shear force, the axial force and the
+/// moment of the neck's load cell; their samples are `interval` \[s\] apart, and the first is at `first` \[s\].
 pub fn mode([fx, fz, my]: [&[f64]; 3], critical: &Neck, [first, interval]: [f64; 2]) -> String {
     let mut worst = (0.0, String::new());
     for (index, ((fx, fz), my)) in fx.iter().zip(fz).zip(my).enumerate() {

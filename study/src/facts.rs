@@ -1,4 +1,5 @@
-//! The facts that a study must know about a model: its parameters, its outputs, and the run settings that the study does not give.
+//! The facts that a study must know about a model: its parameters, its outputs, and the run settings that the study
+//! does not give.
 
 use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::model::scene::Scene;

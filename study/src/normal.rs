@@ -1,5 +1,5 @@
-//! The normal distribution: Φ(z) = ½ erfc(−z/√2), and its inverse by Wichura's rational functions, relative error about 1e-16
-//! \[M. J. Wichura, algorithm AS 241 (PPND16), Applied Statistics 37, 477 (1988)\].
+//! The normal distribution: Φ(z) = ½ erfc(−z/√2), and its inverse by Wichura's rational functions, relative error about
+//! 1e-16 \[M. J. Wichura, algorithm AS 241 (PPND16), Applied Statistics 37, 477 (1988)\].
 
 use std::f64::consts::FRAC_1_SQRT_2;
 

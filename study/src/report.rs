@@ -1,4 +1,5 @@
-//! The report of a complete study: `summary.json`, `summary.txt`, and the pictures `scatter` and `tornado` as SVG or PNG.
+//! The report of a complete study: `summary.json`, `summary.txt`, and the pictures `scatter` and `tornado` as SVG or
+//! PNG.
 
 use crate::picture::{scatter, tornado};
 use crate::results::{Results, ResultsError};

@@ -136,7 +136,8 @@ impl<'a> Rules<'a> {
                 });
             }
         }
-        // a rule with more classes wins, then a rule with an element; among equal rules the later one, because sorting is stable
+        // a rule with more classes wins, then a rule with an element; among equal rules the later one, because sorting
+        // is stable
         rules.sort_by_key(|rule| (rule.classes.len(), !rule.element.is_empty()));
         Ok(Rules(rules))
     }

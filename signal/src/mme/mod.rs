@@ -5,8 +5,8 @@
 //! samples. `NOVALUE` stands for an unknown value; as a sample it is NaN. The samples of a channel are at equal
 //! intervals from the time of the first one (`implicit`), or at the times that another channel lists (`explicit`).
 //!
-//! Text is read as UTF-8, or as ISO 8859-1 if it is not valid UTF-8. Numbers are written with all digits, so that they are read back
-//! exactly.
+//! Text is read as UTF-8, or as ISO 8859-1 if it is not valid UTF-8. Numbers are written with all digits, so that they
+//! are read back exactly.
 
 /// Largest number of channels of a test, because the extension of a channel file has three digits.
 pub const MOST_CHANNELS: usize = 999;

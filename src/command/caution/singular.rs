@@ -243,7 +243,8 @@ impl Several {
         })
     }
 
-    /// H, one column for each degree of freedom: the velocity of the element's origin divided by `LENGTH`, and its angular velocity.
+    /// H, one column for each degree of freedom: the velocity of the element's origin divided by `LENGTH`, and its
+    /// angular velocity.
     fn columns(&self, q: &[f64]) -> Vec<[f64; 6]> {
         let mut rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let mut slid = [0.0; 3];

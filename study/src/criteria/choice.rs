@@ -72,7 +72,8 @@ pub fn ambiguous(place: &str, names: &[&str]) -> String {
     format!("several channels could be {place}: {}", names.join(", "))
 }
 
-/// The seat of an occupant in words; "" if the position says none [ISO/TS 13499 RED B 1.6.2, as in the program pyisomme].
+/// The seat of an occupant in words; "" if the position says none [ISO/TS 13499 RED B 1.6.2, as in the program
+/// pyisomme].
 pub fn seat(occupant: &str) -> &'static str {
     match occupant.chars().nth(1) {
         Some('1') => "front left",

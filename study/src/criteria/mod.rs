@@ -1,4 +1,5 @@
-//! Injury criteria: their names, the places of a dummy that they use, their filters and formulas, and the limits of regulations.
+//! Injury criteria: their names, the places of a dummy that they use, their filters and formulas, and the limits of
+//! regulations.
 //!
 //! | file | what |
 //! |---|---|
@@ -76,8 +77,8 @@ const PURE: (&str, f64) = ("", 1.0);
 const MM: (&str, f64) = ("mm", 1e-3);
 const CLIP: What = What::Clip { duration: 3e-3 };
 
-/// Critical angular velocities of BrIC \[rad/s\]: the means of the values by two measures of strain \[Takhounts 2013, as in the program
-/// pyisomme\].
+/// Critical angular velocities of BrIC \[rad/s\]: the means of the values by two measures of strain \[Takhounts 2013,
+/// as in the program pyisomme\].
 const ROTATION: [f64; 3] = [66.25, 56.45, 42.87];
 
 /// All criteria.

@@ -1,6 +1,7 @@
 //! The places where a dummy measures.
 
-/// A place: its name, the channel codes of ISO-MME that belong to it, with `?` for any character and `|` between two, and its SI unit.
+/// A place: its name, the channel codes of ISO-MME that belong to it, with `?` for any character and `|` between two,
+/// and its SI unit.
 pub struct Place {
     /// The name after `--place`; under `criteria` in a model it has `_` in place of `-`.
     pub name: &'static str,

@@ -1,5 +1,5 @@
-//! Direction numbers of Sobol' sequences: Joe and Kuo's set `new-joe-kuo-6.21201`, its first 256 dimensions, as scipy 1.17
-//! ships it \[S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30, 2635 (2008)\].
+//! Direction numbers of Sobol' sequences: Joe and Kuo's set `new-joe-kuo-6.21201`, its first 256 dimensions, as scipy
+//! 1.17 ships it \[S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30, 2635 (2008)\].
 
 /// Number of dimensions that have direction numbers.
 pub const DIMENSIONS: usize = 256;

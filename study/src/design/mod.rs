@@ -1,4 +1,5 @@
-//! The values of a row. They depend only on the study and the row's index, so that any row may be run anywhere and at any time.
+//! The values of a row. They depend only on the study and the row's index, so that any row may be run anywhere and at
+//! any time.
 //!
 //! ```text
 //! row ─design→ u ∈ (0, 1)^d ─quantiles→ parameters        row ─mixed radix→ grid        row → list
@@ -62,7 +63,8 @@ impl<'a> Sampler<'a> {
     /// A sampler for a study.
     ///
     /// # Errors
-    /// There are more parameters than Sobol' sequences have numbers for; a study that was read from a file does not have this error.
+    /// There are more parameters than Sobol' sequences have numbers for; a study that was read from a file does not
+    /// have this error.
     pub fn new(study: &'a Study) -> Result<Self, TooManyParameters> {
         let d = study.varied.len();
         let points = match &study.plan {

@@ -1,5 +1,5 @@
-//! The identity of results: SHA-256 of the checked study, of the model, of the program, of the arithmetic, and of the definition of
-//! responses. Results with different identities are never mixed.
+//! The identity of results: SHA-256 of the checked study, of the model, of the program, of the arithmetic, and of the
+//! definition of responses. Results with different identities are never mixed.
 
 use super::part;
 use crate::digest::hexadecimal;

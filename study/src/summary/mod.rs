@@ -1,7 +1,8 @@
 //! The summary of the results: statistics of each response, and the parameters that it depends on.
 //!
-//! The summary takes one pass over the blocks in their order, and is the same whoever makes it. Quantiles, polynomials and pictures need
-//! many values at once; if there are too many rows, they use a sample of rows that is drawn by a hash of the index.
+//! The summary takes one pass over the blocks in their order, and is the same whoever makes it. Quantiles, polynomials
+//! and pictures need many values at once; if there are too many rows, they use a sample of rows that is drawn by a hash
+//! of the index.
 
 pub mod chaos;
 pub mod errors;

@@ -84,7 +84,8 @@ fn numbers(responses: &[About]) -> Vec<Vec<String>> {
     rows
 }
 
-/// A table with a row for each parameter: its shares of the variance of a response, and its correlation with the response.
+/// A table with a row for each parameter: its shares of the variance of a response, and its correlation with the
+/// response.
 fn indices(
     sensitivity: &Sensitivity,
     correlations: &[f64],

@@ -1,5 +1,5 @@
-//! The table as Apache Parquet: plain columns, with the same bytes whenever it is written. Its metadata have the units and the identity of
-//! the results (`units`, `identity`, `model`, `version`, `arithmetic`).
+//! The table as Apache Parquet: plain columns, with the same bytes whenever it is written. Its metadata have the units
+//! and the identity of the results (`units`, `identity`, `model`, `version`, `arithmetic`).
 
 mod file;
 mod thrift;

@@ -1,5 +1,6 @@
-//! The part of Thrift's compact protocol (<https://github.com/apache/thrift/blob/master/doc/specs/thrift-compact-protocol.md>) that the
-//! metadata of Parquet need.
+//! The part of Thrift's compact protocol
+//! (<https://github.com/apache/thrift/blob/master/doc/specs/thrift-compact-protocol.md>) that the metadata of Parquet
+//! need.
 
 /// Fields of a structure, by increasing ids.
 #[derive(Default)]
