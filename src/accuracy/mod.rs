@@ -8,23 +8,14 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`setting`], [`plan`], [`schedule`] | one way to compute a motion; all ways that are compared; the order in which they are run |
-//! | [`setting`], [`plan`], [`schedule`] | one way to compute a motion; all ways that are compared; the order in which
-//! they are run |
 //! | [`mod@reference`], [`closed_form`] | the true motion; `elliptic`: functions of a closed form |
-//! | [`norm`], [`reading`], [`hic`] | errors of the state, and of numbers that engineers read off |
 //! | [`norm`], [`reading`], [`hic`] | errors of the state, and of numbers that engineers read off |
 //! | [`run`], [`trajectory`] | one run of a setting; its samples |
 //! | [`point`], [`study`] | the result of one setting; the results of all of them |
-//! | [`point`], [`study`] | the result of one setting; the results of all of them |
-//! | [`front`], [`conclusion`] | the best settings, and a sentence about them |
 //! | [`front`], [`conclusion`] | the best settings, and a sentence about them |
 //! | [`fastest`] | the motion that limits the steps of explicit methods |
-//! | [`fastest`] | the motion that limits the steps of explicit methods |
-//! | [`report`] | a study as text, CSV, JSON and Markdown |
 //! | [`report`] | a study as text, CSV, JSON and Markdown |
 //! | [`target`] | a run of a requested accuracy |
-//! | [`target`] | a run of a requested accuracy |
-//! | [`check`] | a run of the promised accuracy, checked by a second run |
 //! | [`check`] | a run of the promised accuracy, checked by a second run |
 //! | [`cause`] | why two runs do not agree |
 //! | [`exchange`], [`operations`], [`environment`] | cubics in place of lines; the cost of an evaluation; what times depend on |

@@ -5,8 +5,6 @@
 //! |---|---|---|
 //! | position, angle | difference | the range that it goes through in the run |
 //! | quaternion, as one entry | angle of the rotation between the two orientations (q and −q are equal) | the largest angle from the orientation at the start |
-//! | quaternion, as one entry | angle of the rotation between the two orientations (q and −q are equal) | the largest
-//! angle from the orientation at the start |
 //! | velocity, angular velocity | difference | its largest magnitude |
 //! | state of a force law | difference | its largest magnitude |
 //!

@@ -4,11 +4,7 @@
 //! |---|---|---|---|
 //! | every formula with fixed steps | half decades | `f64`, and decades in `f32` | located and, by decades, passed |
 //! | every formula with an error estimate | half decades of tolerances | as above, in `f32` not below its rounding | as above |
-//! | every formula with an error estimate | half decades of tolerances | as above, in `f32` not below its rounding | as
-//! above |
 //! | the default method of runs, which changes to the Rosenbrock method where the scene is stiff | half decades of tolerances | `f64` | as above |
-//! | the default method of runs, which changes to the Rosenbrock method where the scene is stiff | half decades of
-//! tolerances | `f64` | as above |
 //! | some, with fast sine and cosine | decades | `fast` | located |
 //! | the same, with curves exchanged | decades | `f64` | located |
 //!

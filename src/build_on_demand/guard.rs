@@ -2,17 +2,10 @@
 //! with an exit code.
 //!
 //! | the user function | what happens |
-//! | the user function | what happens |
 //! |---|---|
 //! | calls `exit` | an exit handler reports it and ends the program with exit code 3 |
-//! | calls `exit` | an exit handler reports it and ends the program with exit code 3 |
 //! | aborts, overflows its stack, reads memory that is not its own | a signal handler, which has its own stack, reports it and ends the program with exit code 3 |
-//! | aborts, overflows its stack, reads memory that is not its own | a signal handler, which has its own stack, reports
-//! it and ends the program with exit code 3 |
 //! | does not return | a watching thread reports it after ten seconds, or one second after Ctrl-C, and ends the program with exit code 3 |
-//! | does not return | a watching thread reports it after ten seconds, or one second after Ctrl-C, and ends the program
-//! with exit code 3 |
-//! | prints | the output goes to standard error, because standard output is for results |
 //! | prints | the output goes to standard error, because standard output is for results |
 //!
 //! Each thread has a flag that names the user function that it evaluates.

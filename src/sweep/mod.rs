@@ -5,7 +5,6 @@
 //! | `plan` | the settings of a study for the runtime: duration, accuracy, responses |
 //! | `engine` | runs rows of a model |
 //! | `alone` | runs a row of a stiff scene alone |
-//! | `alone` | runs a row of a stiff scene alone |
 //! | `refusal` | why a row of parameters is refused, or why its run cannot be trusted |
 //! | `kept` | the data that a folder of results needs for merging |
 
