@@ -61,7 +61,7 @@ pub fn model(bundled: &Bundled) -> Result<Model, Diagnostics> {
     scene(bundled).map(|scene| scene.model)
 }
 
-/// The model of a bundled text, with what the text says and where.
+/// The model of a bundled text, and the places of its items in the text.
 ///
 /// # Errors
 /// As [`model`].

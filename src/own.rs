@@ -84,7 +84,7 @@ const OF_FORMATS: [&str; 38] = [
     "zip", "rs",
 ];
 
-/// Number of bytes at the beginning of a file that are read; at its end, a part of these.
+/// Number of bytes that are read at the beginning of a file; at its end, 1/256 of this number.
 const LOOKED_AT: u64 = 1 << 24;
 /// The first heading of a table of a run, in each system of units.
 const FIRST_HEADINGS: [&str; 2] = ["\"time [s]\"", "\"time [ms]\""];

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub struct Found {
     /// The model.
     pub model: Model,
-    /// The model with the text that describes it.
+    /// The description that was read: the model, its files, and the places of its items in the text.
     pub scene: Scene,
     /// The files that it was read from; empty for a bundled model.
     pub files: Vec<PathBuf>,

@@ -104,7 +104,7 @@ pub struct OutputFact {
     /// For kinematics of a body: true for the length of a vector, false for one of its components.
     #[serde(default)]
     pub resultant: Option<bool>,
-    /// Whether it has the axes and signs of SAE J211-1 and ISO 6487.
+    /// True if it has the axes and signs of SAE J211-1 and ISO 6487.
     #[serde(default)]
     pub standard: bool,
     /// A remark on the place where it measures.

@@ -54,7 +54,7 @@ pub enum ResultsError {
     /// Blocks are damaged.
     #[error("{}\n  help: run the study again on this folder; damaged blocks are run anew", list(.0))]
     Damaged(
-        /// The blocks, and what is wrong with them.
+        /// The blocks, each with its error.
         Vec<(u64, PartError)>,
     ),
     /// An error of the folder.

@@ -42,7 +42,7 @@ pub enum Progress {
 pub struct Report {
     /// Rows of this shard.
     pub rows: u64,
-    /// Rows of these that were found in the folder.
+    /// Rows of this shard that were in the folder already.
     pub found: u64,
     /// Damaged blocks that were found.
     pub damaged: Vec<PathBuf>,

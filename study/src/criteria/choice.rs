@@ -285,7 +285,7 @@ fn has_twins(candidates: &[Candidate<'_>], all: &[usize]) -> bool {
     all.iter().enumerate().any(twin)
 }
 
-/// Whether a code matches a pattern.
+/// True if a code matches a pattern.
 fn matches(code: &str, pattern: &str) -> bool {
     let pattern = pattern.trim().to_ascii_uppercase();
     let (begin, is_long_enough) = match pattern.split_once('*') {

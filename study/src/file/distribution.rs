@@ -228,7 +228,7 @@ fn bell(reader: &Reader, at: At<'_>, fact: &ParameterFact, kind: &str) -> Option
     Some(distribution)
 }
 
-/// Whether all possible values lie within the bounds of the parameter.
+/// Checks that all possible values lie within the bounds of the parameter.
 fn inside(reader: &Reader, at: At<'_>, fact: &ParameterFact, found: [f64; 2]) -> bool {
     if fact.allows(found) {
         return true;
@@ -267,7 +267,7 @@ fn inside(reader: &Reader, at: At<'_>, fact: &ParameterFact, found: [f64; 2]) ->
     false
 }
 
-/// Whether all these values lie within the bounds of the parameter.
+/// Checks that all `values` lie within the bounds of the parameter.
 fn allowed(reader: &Reader, at: At<'_>, fact: &ParameterFact, values: &[f64]) -> bool {
     let mut sound = true;
     for (index, value) in values.iter().enumerate() {
