@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Library {
     curves: Vec<Table>,
-    /// `None` if the model calls no function of the user.
+    /// The functions of the user; `None` if the model calls none.
     users: Option<Arc<dyn UserFunctions>>,
 }
 

@@ -294,7 +294,7 @@ impl Pendulum {
 }
 
 impl Flight {
-    /// x, z \[m\], φ \[rad\], ẋ, ż \[m/s\], φ̇ \[rad/s\] of the reference joint and the element.
+    /// The state: x, z \[m\], φ \[rad\], ẋ, ż \[m/s\], φ̇ \[rad/s\] of the reference joint and the element.
     fn state(&self, t: f64) -> [f64; 6] {
         let phi = self.angle + self.rate * t;
         let [x, z] = turned(self.arm, phi);

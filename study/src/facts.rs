@@ -174,7 +174,7 @@ impl ModelFacts {
         }
     }
 
-    /// The message for a parameter that cannot be varied, and what to do.
+    /// The message for a parameter that cannot be varied, and the remedy.
     pub fn no_parameter(&self, name: &str) -> (String, String) {
         if let Some((_, why)) = self.unused.iter().find(|(unused, _)| unused == name) {
             let message = format!("the parameter {} changes nothing: {why}", quoted(name));

@@ -27,7 +27,7 @@ pub fn quantile(p: f64) -> f64 {
     z.copysign(q)
 }
 
-/// The quantile u of the distribution truncated to the interval from `low` to `high`; both may be infinite.
+/// The quantile u of the normal distribution truncated to the interval from `low` to `high`; both may be infinite.
 pub fn truncated(u: f64, low: f64, high: f64) -> f64 {
     let mass = between(low, high);
     // each half is computed from its own tail, so that neither loses digits

@@ -232,7 +232,7 @@ impl Responses {
         text
     }
 
-    /// `[{"response", "value", "unit", "difference"}, …]`; an unknown value is `null`.
+    /// The responses as JSON: `[{"response", "value", "unit", "difference"}, …]`; an unknown value is `null`.
     pub fn json(&self, recording: &Recording, errors: &ErrorReport) -> Value {
         let each = self
             .values(recording, errors)

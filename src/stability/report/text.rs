@@ -68,7 +68,7 @@ fn cut(text: String, width: usize) -> String {
     }
 }
 
-/// "41 cases, 130 checks, all bounds kept", or the number of bounds that were missed.
+/// A line such as "41 cases, 130 checks, all bounds kept", or with the number of bounds that were missed.
 pub fn summary(outcomes: &[Outcome]) -> String {
     let checks = || outcomes.iter().flat_map(|outcome| &outcome.checks);
     let missed = checks().filter(|check| !check.holds()).count();

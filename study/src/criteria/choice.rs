@@ -257,7 +257,8 @@ pub fn known(place: &str, of: &str) -> Result<(), String> {
     }
 }
 
-/// The part of the dummy whose channels belong together: that of `head-x` is `head`.
+/// The part of the dummy that a place belongs to, such as `head` for `head-x`; the channels of a part belong to one
+/// sensor.
 pub fn part(place: &str) -> &str {
     match place {
         "head-excursion" | "chest-deflection" | "femur-left" | "femur-right" => place,

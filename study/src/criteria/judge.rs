@@ -1,4 +1,4 @@
-//! The criteria of a model: the outputs that they are read off.
+//! Finds the criteria of a model, and the outputs from which they are computed.
 
 use super::choice::{Asked, Candidate, Found, ambiguous, choose, is_pattern, known};
 use super::limits::{self, Limits};

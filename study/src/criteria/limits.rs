@@ -14,7 +14,7 @@ pub struct Limits {
     pub dummy: String,
     /// The source of the numbers.
     pub source: String,
-    /// The dummy in channel codes, characters 11 and 12; `None` if that is not known.
+    /// The code of the dummy, characters 11 and 12 of channel codes; `None` if it is not known.
     pub code: Option<String>,
     /// Filter classes by criterion where they differ from those of SAE J211-1.
     #[serde(default)]

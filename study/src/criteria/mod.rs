@@ -38,7 +38,7 @@ pub struct Criterion {
     measure: Measure,
 }
 
-/// How a criterion is formed from its signals, which are given by the names of their places.
+/// How a criterion is computed from signals, which are named by their places.
 enum Measure {
     /// A response of a resultant acceleration.
     Resultant(&'static str, What),
@@ -46,11 +46,11 @@ enum Measure {
     Of(&'static str, Combination, What),
     /// The neck injury criterion.
     Nij,
-    /// The moment about the joint of head and neck that bends the head back.
+    /// The moment about the joint of head and neck that bends the head backwards.
     NeckExtension,
     /// The viscous criterion of the chest's deflection.
     Viscous,
-    /// The tibia index; the name is the beginning of the names of its places.
+    /// The tibia index; the text is the common beginning of the names of its places.
     Tibia(&'static str),
     /// A criterion of the angular velocity of the head.
     Rotation,

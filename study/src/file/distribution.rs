@@ -1,4 +1,4 @@
-//! The value of a parameter in `parameters`: an interval, a distribution, or some values.
+//! Reads the value of a parameter in `parameters`: an interval, a distribution, or a list of values.
 
 use super::reader::{Reader, optional};
 use crate::distribution::Distribution;

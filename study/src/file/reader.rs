@@ -9,7 +9,7 @@ use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::{Diagnostic, Diagnostics};
 use std::cell::RefCell;
 
-/// Up to this number, every integer has a distinct f64.
+/// Number up to which an `f64` represents every integer exactly.
 const EXACT: f64 = (1u64 << 53) as f64;
 
 /// Reads values and collects problems with them.

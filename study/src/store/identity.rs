@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 const LARGEST_BLOCK: u64 = 4096;
 /// Least number of rows in a block, if the study has that many.
 const SMALLEST_BLOCK: u64 = 16;
-/// Number of blocks of a small study, so that there is work for every thread.
+/// Number of blocks of a study if the sizes of blocks allow it: enough to give every thread work.
 const BLOCKS: u64 = 256;
 
 /// The program that computes the results, without the study.

@@ -4,7 +4,7 @@
 //! magic 8 | identity 64 | first row u64 | rows u32 | responses u32
 //! status u8 × rows | steps u32 × rows | reached f64 × rows | error f64 × rows | f64 × rows, per response
 //! reason u16 × rows, 0 for none, 1 for the first of: (length u32 | UTF-8) …
-//! SHA-256 of all that 32
+//! SHA-256 of all bytes above 32
 //! ```
 //!
 //! Numbers are little-endian; all NaN have the same bytes.

@@ -15,7 +15,7 @@ pub struct WriteError {
 }
 
 impl WriteError {
-    /// The first remedy, as the beginning of a sentence.
+    /// The remedy for the failure, as the beginning of a sentence that the caller completes.
     pub fn remedy(&self) -> &'static str {
         match self.source.kind() {
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {

@@ -5,7 +5,7 @@ use crate::study::Study;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// The median is taken of at most this many numbers.
+/// Largest number of estimates from which the median is computed.
 const MOST: u64 = 100_000;
 
 /// Estimated relative errors of the finished rows, see docs/studies.md.

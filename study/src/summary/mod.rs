@@ -140,7 +140,7 @@ impl<'s> Totals<'s> {
         }
     }
 
-    /// Adds the run of a row: its parameters `x`, and the `k`-th of these outcomes.
+    /// Adds the run of a row: its parameters `x`, and the outcome with index `k`.
     fn add(&mut self, results: &Results<'_>, row: u64, x: &[f64], outcomes: &Outcomes, k: usize) {
         let (run, y) = (&outcomes.runs[k], outcomes.of(k));
         self.ends[run.status as usize] += 1;
