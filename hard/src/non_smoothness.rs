@@ -351,7 +351,7 @@ fn ten_contacts(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "steps of both × tolerance × (1 + v) ω, for 2 s",
         );
         let angles = ten.state("beam/body.phi")?.into_iter().map(f64::abs);
-        // Feet at ±x carry equal loads up to rounding: moments of ε k δ x tilt the box, and the feet resist.
+        // Feet at ±x carry equal loads up to rounding: moments of ε k δ x tilt the beam, and the feet resist.
         let moment = f64::EPSILON * 1e6 * 0.02;
         let stiffness: f64 = (0..10)
             .map(|i| 1e5 * (0.2 * f64::from(i) - 0.9).powi(2))

@@ -24,7 +24,7 @@ pub const INTERRUPTED: &str = "not reached: interrupted by Ctrl-C";
 /// Is added to the rank of a setting that is run again; it exceeds the distance of any cost from the front.
 const LATER: f64 = 1e3;
 
-/// Time limit of a run whose time cannot be predicted, as a share of the limit of all runs.
+/// Time limit of a run whose time cannot be predicted, as a share of the limit of any run.
 const FIRST: f64 = 0.25;
 
 /// Runs the settings of a study within limits of time.

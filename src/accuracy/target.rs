@@ -136,9 +136,9 @@ impl Difference {
         }
     }
 
-    /// Adds the differences of the responses `asked` of both runs. Two kinds of responses do not count: those of a
-    /// signal that has fallen below a hundredth of its size in the `first` run, and those of a single output that never
-    /// exceeds its floor.
+    /// Adds the differences of the responses `asked` of both runs. Some responses do not count: those of signals that
+    /// are noise, those of signals that have fallen below a hundredth of their size in the `first` run, and those of a
+    /// single output that never exceeds its floor.
     pub fn with_responses(
         self,
         asked: &[Asked],

@@ -247,7 +247,7 @@ struct Bench<'a> {
     users: Option<Arc<UserForces>>,
     /// The engines of the scene and of its outputs.
     bases: [Engine; 2],
-    /// Number of variants that were timed so far: effects, and the scene with all effects in.
+    /// Number of effects that were timed so far.
     timed: usize,
 }
 

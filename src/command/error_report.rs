@@ -201,7 +201,8 @@ impl ErrorReport {
         })
     }
 
-    /// The outputs that differ most, a line each; empty if there is only one.
+    /// The outputs that differ most, a line each, then a line for all others; empty if no output differs noticeably, or
+    /// if there is only one.
     fn by_output(&self, difference: &Difference) -> Vec<String> {
         let mut apart: Vec<(&String, f64)> = self
             .outputs

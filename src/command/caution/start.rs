@@ -141,7 +141,8 @@ impl<'a> Start<'a> {
     }
 
     /// The height of the centre of an ellipsoid over a plane that acts at the start, and how far the ellipsoid reaches
-    /// towards the plane \[m\]. `None` if the ellipsoid is beside the plane, and for two ellipsoids.
+    /// towards the plane \[m\]. `None` if the contact does not act at the start, if the ellipsoid is beside the plane,
+    /// and for two ellipsoids.
     fn place(&self, contact: &Contact, active: Active) -> Option<(f64, f64)> {
         let Against::Plane(plane) = &contact.against else {
             return None;
