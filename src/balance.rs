@@ -1,9 +1,10 @@
-//! The balance of energy of a run, for people: kinetic energy at the end = at the start + work of each effect + gap.
+//! The balance of energy of a run, for people: kinetic energy at the end = kinetic energy at the start + work of each
+//! effect + gap.
 
 use bryant_runtime::program::{Energy, Header};
 use serde_json::{Value, json};
 
-/// Whether the balance closes, in a line: the energy that is not accounted for, and the largest in it.
+/// A line that says how well the balance closes: the gap, and the largest energy in the balance.
 pub fn closes(energy: &Energy) -> String {
     let largest = largest(energy);
     if largest == 0.0 {
@@ -19,7 +20,7 @@ fn largest(energy: &Energy) -> f64 {
     works.max(energy.start).max(energy.end)
 }
 
-/// An energy with two or three digits, in the multiple of a joule that is easiest to read.
+/// An energy with two or three digits, in J with the prefix that is easiest to read.
 fn joules(energy: f64) -> String {
     let multiples = [
         (1e6, "MJ"),
@@ -28,7 +29,7 @@ fn joules(energy: f64) -> String {
         (1e-3, "mJ"),
         (1e-6, "µJ"),
     ];
-    // what three digits round up to belongs to the next multiple
+    // a value that rounds up to 1000 belongs to the next prefix
     match multiples
         .into_iter()
         .find(|(size, _)| energy >= 0.9995 * size)
@@ -43,7 +44,7 @@ fn joules(energy: f64) -> String {
     }
 }
 
-/// The balance as a table: a line for each effect; the last line has no line end.
+/// The balance as a table: a line for each effect. The last line has no line end.
 pub fn text(header: &Header, energy: &Energy) -> String {
     let named = header
         .powers
@@ -74,13 +75,13 @@ pub fn text(header: &Header, energy: &Energy) -> String {
     text
 }
 
-/// The number rounded to this many decimals; zero has no sign.
+/// The number rounded to `decimals` decimals; zero has no sign.
 fn rounded(value: f64, decimals: usize) -> f64 {
     let scale = bryant_picture::chart::power_of_ten(decimals as i32);
     (value * scale).round() / scale + 0.0
 }
 
-/// Digits behind the point that show four digits of the largest value.
+/// Number of decimals that show four digits of `largest`.
 fn decimals(largest: f64) -> usize {
     if largest > 0.0 {
         (3 - libm::log10(largest).floor() as i32).clamp(0, 9) as usize

@@ -1,4 +1,4 @@
-//! The models that come with the program, as the texts that describe them.
+//! The models that are part of the program, as texts.
 
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_generator::model::{Model, Scene, scene};
@@ -6,18 +6,18 @@ use std::io;
 use std::path::Path;
 use std::sync::LazyLock;
 
-/// All files of the bundled models, by their path in `models/`.
+/// All files of the bundled models: their path in `models/`, and their text.
 static FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
-/// Directories of the scenes of applications and of certification tests.
+/// Directories of models for applications and for certification tests.
 const SCENES: [&str; 2] = ["applications/", "certification/"];
 
 /// A bundled model.
 #[derive(Clone, Copy, Debug)]
 pub struct Bundled {
-    /// Its name, and that of its file without the extension.
+    /// Its name, which is that of its file without directory and extension.
     pub name: &'static str,
-    /// Its file, by the path in `models/`.
+    /// The path of its file in `models/`.
     pub file: &'static str,
     /// Its YAML.
     pub yaml: &'static str,
@@ -56,12 +56,12 @@ pub fn file(path: &Path) -> Option<&'static str> {
 /// The model that a bundled text describes.
 ///
 /// # Errors
-/// Every problem of the text. Tests read all bundled texts, so there is none.
+/// Every problem of the text. There is none, because tests read all bundled texts.
 pub fn model(bundled: &Bundled) -> Result<Model, Diagnostics> {
     scene(bundled).map(|scene| scene.model)
 }
 
-/// The same, together with the items that its text mentions and their places.
+/// The model of a bundled text, and the places of its items in the text.
 ///
 /// # Errors
 /// As [`model`].

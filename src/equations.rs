@@ -25,10 +25,10 @@ pub fn with_users(model: &Model, users: Option<Arc<UserForces>>) -> Result<Engin
     of_lists(Config::new().matrices(false).lists(model), users)
 }
 
-/// The same for lists that exist already.
+/// Makes an engine from the lists of a model. `users` are the functions of its user forces.
 ///
 /// # Errors
-/// As [`with_users`].
+/// Those of [`with_users`].
 pub fn of_lists(lists: Lists, users: Option<Arc<UserForces>>) -> Result<Engine, Error> {
     let users = users.map(|users| users as Arc<dyn UserFunctions>);
     Engine::with_functions(lists, users)

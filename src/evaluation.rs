@@ -1,4 +1,5 @@
-//! S, r_s, r_k and v̇ at one state, by evaluation of the graph of the equations. Only functions of user forces are compiled.
+//! S, r_s, r_k and v̇ at one state, by evaluating the graph of the equations. Only functions of user forces are
+//! compiled.
 
 use bryant_engine::UserFunctions;
 use bryant_generator::equations::{Equations, LawState, Variable};
@@ -12,21 +13,21 @@ mod functions;
 pub(crate) use functions::stop;
 pub use functions::{functions, functions_with};
 
-/// Time, coordinates and velocities, in the order of [`Equations::coordinates`] and [`Equations::velocities`].
+/// A state. Coordinates and velocities are in the order of [`Equations::coordinates`] and [`Equations::velocities`].
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
-    /// \[s\]
+    /// Time \[s\].
     #[serde(default)]
     pub t: f64,
     /// Coordinates.
     pub q: Vec<f64>,
     /// Velocities.
     pub v: Vec<f64>,
-    /// States of force laws; if none are given, those at the start of a run.
+    /// Continuous states of force laws; if none are given, those at the start of a run.
     #[serde(default)]
     pub z: Vec<f64>,
-    /// Memory of force laws; if none is given, that at the start of a run.
+    /// Memory of force laws; if none are given, the values at the start of a run.
     #[serde(default)]
     pub m: Vec<f64>,
 }
@@ -34,7 +35,7 @@ pub struct State {
 /// The equations of motion S v̇ = r_s + r_k at one state.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Evaluation {
-    /// Where: what `--at` reads.
+    /// The state, in the form that `--at` reads.
     pub state: State,
     /// Names of q.
     pub coordinates: Vec<String>,
@@ -54,19 +55,19 @@ pub struct Evaluation {
 /// A state that does not fit the model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StateError {
-    /// There are too few numbers or too many.
+    /// A list has too few or too many numbers.
     #[error("\"{key}\" has {given} numbers, but there are {} {what}: {}", .names.len(), .names.join(", "))]
     Length {
-        /// "q" or "v".
+        /// The key of the list: "q" or "v".
         key: &'static str,
         /// The meaning of its numbers.
         what: &'static str,
-        /// How many there are.
+        /// How many numbers are given.
         given: usize,
         /// The names of the expected numbers.
         names: Vec<String>,
     },
-    /// Four numbers are not an orientation.
+    /// The length of a quaternion is not 1.
     #[error(
         "the quaternion {element}.qw … {element}.qz has length {length}, but an orientation has 1\n  help: divide its four numbers by their length; no rotation is 1, 0, 0, 0"
     )]
@@ -76,7 +77,7 @@ pub enum StateError {
         /// √(w² + x² + y² + z²).
         length: f64,
     },
-    /// A user function is not available: it is written in Rust, and not part of the graph.
+    /// A function of a user force is not available; it is written in Rust, and not part of the graph.
     #[error(
         "the user force \"{force}\" is computed by the Rust function {function}, which is not available\n  help: compile it by `UserForces::of`, and hand it over; `enabled: false` leaves it out"
     )]
@@ -92,7 +93,7 @@ pub enum StateError {
         /// The condition.
         condition: String,
     },
-    /// The state is so far out that the equations have no finite value there.
+    /// A result is not finite, because the state is too far out.
     #[error(
         "{quantity} of {velocity} is {value} at this state\n  help: look for numbers that are too large, angles at a singularity, and curves left beyond their last point"
     )]
@@ -106,11 +107,11 @@ pub enum StateError {
     },
 }
 
-/// Allowed deviation of the length of a quaternion from 1: a state that someone wrote down may lack a few digits.
+/// Allowed deviation of the length of a quaternion from 1: a state that was written by hand may lack a few digits.
 const QUATERNION_TOLERANCE: f64 = 1e-4;
 
-/// Evaluates the equations, which must have been derived with S, r_s and r_k. Parameters are in the model's order (SI). `users` are the
-/// functions of user forces, if the model has any.
+/// Evaluates the equations, which must have been derived with S, r_s and r_k. Parameters are in the model's order (SI).
+/// `users` are the functions of user forces, if the model has any.
 pub fn at(
     model: &Model,
     equations: &Equations,
@@ -159,7 +160,7 @@ pub fn at(
     roots.extend(&equations.accelerations);
     let functions = functions_with(model, users);
     let mut values = evaluate(&equations.graph, &roots, &inputs, &functions);
-    // a zero has no sign
+    // zero has no sign
     values.iter_mut().for_each(|value| *value += 0.0);
     let size = velocities.len();
     let (matrix, vectors) = values.split_at(size * size);
@@ -193,7 +194,7 @@ fn knows_user_forces(model: &Model, users: Option<&dyn UserFunctions>) -> Result
     Ok(())
 }
 
-/// `given` numbers of a state must be as many as their names.
+/// Checks that a list of a state has as many numbers as `names`.
 fn check_length(
     key: &'static str,
     what: &'static str,
@@ -211,7 +212,7 @@ fn check_length(
     }
 }
 
-/// S, by rows, and the vectors r_s, r_k and v̇, one after the other, must be finite.
+/// Checks that S (by rows) and the vectors r_s, r_k and v̇ (one after the other) are finite.
 fn check_finite(matrix: &[f64], vectors: &[f64], velocities: &[String]) -> Result<(), StateError> {
     let size = velocities.len().max(1);
     let rows = matrix.chunks(size).enumerate();
@@ -259,7 +260,7 @@ fn initial(
     of_parameters(model, equations, &roots, parameters)
 }
 
-/// The condition that the parameters violate, if they violate one.
+/// The condition that the parameters violate; `None` if they violate none.
 fn refused(model: &Model, equations: &Equations, parameters: &[f64]) -> Option<String> {
     let roots: Vec<NodeId> = equations.conditions.iter().map(|c| c.value).collect();
     let values = of_parameters(model, equations, &roots, parameters);
@@ -268,7 +269,7 @@ fn refused(model: &Model, equations: &Equations, parameters: &[f64]) -> Option<S
     Some(broken.0.name.clone())
 }
 
-/// The values that depend only on parameters.
+/// The values of `roots`, which depend only on parameters.
 fn of_parameters(
     model: &Model,
     equations: &Equations,
@@ -286,7 +287,7 @@ fn of_parameters(
     evaluate(&equations.graph, roots, &inputs, &functions(model))
 }
 
-/// Every four coordinates whose names end in qw … qz must have length 1.
+/// Checks that each quaternion, four coordinates with names that end in qw … qz, has length 1.
 fn check_quaternions(names: &[String], q: &[f64]) -> Result<(), StateError> {
     for (i, name) in names.iter().enumerate() {
         let Some(element) = name.strip_suffix(".qw") else {

@@ -1,4 +1,4 @@
-//! Files that are either complete or not there: they are written beside their place and then moved to it.
+//! Writes files that are always complete: a file is written under another name and then renamed.
 
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
@@ -9,11 +9,11 @@ use std::path::{Component, Path, PathBuf};
 pub struct WriteError {
     /// The file.
     pub path: PathBuf,
-    /// Why.
+    /// The reason.
     pub source: io::Error,
 }
 
-/// Replaces a file by the output of `content`. Missing directories are created; after a failure the old file remains.
+/// Replaces a file by the output of `content`. Missing directories are created; after a failure, the old file remains.
 pub fn replace(
     path: &Path,
     content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -34,7 +34,7 @@ fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
         return Err(io::Error::other("it is a directory"));
     }
     std::fs::create_dir_all(directory)?;
-    // A file that is not regular (a pipe, /dev/null, NUL) cannot be replaced, only written to.
+    // A file that is not regular (a pipe, /dev/null, NUL) cannot be replaced, but only written to.
     let device = cfg!(windows) && path.as_os_str().eq_ignore_ascii_case("NUL");
     if device || path.exists() && !path.is_file() {
         let mut file = BufWriter::new(std::fs::OpenOptions::new().write(true).open(path)?);
@@ -63,7 +63,8 @@ fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     Ok(())
 }
 
-/// Why Windows has no file of this name. Some of these names mean devices there, others something beside a file, and what is written is lost.
+/// The reason why Windows does not allow this name for a file; `None` if it does. Some of these names are devices
+/// there, or parts of a file, so that what is written is lost.
 ///
 /// Microsoft, *Naming Files, Paths, and Namespaces*.
 pub fn refusal_of_windows(name: &str) -> Option<&'static str> {
@@ -88,10 +89,11 @@ pub fn refusal_of_windows(name: &str) -> Option<&'static str> {
     device.then_some("is the name of a device on Windows")
 }
 
-/// Largest number of links on the way to a file, the same as in Linux.
+/// Largest number of links that are followed to a file, the same as in Linux.
 const MOST_LINKS: usize = 40;
 
-/// The file that a path leads to through all links: the link remains, and its target is replaced. The file need not exist.
+/// The file that a path leads to when links are followed. So a link remains, and its target is replaced. The file need
+/// not exist.
 fn behind_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -103,8 +105,8 @@ fn behind_links(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many links"))
 }
 
-/// The real place of a path, through all links and in whatever form it is written: two paths to one file have the same place, whether the
-/// file exists or not.
+/// The real place of a path, with links followed. Two paths to one file have the same place, whatever their form and
+/// whether the file exists or not.
 pub fn place(path: &Path) -> PathBuf {
     let path = behind_links(path).unwrap_or(path.to_owned());
     if let Ok(place) = path.canonicalize() {
@@ -116,7 +118,7 @@ pub fn place(path: &Path) -> PathBuf {
     };
     match path.components().next_back() {
         Some(Component::Normal(name)) => place(directory).join(name),
-        // for a path that does not exist yet
+        // the path does not exist yet
         Some(Component::ParentDir) => place(directory).parent().map_or(path, Path::to_owned),
         _ => path,
     }

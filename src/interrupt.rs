@@ -1,7 +1,8 @@
-//! Ctrl-C: the computation ends, and the results so far are kept.
+//! Handles Ctrl-C: the computation ends, and the results so far are kept.
 //!
-//! A long command calls [`watch`] at its beginning. After that, the first Ctrl-C makes [`asked`] true, and loops over parts begin no
-//! further part. The second Ctrl-C ends the program at once. On systems that are neither Unix nor Windows, the first one does.
+//! A long command calls [`watch`] first. The first Ctrl-C then makes [`asked`] return true, and loops do not begin
+//! another part of their work. The second Ctrl-C ends the program at once. On systems that are neither Unix nor
+//! Windows, the first one does so.
 #![cfg_attr(
     any(unix, windows),
     expect(unsafe_code, reason = "handlers of signals are the system's")
@@ -15,12 +16,12 @@ pub const EXIT_CODE: u8 = 130;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// Whether Ctrl-C was pressed since [`watch`].
+/// True if Ctrl-C was pressed after [`watch`].
 pub fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)
 }
 
-/// Breaks if Ctrl-C was pressed.
+/// Returns `Break` if Ctrl-C was pressed.
 pub fn unless_asked() -> ControlFlow<()> {
     match asked() {
         true => ControlFlow::Break(()),
@@ -45,7 +46,8 @@ mod unix {
     use libc::{SA_RESETHAND, SA_RESTART, SIG_IGN, SIGINT, c_int, c_void, sigaction};
 
     pub fn watch() {
-        // SAFETY: the handler lives as long as the program, and uses only an atomic flag and `write`. A structure of zeros has no flags.
+        // SAFETY: the handler lives as long as the program, and uses only an atomic flag and `write`. A structure of
+        // zeros has no flags.
         unsafe {
             let mut action: sigaction = std::mem::zeroed();
             sigaction(SIGINT, std::ptr::null(), &mut action);
@@ -53,7 +55,7 @@ mod unix {
                 return;
             }
             action.sa_sigaction = interrupted as *const () as usize;
-            // after the first time, the signal has its former effect
+            // after its first use, the handler is removed, so that the second signal ends the program
             action.sa_flags = SA_RESETHAND | SA_RESTART;
             libc::sigemptyset(&mut action.sa_mask);
             sigaction(SIGINT, &action, std::ptr::null_mut());
@@ -77,12 +79,12 @@ mod windows {
     use windows_sys::core::BOOL;
 
     pub fn watch() {
-        // SAFETY: the handler lives as long as the program. If the system does not take it, the first Ctrl-C ends the program. A program
-        // that was started to ignore Ctrl-C is not told of it.
+        // SAFETY: the handler lives as long as the program. If the system refuses it, the first Ctrl-C ends the
+        // program. A program that was started to ignore Ctrl-C never gets this event.
         unsafe { SetConsoleCtrlHandler(Some(interrupted), 1) };
     }
 
-    /// The system calls it on a thread of its own.
+    /// Called by the system on a thread of its own.
     unsafe extern "system" fn interrupted(event: u32) -> BOOL {
         let first = matches!(event, CTRL_C_EVENT | CTRL_BREAK_EVENT)
             && !ASKED.swap(true, Ordering::Relaxed);
@@ -90,7 +92,7 @@ mod windows {
             // a failed write is ignored
             let _ = std::io::stderr().write_all(SAID.as_bytes());
         }
-        // whatever is not handled here ends the program
+        // the system ends the program for events that are not handled here
         first.into()
     }
 }

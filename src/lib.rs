@@ -7,8 +7,9 @@
 //!                     └─generator→ Rust source ─rustc→ model of a crate of your own
 //! ```
 //!
-//! This crate contains all of bryant: the other crates under short names, and the parts of the command `bryant`. A crate that needs only
-//! the equations of its own mechanism uses [`generator`] in its build script and [`runtime`] in its program, and nothing of this crate.
+//! This crate contains all of bryant: the other crates under short names, and the parts of the command `bryant`. A
+//! crate that needs only the equations of its own mechanism uses [`generator`] in its build script and [`runtime`] in
+//! its program, and nothing of this crate.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -19,7 +20,7 @@
 //! | [`build_on_demand`] | functions of user forces, compiled once and kept |
 //! | [`simulation`] | one run, recorded |
 //! | [`accuracy`] | the cost of accuracy in time: a study of one model |
-//! | [`stability`] | hard cases, and how far from their bounds they stay |
+//! | [`stability`] | runs hard cases, and reports whether they keep their bounds |
 //! | [`sweep`] | studies: many runs of one model, in lanes |
 //! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
 //! | [`timing`] | the time of one evaluation |
@@ -29,10 +30,10 @@
 //! | [`animation`] | the motion of a run in glTF |
 //! | [`criteria`] | injury criteria of a recording beside the limits of regulations |
 //! | [`table`], [`picture`], [`balance`] | output for people |
-//! | [`pose`] | positions of a model over plain numbers |
+//! | [`pose`] | positions of all bodies at given coordinates |
 //! | [`orientation`] | states in Bryant angles, converted to quaternions |
 //! | [`notation`], [`quantity`] | names in printed equations, units on the command line |
-//! | [`files`], `own` | files that are complete or not there; those that this program wrote |
+//! | [`files`], `own` | writes files that are always complete; recognises files that this program wrote |
 //! | [`parallel`] | the same work on many items |
 //! | [`interrupt`] | Ctrl-C |
 //! | [`process`] | signals and closed descriptors, reported as errors |

@@ -1,25 +1,25 @@
-//! Names of a model's inputs in printed equations: `phi_head` in text, `\phi_{\mathrm{head}}` in LaTeX.
+//! Names for the inputs of a model in printed equations: `phi_head` in text, `\phi_{\mathrm{head}}` in LaTeX.
 //!
-//! A variable `man/head.phi` is named by its component and its element; the system is added if the element alone is ambiguous. Curves and
-//! parameters keep their names.
+//! A variable `man/head.phi` is named by its component and its element. The system is added only if the name of the
+//! element is ambiguous. Curves and parameters keep their names.
 
 use bryant_generator::equations::{Equations, Variable};
 use bryant_generator::expression::print::{self, latex};
 use bryant_generator::expression::{Function, Symbol};
 use bryant_generator::model::{Force, ForceKind, Model};
 
-/// The names of one model's inputs and functions.
+/// The names of the inputs and functions of a model.
 #[derive(Clone, Debug)]
 pub struct Notation {
     coordinates: Vec<Name>,
     velocities: Vec<Name>,
     parameters: Vec<String>,
     curves: Vec<String>,
-    /// For each user force, by its index, the names of the results of its function.
+    /// For each user force, the names of the results of its function.
     users: Vec<Vec<String>>,
 }
 
-/// A component and its element or system.
+/// The name of a variable: its component, and its element or system.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Name {
     component: String,
@@ -40,7 +40,7 @@ impl Notation {
         }
     }
 
-    /// An input as an identifier.
+    /// The name of an input as an identifier.
     pub fn text(&self, symbol: Symbol) -> String {
         match self.name(symbol) {
             Ok(name) => name.text(),
@@ -48,7 +48,7 @@ impl Notation {
         }
     }
 
-    /// An input as LaTeX.
+    /// The name of an input as LaTeX.
     pub fn latex(&self, symbol: Symbol) -> String {
         match self.name(symbol) {
             Ok(name) => name.latex(),
@@ -56,7 +56,7 @@ impl Notation {
         }
     }
 
-    /// A function as an identifier.
+    /// The name of a function as an identifier.
     pub fn function(&self, function: Function) -> String {
         let curve = |index: u32, suffix: &str| {
             let name = self.curves.get(index as usize);
@@ -95,7 +95,7 @@ impl Notation {
     }
 }
 
-/// Names of what the function of a user force returns: `drag_returns_head_force_x`.
+/// Names of the results of a user force's function: `drag_returns_head_force_x`.
 fn results(force: &Force) -> Vec<String> {
     match &force.kind {
         ForceKind::User(user) => {
@@ -120,7 +120,7 @@ impl Name {
             Some(element) => {
                 let elements = model.systems.iter().flat_map(|s| &s.elements);
                 let unique = elements.filter(|e| e.name == *element).count() == 1;
-                // An element with the name of a system would be ambiguous.
+                // an element with the name of a system would be ambiguous
                 let alone = unique && model.systems.iter().all(|s| s.name != *element);
                 let system = (!alone).then(|| identifier(&system.name));
                 system.into_iter().chain([identifier(element)]).collect()
@@ -169,7 +169,7 @@ impl Name {
     }
 }
 
-/// A name as an identifier: other characters than letters, digits and underscores become underscores.
+/// A name as an identifier: characters other than letters, digits and underscores become underscores.
 fn identifier(name: &str) -> String {
     let replaced = name
         .chars()

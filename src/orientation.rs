@@ -1,8 +1,9 @@
-//! States without charts: the states of a model in Bryant angles, converted to quaternions.
+//! States without charts: states of a model in Bryant angles, converted to quaternions.
 //!
-//! The meaning of three Bryant angles and their rates depends on the chart that their element is in: A = Rx(φ₁) Ry(φ₂) Rz(φ₃) in chart 0,
-//! with Ry(−90°) behind it in chart 1. To compare states of two runs or to draw them, they are converted to quaternions (w, x, y, z) and
-//! angular velocities in absolute axes, as those of the same model with `coordinates: quaternion`. States of other models stay as they are.
+//! The meaning of three Bryant angles and their rates depends on the chart of their element: A = Rx(φ₁) Ry(φ₂) Rz(φ₃)
+//! in chart 0, and A = Rx(φ₁) Ry(φ₂) Rz(φ₃) Ry(−90°) in chart 1. To compare states of two runs or to draw them, they
+//! are converted to quaternions (w, x, y, z) and angular velocities in absolute axes, as in the same model with
+//! `coordinates: quaternion`. States of other models are not changed.
 
 use crate::pose::rotation;
 use bryant_runtime::program::Header;
@@ -10,16 +11,16 @@ use bryant_runtime::program::Header;
 /// The conversion of the states of a model to quaternions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WithoutCharts {
-    /// Names of the coordinates, with quaternions.
+    /// Names of the coordinates after conversion.
     pub coordinates: Vec<String>,
-    /// Names of the velocities, with angular velocities.
+    /// Names of the velocities after conversion.
     pub velocities: Vec<String>,
-    /// Lengths of q and v of the model itself.
+    /// Numbers of coordinates and of velocities before conversion.
     lengths: [usize; 2],
     elements: Vec<Charted>,
 }
 
-/// The place of an element's orientation in the state.
+/// The indices of an element's first angle, first rate and chart in the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Charted {
     angles: usize,
@@ -28,7 +29,7 @@ struct Charted {
 }
 
 impl WithoutCharts {
-    /// The conversion for a model: an element with a chart in memory has Bryant angles.
+    /// The conversion for a model. Elements with a chart in memory are converted.
     pub fn of(header: &Header) -> Self {
         let find = |names: &[String], name: String| names.iter().position(|n| *n == name);
         let before = header.coordinates.len() + header.velocities.len();
@@ -71,7 +72,7 @@ impl WithoutCharts {
         }
     }
 
-    /// The coordinates of a state of the model.
+    /// The converted coordinates of a state of the model.
     pub fn q(&self, state: &[f64]) -> Vec<f64> {
         let mut q = Vec::with_capacity(self.coordinates.len());
         let mut from = 0;
@@ -85,7 +86,7 @@ impl WithoutCharts {
         q
     }
 
-    /// A whole state of the model; the entries behind the velocities stay.
+    /// A whole state of the model, converted; entries after the velocities are not changed.
     pub fn state(&self, state: &[f64]) -> Vec<f64> {
         let mut y = self.q(state);
         let mut from = self.lengths[0];
@@ -100,20 +101,22 @@ impl WithoutCharts {
     }
 }
 
-/// Beyond this sine of the middle angle in chart 0, angles are given in chart 1 \[1\]: as runs change charts.
+/// Angles are given in chart 1 if the sine of the middle angle in chart 0 exceeds this, the same limit at which runs
+/// change charts.
 const CHANGE: f64 = 0.8;
 
-/// The unit quaternion and the angular velocity in absolute axes of Bryant angles and their rates in a chart.
+/// The unit quaternion, and the angular velocity in absolute axes, for Bryant angles and their rates in a chart.
 pub(crate) fn without_chart(angles: [f64; 3], rates: [f64; 3], chart: f64) -> ([f64; 4], [f64; 3]) {
     let [first, second] = [0, 1].map(|i| libm::sincos(angles[i]));
     (quaternion(angles, chart), omega(first, second, rates))
 }
 
-/// The Bryant angles, their rates and their chart of a unit quaternion and an angular velocity in absolute axes: [`without_chart`] undoes it.
+/// The Bryant angles, their rates and their chart for a unit quaternion and an angular velocity in absolute axes: the
+/// inverse of [`without_chart`].
 pub(crate) fn in_chart(quaternion: [f64; 4], omega: [f64; 3]) -> ([f64; 3], [f64; 3], f64) {
     let a = rotation(&quaternion);
     let (r, chart) = match a[0][2].abs() > CHANGE {
-        // before the turn by −90° about y: the columns of A are (r₃, r₂, −r₁)
+        // without the last rotation by −90° about y: the columns of A are (r₃, r₂, −r₁)
         true => (a.map(|[x, y, z]| [-z, y, x]), 1.0),
         false => (a, 0.0),
     };
@@ -128,7 +131,7 @@ pub(crate) fn in_chart(quaternion: [f64; 4], omega: [f64; 3]) -> ([f64; 3], [f64
     (angles, rates, chart)
 }
 
-/// The unit quaternion of Rx(φ₁) Ry(φ₂) Rz(φ₃), turned by −90° about the element's y in chart 1.
+/// The unit quaternion of Rx(φ₁) Ry(φ₂) Rz(φ₃) in chart 0, and of Rx(φ₁) Ry(φ₂) Rz(φ₃) Ry(−90°) in chart 1.
 fn quaternion(angles: [f64; 3], chart: f64) -> [f64; 4] {
     let [(s1, c1), (s2, c2), (s3, c3)] = angles.map(|angle| libm::sincos(0.5 * angle));
     let [w, x, y, z] = [
@@ -140,11 +143,11 @@ fn quaternion(angles: [f64; 3], chart: f64) -> [f64; 4] {
     if chart < 0.5 {
         return [w, x, y, z];
     }
-    // times (cos 45°, 0, −sin 45°, 0)
+    // multiply by (cos 45°, 0, −sin 45°, 0)
     [w + y, x + z, y - w, z - x].map(|component| component * std::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// ω = W φ̇, absolute axes: the columns of W are e_x, Rx e_y and Rx Ry e_z, in any chart.
+/// ω = W φ̇ in absolute axes, in any chart: the columns of W are e_x, Rx e_y and Rx Ry e_z.
 fn omega((s1, c1): (f64, f64), (s2, c2): (f64, f64), [d1, d2, d3]: [f64; 3]) -> [f64; 3] {
     [d1 + s2 * d3, c1 * d2 - s1 * c2 * d3, s1 * d2 + c1 * c2 * d3]
 }

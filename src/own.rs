@@ -1,31 +1,31 @@
-//! What this program wrote: only such files are replaced without being asked to.
+//! Recognises files that this program wrote. Without the user's consent, only such files are replaced.
 //!
-//! Every file has a mark that other programs do not see: the first heading of a table is in quotation marks although it needs none, pages
-//! and animations name their generator, texts of models end with a line that has their checksum.
+//! Each file has a mark that other programs ignore: the first heading of a table is in quotation marks although it
+//! needs none; pages and animations name their generator; texts of models end with a line that has their checksum.
 
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 
-/// What a file holds.
+/// The kind of content of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A table of a run or of a study of accuracy, CSV.
     Table,
-    /// The same as Apache Parquet.
+    /// A table as Apache Parquet.
     Parquet,
-    /// SVG or PNG.
+    /// A picture, SVG or PNG.
     Picture,
     /// A report, HTML.
     Report,
     /// A page, Markdown.
     Markdown,
-    /// glTF.
+    /// An animation, glTF.
     Animation,
     /// A state, JSON.
     State,
-    /// The description of a test in ISO-MME, whose channels stand in a folder beside it.
+    /// The description of a test in ISO-MME; its channels are in a folder beside it.
     Test,
     /// A model or a part of one, YAML.
     Model,
@@ -34,7 +34,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The endings of the names of such files; no endings where names are not chosen by the user.
+    /// The extensions of such files; empty if the user does not choose their names.
     pub fn endings(self) -> &'static [&'static str] {
         match self {
             Kind::Table => &["csv", "txt", "dat"],
@@ -50,7 +50,7 @@ impl Kind {
         }
     }
 
-    /// What is written.
+    /// The kind in words.
     pub fn name(self) -> &'static str {
         match self {
             Kind::Table => "a table, CSV",
@@ -66,7 +66,7 @@ impl Kind {
         }
     }
 
-    /// Whether the ending of a name says that the file holds something else.
+    /// True if the extension of a path belongs to another format.
     pub fn contradicts(self, path: &Path) -> bool {
         let Some(ending) = path.extension().and_then(|e| e.to_str()) else {
             return false;
@@ -76,7 +76,7 @@ impl Kind {
     }
 }
 
-/// Endings of formats, those of this program and others.
+/// Extensions of formats, of this program and of others.
 const OF_FORMATS: [&str; 38] = [
     "csv", "tsv", "txt", "dat", "parquet", "svg", "png", "jpg", "jpeg", "gif", "webp", "tif",
     "tiff", "bmp", "eps", "pdf", "html", "htm", "md", "markdown", "glb", "gltf", "obj", "stl",
@@ -84,7 +84,7 @@ const OF_FORMATS: [&str; 38] = [
     "zip", "rs",
 ];
 
-/// So much of the beginning of a file is looked at, and of the end a part \[bytes\].
+/// Number of bytes that are read at the beginning of a file; at its end, 1/256 of this number.
 const LOOKED_AT: u64 = 1 << 24;
 /// The first heading of a table of a run, in each system of units.
 const FIRST_HEADINGS: [&str; 2] = ["\"time [s]\"", "\"time [ms]\""];
@@ -92,11 +92,11 @@ const FIRST_HEADINGS: [&str; 2] = ["\"time [s]\"", "\"time [ms]\""];
 const SIGNED: &str =
     "# Written by bryant and not changed since, if this is the SHA-256 of the lines above: ";
 
-/// Whether replacing the file loses nothing that this program did not write: it has such a file of this kind, an empty one, or none. What
-/// is no file, such as a pipe, loses nothing.
+/// True if replacing the file loses only data that this program wrote: the file is one of this kind from this program,
+/// is empty, or does not exist. Also true for a pipe or the like.
 ///
 /// # Errors
-/// The file is there and cannot be read.
+/// The file exists and cannot be read.
 pub fn may_replace(path: &Path, kind: Kind) -> io::Result<bool> {
     if kind == Kind::Test {
         return may_replace_test(path);
@@ -146,7 +146,8 @@ fn is_own(begin: &[u8], end: &[u8], kind: Kind) -> bool {
     }
 }
 
-/// Whether a line is the heading of a table as a run writes it: the first heading in quotation marks, the others only where they need them.
+/// True if a line is the heading of a table that a run wrote: the first heading is in quotation marks, the others only
+/// if they need them.
 fn is_own_heading(line: &[u8]) -> bool {
     let Some(rest) = FIRST_HEADINGS
         .iter()
@@ -166,7 +167,7 @@ fn is_own_heading(line: &[u8]) -> bool {
     written && again.strip_suffix(b"\n") == Some(rest)
 }
 
-/// Of a test in ISO-MME a channel says which program made it.
+/// True if a test in ISO-MME may be replaced: its channels say which program made them.
 fn may_replace_test(path: &Path) -> io::Result<bool> {
     let folder = path.parent().unwrap_or(Path::new("")).join("Channel");
     let stem = path
@@ -186,12 +187,12 @@ fn may_replace_test(path: &Path) -> io::Result<bool> {
     }
 }
 
-/// The text of a model with a last line that shows whether it was changed since.
+/// The text of a model with a last line that shows whether the text was changed later.
 pub fn signed(text: &str) -> String {
     format!("{text}{SIGNED}{}\n", checksum(text.as_bytes()))
 }
 
-/// Whether a text is as [`signed`] made it.
+/// True if [`signed`] made this text, and it was not changed.
 fn is_signed(bytes: &[u8]) -> bool {
     let Some(at) = bytes
         .windows(SIGNED.len())

@@ -1,11 +1,11 @@
-//! The same work on many items, on all processors, until it is interrupted.
+//! Does the same work on many items, on all processors, until it is interrupted.
 
 use crate::interrupt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 
-/// The results of `work` for all items, in their order; `None` for an item whose work had not begun or ended when Ctrl-C was pressed.
-/// `progress` is called with the number of finished items.
+/// The results of `work` for all items, in their order. `None` for items whose work had not ended when Ctrl-C was
+/// pressed. `progress` is called with the number of finished items.
 pub fn map<T: Sync, R: Send>(
     items: &[T],
     work: impl Fn(&T) -> R + Sync,
@@ -23,7 +23,8 @@ pub fn map<T: Sync, R: Send>(
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(item) = items.get(index) else { return };
                     let result = work(item);
-                    // The result of interrupted work is not used. The receiver is gone only if the whole call was broken off.
+                    // the result of interrupted work is not used; the receiver is gone only if the caller has ended
+                    // early
                     if interrupt::asked() || tell.send((index, result)).is_err() {
                         return;
                     }

@@ -1,9 +1,9 @@
-//! The positions of all bodies: x_c = x_p + A_p s_c, from the root of each tree to its leaves.
+//! The positions of all bodies: x_c = x_p + A_p s_c, computed from the root of each tree to its leaves.
 //!
-//! The coordinates of a tree are those of its reference joint, if it is free, followed by those of every element: the degrees of freedom of its
-//! joint, relative to its carrier, or its orientation on a ball joint: one angle in the plane, three Bryant angles or a unit quaternion (w,
-//! x, y, z) in space. Orientations are absolute. States in Bryant angles may be in another chart; they are converted to
-//! [quaternions](crate::orientation) first.
+//! The coordinates of a tree are those of its reference joint, if it is free, and then those of each element. An
+//! element on a ball joint has an absolute orientation: one angle in the plane, three Bryant angles or a unit
+//! quaternion (w, x, y, z) in space. Another element has the degrees of freedom of its joint, relative to its carrier.
+//! States in Bryant angles may be in another chart; they must be converted to [quaternions](crate::orientation) first.
 
 use crate::evaluation::stop;
 use bryant_generator::joint::placement::placed;
@@ -12,13 +12,13 @@ use bryant_generator::model::{
     Translation, Vehicle,
 };
 
-/// A vector of the absolute frame or of a local one.
+/// A vector in absolute or local axes.
 pub type Vec3 = [f64; 3];
 
-/// A local frame: rotation local → absolute by rows, and origin.
+/// A local frame: its rotation and its origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// A.
+    /// A, which converts local to absolute vectors, by rows.
     pub rotation: [Vec3; 3],
     /// Position of the joint that carries the element, absolute \[m\].
     pub origin: Vec3,
@@ -31,7 +31,7 @@ pub struct Pose {
     systems: Vec<Vec<Frame>>,
 }
 
-/// The assignment of coordinates to joints and elements.
+/// The places of the coordinates of joints and elements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     systems: Vec<SystemLayout>,
@@ -40,19 +40,19 @@ pub struct Layout {
 
 #[derive(Clone, Debug, PartialEq)]
 struct SystemLayout {
-    /// Index of the coordinate of the reference joint along each absolute axis.
+    /// For each absolute axis, the index of the coordinate of the reference joint; `None` if it has none.
     reference: [Option<usize>; 3],
-    /// First coordinate and number of coordinates (1, 3 or 4) of each element.
+    /// First coordinate and number of coordinates of each element.
     elements: Vec<(usize, usize)>,
 }
 
-/// The named coordinates do not belong to the model.
+/// The coordinates with these names do not belong to the model.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the coordinates do not fit the model: {0}")]
 pub struct Mismatch(String);
 
 impl Layout {
-    /// Reads the layout from the names of the coordinates: `man.x` belongs to the reference joint of the system man, and a name with
+    /// Finds the coordinates by their names: `man.x` belongs to the reference joint of the system man; a name with
     /// `man/head` before its last dot belongs to the element head of this system.
     pub fn new<S: AsRef<str>>(model: &Model, names: &[S]) -> Result<Self, Mismatch> {
         let owner = |name: &str| {
@@ -97,7 +97,8 @@ impl Layout {
 }
 
 impl Pose {
-    /// The pose at time `t` \[s\], coordinates `q` and parameters (SI, in the model's order); `None` where `q` is too short.
+    /// The pose at time `t` \[s\] and coordinates `q`, for parameters in the model's order (SI); `None` if `q` is too
+    /// short.
     pub fn new(
         model: &Model,
         layout: &Layout,
@@ -173,7 +174,7 @@ impl Pose {
         Some(Self { vehicles, systems })
     }
 
-    /// The pose of the model's own start, at time `t` \[s\] for what moves as prescribed.
+    /// The pose at the model's own start. Prescribed motions are at time `t` \[s\].
     pub fn at_start(model: &Model, parameters: &[f64], t: f64) -> Option<Self> {
         let numbers = Numbers { model, parameters };
         let (mut names, mut q) = (Vec::new(), Vec::new());
@@ -214,7 +215,7 @@ impl Pose {
         self.systems[id.system][id.element]
     }
 
-    /// Frame of an element or a vehicle, or the absolute frame.
+    /// Frame of an element or a vehicle, or the absolute frame, for [`Body::Frame`].
     pub fn body(&self, body: Body) -> Frame {
         match body {
             Body::Frame => Frame::ABSOLUTE,
@@ -223,7 +224,7 @@ impl Pose {
         }
     }
 
-    /// Absolute position of a point that is fixed in a body \[m\].
+    /// Absolute position of a point of a body \[m\].
     pub fn point(&self, numbers: &Numbers<'_>, attachment: &Attachment) -> Vec3 {
         self.body(attachment.on)
             .point(numbers.vector(&attachment.at))
@@ -231,25 +232,25 @@ impl Pose {
 }
 
 impl Frame {
-    /// The absolute frame itself.
+    /// The absolute frame.
     pub const ABSOLUTE: Frame = Frame {
         rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         origin: [0.0; 3],
     };
 
-    /// x + A s
+    /// x + A s: the absolute position of a local point.
     pub fn point(&self, local: Vec3) -> Vec3 {
         let turned = self.direction(local);
         std::array::from_fn(|i| self.origin[i] + turned[i])
     }
 
-    /// A s
+    /// A s: the absolute components of a local vector.
     pub fn direction(&self, local: Vec3) -> Vec3 {
         self.rotation.map(|row| dot(row, local))
     }
 }
 
-/// The numbers of a model at given parameters.
+/// A model with values of its parameters, which give its numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Numbers<'a> {
     /// The model.
@@ -259,12 +260,12 @@ pub struct Numbers<'a> {
 }
 
 impl Numbers<'_> {
-    /// Three numbers.
+    /// The values of three numbers.
     pub fn vector(&self, numbers: &[Number; 3]) -> Vec3 {
         std::array::from_fn(|i| numbers[i].value(self.parameters))
     }
 
-    /// Position at time `t` of a prescribed translation that begins at `start`.
+    /// Position at time `t` of a point with a prescribed translation, which begins at `start`.
     fn moved(&self, translation: &Translation, start: Vec3, velocity: Vec3, t: f64) -> Vec3 {
         std::array::from_fn(|axis| {
             let mut moving = t;
@@ -289,7 +290,7 @@ impl Numbers<'_> {
         })
     }
 
-    /// Frame of a vehicle at time `t`.
+    /// Frame of a vehicle at time `t` \[s\].
     fn vehicle(&self, vehicle: &Vehicle, t: f64) -> Frame {
         let angle = |angle: &FieldComponent| match angle {
             FieldComponent::Constant(angle) => self.value(angle),
@@ -308,7 +309,7 @@ impl Numbers<'_> {
         }
     }
 
-    /// One number.
+    /// The value of a number.
     pub fn value(&self, number: &Number) -> f64 {
         number.value(self.parameters)
     }
@@ -338,7 +339,7 @@ pub fn bryant_rotation([a, b, c]: Vec3) -> [Vec3; 3] {
     ]
 }
 
-/// The rotation of one angle about y, three Bryant angles (in chart 0), or a quaternion (w, x, y, z), by rows.
+/// The rotation, by rows, for one angle about y, three Bryant angles (in chart 0), or a quaternion (w, x, y, z).
 pub(crate) fn rotation(coordinates: &[f64]) -> [Vec3; 3] {
     match *coordinates {
         [angle] => bryant_rotation([0.0, angle, 0.0]),
@@ -367,10 +368,10 @@ pub(crate) fn rotation(coordinates: &[f64]) -> [Vec3; 3] {
     }
 }
 
-/// The unit quaternion (w, x, y, z) of a rotation by rows.
+/// The unit quaternion (w, x, y, z) of a rotation, which is given by rows.
 pub fn quaternion(rows: [Vec3; 3]) -> [f64; 4] {
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = rows;
-    // four times the square of each component; the code divides by the largest
+    // four times the square of each component; the largest is used as divisor
     let squares = [
         1.0 + xx + yy + zz,
         1.0 + xx - yy - zz,

@@ -1,4 +1,4 @@
-//! Effects of the system on a process, before `main` or without a message, turned into errors.
+//! Turns limits and effects of the system on a process into errors: some act before `main`, some without a message.
 #![cfg_attr(
     any(unix, windows),
     expect(
@@ -7,11 +7,12 @@
     )
 )]
 
-/// Whether standard output was closed when the process began, as by `bryant run MODEL >&-`. Printed text is then lost.
+/// True if standard output was closed when the process began, as by `bryant run MODEL >&-`. Printed text is then lost.
 ///
-/// The standard library opens `/dev/null` in place of closed descriptors before `main` begins. After that, writing succeeds and the loss
-/// cannot be detected. So the descriptor is checked earlier: the loader of programs calls the functions in the section `.init_array` first.
-/// On Windows a process without an output has no handle for it, and writing succeeds, too. Elsewhere a closed output counts as open.
+/// Before `main` begins, the standard library opens `/dev/null` in place of closed descriptors. Writing then succeeds,
+/// and the loss cannot be detected. So the descriptor is checked earlier, in a function that the program loader calls
+/// because it is in the section `.init_array`. On Windows a process without an output has no handle for it, and writing
+/// succeeds, too. On other systems a closed output counts as open.
 pub fn stdout_was_closed() -> bool {
     #[cfg(unix)]
     return early::CLOSED.load(std::sync::atomic::Ordering::Relaxed);
@@ -21,7 +22,7 @@ pub fn stdout_was_closed() -> bool {
     false
 }
 
-/// Whether the terminal of standard error shows colours. On Windows it is asked to.
+/// True if the terminal of standard error shows colours. On Windows this asks the terminal to do so.
 pub fn shows_colours() -> bool {
     #[cfg(windows)]
     {
@@ -31,7 +32,7 @@ pub fn shows_colours() -> bool {
         };
         let terminal = std::io::stderr().as_raw_handle();
         let mut mode = 0;
-        // SAFETY: the handle stays open, and there is room for the mode.
+        // SAFETY: the handle stays open, and `mode` has room for the result.
         return unsafe {
             GetConsoleMode(terminal, &raw mut mode) != 0
                 && SetConsoleMode(terminal, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0
@@ -41,10 +42,11 @@ pub fn shows_colours() -> bool {
     true
 }
 
-/// From now on, a file that grows beyond the limit of the process (`ulimit -f`) is an error for the code that writes it, and that code
-/// removes the unfinished file. Otherwise a signal would end the program and leave the file. Other systems have no such signal.
+/// Makes writing beyond the size limit of files of the process (`ulimit -f`) an error of the writing code, which then
+/// removes the unfinished file. Otherwise a signal would end the program and leave the file. Systems without this
+/// signal need nothing.
 pub fn outlive_limits_of_files() {
-    // SAFETY: no handler is called.
+    // SAFETY: the signal is ignored, so no handler is called.
     #[cfg(unix)]
     unsafe {
         libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
@@ -55,11 +57,11 @@ pub fn outlive_limits_of_files() {
 mod early {
     use std::sync::atomic::{AtomicBool, Ordering};
 
-    /// Whether descriptor 1 was closed before all other code ran.
+    /// True if descriptor 1 was closed before any other code ran.
     pub static CLOSED: AtomicBool = AtomicBool::new(false);
 
-    // SAFETY: the section holds addresses of functions without a result, which are called with arguments that this function ignores. The
-    // function makes a single system call and needs nothing that the standard library sets up later.
+    // SAFETY: the section holds addresses of functions without a result; this one ignores its arguments. It makes a
+    // single system call and needs nothing that the standard library sets up later.
     #[used]
     #[cfg_attr(
         target_vendor = "apple",
@@ -69,7 +71,7 @@ mod early {
     static LOOK: extern "C" fn() = look;
 
     extern "C" fn look() {
-        // SAFETY: the call asks for the flags of a descriptor, and fails only if the descriptor is closed.
+        // SAFETY: the call reads the flags of a descriptor, and fails only if the descriptor is closed.
         let closed = unsafe { libc::fcntl(1, libc::F_GETFD) } < 0;
         CLOSED.store(closed, Ordering::Relaxed);
     }

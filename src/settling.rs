@@ -1,22 +1,27 @@
-//! Search for a state of rest: a state in which the forces on every body are in balance.
+//! Searches a state of rest: a state in which the forces on every body are in balance.
 //!
-//! The model is released from its start while time stands still. Its motion is stopped whenever its kinetic energy has passed a maximum
-//! (kinetic damping, Cundall 1976; the older method is dynamic relaxation, Day 1965). Each stop removes energy, so the search ends in a
-//! position from which nothing moves. This is a state of rest of the unchanged equations, because nothing was added to them. A law that
-//! dissipates only during motion, such as damping or friction by speed, does not act there. Memory of a law, such as a permanent set or a
-//! hold, has the value that it took on the way to rest.
+//! The model is released from its start while time stands still. Its motion is stopped whenever its kinetic energy has
+//! passed a maximum (kinetic damping, Cundall 1976; the older method is dynamic relaxation, Day 1965). Each stop
+//! removes energy, so the search ends in a position from which nothing moves. This is a state of rest of the unchanged
+//! equations, because nothing was added to them. A law that dissipates only during motion, such as damping or friction
+//! by speed, does not act there. Memory of a law, such as a permanent set or a hold, has the value that it took on the
+//! way to rest.
 //!
-//! Damped motions creep, and stops do not help there. So between stops the model also follows its accelerations a(q) by q' = a(q), in
-//! implicit steps δ = (1/h − ∂a/∂q)⁻¹ a with the model's own Jacobian: pseudo-transient continuation (Kelley and Keyes 1998). The length h
-//! grows as the accelerations fall, and the last steps are Newton steps.
+//! Strongly damped motions creep, and stopping them does not help. So after some stops the model follows its
+//! accelerations a(q) by q' = a(q), in implicit steps δ = (1/h − ∂a/∂q)⁻¹ a with the model's Jacobian: pseudo-transient
+//! continuation (Kelley and Keyes 1998). The step h grows as the accelerations decrease, so that the last steps are
+//! Newton steps.
 //!
-//! The motion between two stops is integrated by the method of Bogacki and Shampine (1989), of third order with an error estimate of second
-//! order. The accuracy of the way does not matter, only its end: the accelerations there are those of the equations.
+//! The motion between two stops is integrated by the method of Bogacki and Shampine (1989), of third order with an
+//! error estimate of second order. Only the end of the motion must be accurate, and its accelerations are those of the
+//! equations.
 //!
-//! **Motion at the start.** A system that moves along with a vehicle is at rest if nothing moves relative to that motion: velocities of
-//! reference joints are kept, and coordinates are those of an observer who moves along. Angular velocities are not kept.
+//! **Motion at the start.** A system that moves along with a vehicle is at rest if it does not move relative to the
+//! vehicle. So the velocities of reference joints are kept, and coordinates are those for an observer who moves with
+//! these velocities. Angular velocities are not kept.
 //!
-//! A state of rest may be unstable, such as a rod that stands on its end. So the model is pushed slightly and watched.
+//! A state of rest may be unstable, such as that of a rod that stands on its end. So the model is pushed slightly at
+//! the end, and its motion is checked.
 
 use bryant_runtime::{Dynamics, StateKind};
 
@@ -32,7 +37,7 @@ pub struct Wanted {
 /// The result of the search.
 #[derive(Clone, Debug)]
 pub struct Settled {
-    /// The state; only reference joints have velocities, those of the start.
+    /// The state at the end. Velocities are 0, except those of reference joints, which are as at the start.
     pub state: Vec<f64>,
     /// The largest remaining acceleration \[m/s²\].
     pub acceleration: f64,
@@ -51,36 +56,39 @@ pub enum End {
     Unstable,
     /// The model still moves after all evaluations, or has not come nearer to rest for many stops.
     Moving,
-    /// It still moves, and is so far from its start that it is not to go on.
+    /// The model still moves, and is too far from its start to go on.
     Lost,
-    /// Its numbers are no longer finite.
+    /// The state is no longer finite.
     NotFinite,
 }
 
-/// Allowed error of a step, relative and absolute \[m, rad, m/s, …\]: the way need not be exact.
+/// Allowed error of a step, relative and absolute \[m, rad, m/s, …\]. It is large, because the way to rest need not be
+/// accurate.
 const RELATIVE: f64 = 1e-4;
 const ABSOLUTE: f64 = 1e-6;
 /// The longest step of a motion \[s\].
 const LONGEST_STEP: f64 = 0.01;
-/// Each time after this many stops the model follows its accelerations, for at most this many steps.
+/// Number of stops between two phases of following the accelerations, and largest number of steps in such a phase.
 const STOPS: u32 = 10;
 const FOLLOWED: u32 = 300;
-/// Each time after this many steps between stops it is looked whether the model is still near its start.
+/// Number of steps between two checks whether the model is still near its start.
 const STEPS: u32 = 20;
-/// After this many stops that did not halve the acceleration the search is in vain: something slides or pays out, and always will.
+/// The search ends after this many stops that did not halve the smallest acceleration: something slides or pays out,
+/// and will not stop.
 const IN_VAIN: u32 = 100;
-/// Length of the first of these steps \[s²\], and the distance that the accelerations alone may move the model in one step \[m, rad\]: a
-/// longer step could pass through a body.
+/// In following the accelerations, length of the first step \[s²\], and longest motion of a coordinate in one step \[m,
+/// rad\]: a longer step could pass through a body.
 const FIRST: f64 = 1e-5;
 const LONGEST: f64 = 0.005;
-/// Velocities of the push that tests stability \[m/s, rad/s\], and the time of the test \[s\].
+/// Velocities of the push that tests stability \[m/s, rad/s\], and length of the test \[s\].
 const PUSH: f64 = 1e-3;
 const WATCH: f64 = 2.0;
-/// At rest, a coordinate may move this many times as far as the push alone would move it.
+/// In the test, a coordinate of a stable state moves at most this many times as far as the push alone would move it.
 const DRIFT: f64 = 10.0;
 
-/// Searches for a state of rest, from a state and at a time that stands still. `acceleration` is the largest acceleration \[m/s²\] of a
-/// state in which nothing moves relative to the start, and whether the state is near enough to the start.
+/// Searches a state of rest, beginning at the state `start`; time stands still at `time`. `acceleration` returns the
+/// largest acceleration of a state \[m/s²\], and whether the state is near enough to the start. `go_on` is called after
+/// each stop, and returns false to end the search.
 pub fn settle(
     model: &dyn Dynamics<f64>,
     time: f64,
@@ -95,7 +103,7 @@ pub fn settle(
     let (mut left, _) = acceleration(&motion.state);
     let mut before = 0.0;
     let mut steps = 0u32;
-    // the smallest acceleration so far, and after which stop it was halved last
+    // the smallest acceleration so far, and the number of the stop at which it was last halved
     let (mut best, mut nearer) = (left, 0);
     let mut end = End::Moving;
     while motion.evaluations < wanted.evaluations {
@@ -155,12 +163,12 @@ pub fn settle(
     }
 }
 
-/// Whether the model stays near a state after a push of all its velocities, in two directions.
+/// True if the model stays near a state after a push of all its velocities, tested in two opposite directions.
 fn stays(model: &dyn Dynamics<f64>, time: f64, state: &[f64]) -> bool {
     [1.0, -1.0].into_iter().all(|sign| {
         let mut motion = Motion::new(model, time, state);
         for index in motion.velocities() {
-            // no symmetry cancels this direction
+            // velocities differ irregularly, so that no symmetry cancels the push
             let part = (1.0 + index as f64 * 0.618_033_988_749_895).fract();
             motion.state[index] += sign * PUSH * (0.5 + 0.5 * part);
         }
@@ -181,14 +189,15 @@ fn stays(model: &dyn Dynamics<f64>, time: f64, state: &[f64]) -> bool {
     })
 }
 
-/// A state with the data of its integration.
+/// A state during its integration.
 struct Motion<'m> {
     model: &'m dyn Dynamics<f64>,
     time: f64,
     state: Vec<f64>,
-    /// ẏ at the state, for an observer who moves along.
+    /// ẏ at the state, for an observer who moves with the velocities that are kept.
     rate: Vec<f64>,
-    /// Velocities that are kept, and the rates of coordinates that they cause.
+    /// Velocities that are kept, which are those of reference joints at the start, and the rates of coordinates due to
+    /// them.
     kept: Vec<f64>,
     drift: Vec<f64>,
     step_length: f64,
@@ -238,7 +247,7 @@ impl<'m> Motion<'m> {
         self.evaluations += 1;
     }
 
-    /// ẏ of a state, for an observer who moves along.
+    /// ẏ of a state, for an observer who moves with the velocities that are kept.
     fn rate_at(&self, state: &[f64], rate: &mut [f64]) {
         self.model.derivative(self.time, state, rate);
         for (rate, drift) in rate.iter_mut().zip(&self.drift) {
@@ -253,7 +262,8 @@ impl<'m> Motion<'m> {
         self.look();
     }
 
-    /// The kinetic energy of the motion relative to the velocities that are kept: T = ½ uᵀMu + bᵀu + c, of which this is the first term.
+    /// The kinetic energy of the motion relative to the velocities that are kept: the first term of T = ½ uᵀMu + bᵀu +
+    /// c, with the relative velocities u.
     fn energy(&self) -> f64 {
         let first = self.coordinates();
         let of = |share: f64| {
@@ -266,7 +276,8 @@ impl<'m> Motion<'m> {
         0.5 * (of(1.0) + of(-1.0)) - of(0.0)
     }
 
-    /// Follows the accelerations by implicit steps of growing length, until the accelerations are small or all steps are used.
+    /// Follows the accelerations by implicit steps of growing length, until their norm is at most `small` or all steps
+    /// are used.
     fn follow(&mut self, small: f64) {
         let (count, first) = (self.state.len(), self.coordinates());
         let degrees_of_freedom = self.velocities().len();
@@ -331,7 +342,7 @@ impl<'m> Motion<'m> {
         }
     }
 
-    /// For each degree of freedom, the coordinates that change, and their rates at a velocity of 1.
+    /// For each degree of freedom, the coordinates that change with it, and their rates at a velocity of 1.
     fn directions(&self) -> Vec<Vec<(usize, f64)>> {
         let velocities = self.velocities();
         let column = |index: usize| {
@@ -346,7 +357,7 @@ impl<'m> Motion<'m> {
         velocities.clone().map(column).collect()
     }
 
-    /// The motion after a step in each degree of freedom.
+    /// The motion after a change of the coordinates by `step` in each degree of freedom.
     fn moved(&self, columns: &[Vec<(usize, f64)>], step: &[f64]) -> Motion<'m> {
         let mut moved = Motion {
             state: self.state.clone(),
@@ -366,7 +377,7 @@ impl<'m> Motion<'m> {
         moved
     }
 
-    /// One step; false if no step, however short, has finite numbers.
+    /// Takes one time step; false if the step would become too short.
     fn step(&mut self) -> bool {
         let count = self.state.len();
         let (mut second, mut third, mut last) =

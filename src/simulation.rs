@@ -1,4 +1,4 @@
-//! One recorded run of a model: the samples of the table, poses for the picture, and the cost.
+//! Runs a model and records the run: the samples of the table, poses for pictures, and the cost.
 
 use crate::build_on_demand::RustcModel;
 use crate::equations::Engine;
@@ -24,37 +24,40 @@ pub struct Recording {
     pub table: Table,
     /// Names of the coordinates of poses: those of the model, with quaternions instead of Bryant angles.
     pub coordinates: Vec<String>,
-    /// Poses, evenly spread over the samples, with the first and the last.
+    /// Poses of samples, evenly spread, with the first and the last.
     pub instants: Vec<Instant>,
-    /// No body turned faster at a sample, unless a vehicle carries it or it follows another \[rad/s\]: the largest sum of the angular velocities of a
-    /// system.
+    /// An upper bound of the angular velocity of bodies at samples \[rad/s\]: the largest sum of the angular velocities
+    /// in a system. Does not include rotations of vehicles, and of joints that follow others.
     pub turning: f64,
     /// The state of the last sample: q, v, z, m, as in [`Info::state_name`]; empty if there is no sample.
     pub last_state: Vec<f64>,
     /// The cost of the run, or its failure.
     pub result: Result<Report, RunError>,
-    /// [Responses](bryant_runtime::program::Reading) that the job requests; empty if the run did not reach its end or cannot be trusted.
+    /// [Responses](bryant_runtime::program::Reading) that the job requests; empty if the run did not reach its end or
+    /// cannot be trusted.
     pub answers: Vec<Answer>,
-    /// Samples of the channels that the job wants [kept](bryant_runtime::program::Kept); empty if the run did not reach its end.
+    /// Samples of the channels that the job wants [kept](bryant_runtime::program::Kept); empty if the run did not reach
+    /// its end.
     pub kept: Vec<Vec<f64>>,
     /// Works of effects over time, if the job requests them.
     pub history: Option<History>,
-    /// The balance of energy, if anything ran.
+    /// The balance of energy; `None` if the run did not start.
     pub energy: Option<Energy>,
-    /// Why it cannot be trusted.
+    /// The reasons why the run cannot be trusted.
     pub doubts: Vec<Finding>,
     /// Notes about the run.
     pub notes: Vec<String>,
-    /// The smallest value of each event function, as in the header; empty if nothing ran.
+    /// The smallest value of each event function, in the order of the header; empty if the run did not start.
     pub nearest: Vec<f64>,
-    /// Time of the computation, including the writing of machine code, without deriving, starting and printing.
+    /// Time of the computation, including the making of machine code, but without deriving the equations, starting and
+    /// printing.
     pub wall: Duration,
 }
 
-/// At most this many poses are kept; no picture needs more.
+/// Largest number of poses that are kept; no picture needs more.
 const MOST_INSTANTS: usize = 4096;
 
-/// A model that runs jobs, independent of how it is evaluated.
+/// A model that can run jobs, whatever evaluates its equations.
 pub trait Runs {
     /// Names, units and sizes.
     fn info(&self) -> &'static Info;
@@ -78,7 +81,7 @@ impl Runs for Engine {
     }
 }
 
-/// Runs in double precision, whatever the job requests.
+/// Always runs in double precision.
 impl Runs for RustcModel {
     fn info(&self) -> &'static Info {
         RustcModel::info(self)
@@ -94,12 +97,13 @@ impl Runs for RustcModel {
     }
 }
 
-/// Runs a job until its end, or until an [interrupt]; `progress` is called from time to time with the time reached \[s\].
+/// Runs a job until its end, or until an [interrupt]; `progress` is called from time to time with the time reached
+/// \[s\].
 pub fn run(model: &dyn Runs, job: &Job, progress: &mut dyn FnMut(f64)) -> Recording {
     run_with_poses(model, job, MOST_INSTANTS, progress)
 }
 
-/// The same with at most so many poses, and the last.
+/// Runs a job as [`run`] does, and keeps at most `most` poses, and the last.
 pub fn run_with_poses(
     model: &dyn Runs,
     job: &Job,
@@ -126,8 +130,8 @@ pub fn run_with_poses(
 }
 
 impl Recording {
-    /// Puts the samples of filtered channels into the rows of their outputs. A filter needs the whole run: the values are unknown if the
-    /// run did not reach its end.
+    /// Replaces the values of filtered outputs in the table by those of the filtered samples. A filter needs the whole
+    /// run, so these values are unknown if the run did not reach its end.
     fn show(&mut self, reading: &Reading, kept: Vec<Vec<f64>>) {
         let times = self.table.columns[0].values.clone();
         let ends = [times.first(), times.last()].map(|t| t.copied().unwrap_or(0.0));
@@ -150,7 +154,7 @@ impl Recording {
     }
 }
 
-/// How fast bodies turn at most.
+/// Finds out how fast bodies rotate.
 struct Turning {
     /// The angular velocities of each system, as indices of the state.
     systems: Vec<Vec<usize>>,
@@ -192,7 +196,7 @@ struct Recorder {
     times: Vec<f64>,
     outputs: Vec<Vec<f64>>,
     instants: Vec<Instant>,
-    /// At most so many are kept, and one for this many samples.
+    /// Largest number of instants that are kept, and number of samples for each.
     most: usize,
     stride: usize,
     turning: Turning,
@@ -308,7 +312,7 @@ impl Recording {
         self.header.parameters.iter().map(value).collect()
     }
 
-    /// The poses nearest to these times, each once.
+    /// The poses that are nearest to these times, without repetitions.
     pub fn at(&self, times: &[f64]) -> Vec<Instant> {
         let mut chosen: Vec<Instant> = Vec::with_capacity(times.len());
         for time in times {

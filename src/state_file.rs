@@ -11,9 +11,9 @@
 //! }
 //! ```
 //!
-//! All numbers are in SI units and have all digits of a double; their names are those of [`Info`]. `laws` has the continuous states of
-//! force laws, `memory` their discrete states; a group that the model does not have may be left out. A state of a model that is like another one
-//! starts that one, too: what both have is taken over by name.
+//! All numbers are in SI units and have all digits of a double; their names are those of [`Info`]. `laws` has the
+//! continuous states of force laws, `memory` their discrete states; a group that the model does not have may be left
+//! out. A state may also start another, similar model: entries are found by their names.
 
 use crate::orientation;
 use crate::simulation::Recording;
@@ -88,7 +88,7 @@ pub fn text(recording: &Recording) -> String {
     )
 }
 
-/// A state of a model, with its time \[s\], as the text of a file.
+/// A state of a model at a time \[s\], as the text of a file.
 pub fn of_state(model: &str, info: &Info, time: f64, state: &[f64]) -> String {
     let names = [
         info.coordinates,
@@ -122,22 +122,24 @@ fn of_groups(model: &str, names: [Vec<&str>; 4], time: f64, state: &[f64]) -> St
     text
 }
 
-/// A state that was read, and what is to be said of it.
+/// A state that was read, with remarks.
 #[derive(Debug)]
 pub struct Read {
     /// The state, with its time.
     pub start: Start,
-    /// Sentences about what the file and the model do not have in common.
+    /// Sentences about differences between the file and the model.
     pub notes: Vec<String>,
 }
 
-/// Reads a state of a model, or of one that is like it. Of a system that only one of the two has, and of states and memory of laws, what the file
-/// lacks begins as in `own`, the start of the model, and what the model does not have is left out; both are said. Orientations are converted between
-/// quaternions and Bryant angles. `end` is where the run ends \[s\].
+/// Reads a state of a model, or of a similar model. Some entries may be missing in the file or in the model: those of a
+/// system that only one of the two has, and states and memory of laws. Entries that the file lacks are taken from
+/// `own`, the start of the model; entries that the model lacks are ignored; notes name both. Orientations are converted
+/// between quaternions and Bryant angles if necessary. `end` is the time at which the run ends \[s\].
 ///
 /// # Errors
-/// The file cannot be read or is not a state, its time is not one of the run, or names of a system are missing in the model or in the file; the message
-/// has the file, the names and a remedy.
+/// The file cannot be read or is not a state, its time is negative or not before the end of the run, file and model
+/// have no system in common, or only some of the entries of a system are in one of them. The message has the file, the
+/// names and a remedy.
 pub fn read(path: &Path, info: &Info, own: &[f64], end: f64) -> Result<Read, String> {
     let shown = path.display();
     let text =
@@ -167,7 +169,7 @@ pub fn read(path: &Path, info: &Info, own: &[f64], end: f64) -> Result<Read, Str
         .map_err(|error| format!("{shown}: {error}"))
 }
 
-/// The system that a coordinate or a velocity belongs to.
+/// The name of the system of a coordinate or a velocity.
 fn system_of(name: &str) -> Option<&str> {
     name.find(['/', '.']).map(|end| &name[..end])
 }
@@ -263,7 +265,8 @@ fn taken_over(file: File, info: &Info, own: &[f64]) -> Result<(Start, Vec<String
     ))
 }
 
-/// Turns quaternions and angular velocities into Bryant angles and their rates, or the other way, where the model has the other kind.
+/// Converts quaternions and angular velocities to Bryant angles and their rates, or vice versa, if the model has the
+/// other kind.
 fn convert(groups: &mut [BTreeMap<String, f64>; 4], own_names: [&[&str]; 4]) {
     for name in own_names[0] {
         let (Some(of), to_angles) = (match name.strip_suffix(".phi1") {
@@ -321,7 +324,7 @@ fn convert(groups: &mut [BTreeMap<String, f64>; 4], own_names: [&[&str]; 4]) {
     }
 }
 
-/// Some of many names.
+/// The first five of the names.
 fn few<T: AsRef<str>>(names: &[T]) -> String {
     let mut text: Vec<&str> = names.iter().take(5).map(AsRef::as_ref).collect();
     if names.len() > 5 {

@@ -1,7 +1,7 @@
-//! A table of columns with units: for people, for spreadsheets, for programs.
+//! A table of columns with units: as text for people, as CSV, as JSON.
 //!
-//! For people, the number of decimals of a column follows from its unit (newtons without decimals, metres to the millimetre), with more
-//! decimals if three digits of the largest value need them. Files have all digits.
+//! In text, the number of decimals of a column follows from its unit (newtons without decimals, metres to the
+//! millimetre); there are more if three digits of the largest value need them. Files have all digits.
 
 use bryant_picture::text::{typeset, wrap};
 use std::fmt::Write as _;
@@ -10,33 +10,34 @@ use std::io;
 /// Named columns of equal length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
-    /// From left to right; the other columns are functions of the first.
+    /// The columns from left to right; all others are functions of the first.
     pub columns: Vec<Column>,
 }
 
-/// A quantity.
+/// A column: the values of a quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Heading.
     pub name: String,
     /// Unit of the values, "" for a pure number.
     pub unit: String,
-    /// One value per row.
+    /// One value for each row.
     pub values: Vec<f64>,
 }
 
 /// The layout of a table for people.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    /// Significant digits of the largest value of every column; `None`: by the unit.
+    /// Significant digits of the largest value of each column; `None` if the unit determines the decimals.
     pub digits: Option<usize>,
-    /// Characters in a line; columns that do not fit follow below, each time with the first column. `None`: no limit.
+    /// Width of lines in characters; `None` without a limit. Columns that do not fit are printed below, again with the
+    /// first column.
     pub width: Option<usize>,
 }
 
 /// Characters between two columns.
 const GAP: usize = 2;
-/// Headings longer than this are wrapped between words.
+/// Width in characters beyond which headings are wrapped between words.
 const HEADING: usize = 12;
 
 impl Table {
@@ -45,7 +46,7 @@ impl Table {
         self.columns.first().map_or(0, |c| c.values.len())
     }
 
-    /// The table as aligned text: headings, units, one line per row.
+    /// The table as aligned text: headings, units, a line for each row.
     pub fn text(&self, layout: Layout) -> String {
         let cells: Vec<Cells> = self
             .columns
@@ -62,7 +63,7 @@ impl Table {
         text
     }
 
-    /// A number of this unit as it stands in a table for people.
+    /// A number as a table for people shows it.
     pub fn number(value: f64, unit: &str) -> String {
         let alone = Column {
             name: String::new(),
@@ -72,8 +73,8 @@ impl Table {
         Format::of(&alone, None).print(value)
     }
 
-    /// Comma-separated values, every digit, units in the headings: `chest belt force [N]`. The first heading is in quotation marks, which
-    /// readers of CSV do not show: by it the program knows its own tables (`own`).
+    /// Writes CSV with all digits; units are in the headings: `chest belt force [N]`. The first heading is in quotation
+    /// marks, by which the program recognises its own tables (`own`); readers of CSV ignore them.
     pub fn write_csv(&self, mut out: impl io::Write) -> io::Result<()> {
         let mut headings = self.columns.iter().map(Column::heading);
         let first = headings.next().unwrap_or_default().replace('"', "\"\"");
@@ -82,7 +83,7 @@ impl Table {
             "\"{first}\"{}",
             if headings.len() > 0 { "," } else { "\n" }
         )?;
-        // the line of headings has one less, because the first is written
+        // flexible, because the first heading is already written, so the line of headings is one field shorter
         let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(out);
         if headings.len() > 0 {
             writer.write_record(headings)?;
@@ -93,7 +94,7 @@ impl Table {
         writer.flush()
     }
 
-    /// `{"columns": [{"name", "unit"}, …], "rows": [[…], …]}`; a value that is not finite is `null`.
+    /// The table as JSON: `{"columns": [{"name", "unit"}, …], "rows": [[…], …]}`; a value that is not finite is `null`.
     pub fn json(&self) -> serde_json::Value {
         let columns: Vec<_> = self
             .columns
@@ -108,12 +109,12 @@ impl Table {
 }
 
 impl Column {
-    /// Name and unit in one line, as files have them.
+    /// Name and unit in one line, in the form of files.
     pub fn heading(&self) -> String {
         self.with(&self.unit)
     }
 
-    /// Name and unit in one line, as people write them.
+    /// Name and unit in one line, in the form for people.
     pub fn title(&self) -> String {
         self.with(&typeset(&self.unit))
     }
@@ -138,7 +139,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// A column made ready for printing.
+/// The texts of a column.
 struct Cells {
     heading: Vec<String>,
     unit: String,
@@ -170,11 +171,11 @@ impl Cells {
     }
 }
 
-/// How the numbers of one column are written.
+/// The format of the numbers of a column.
 #[derive(Clone, Copy)]
 enum Format {
     Decimals(usize),
-    /// Digits after the point of the mantissa.
+    /// Number of decimals of the mantissa.
     Scientific(usize),
 }
 
@@ -213,7 +214,7 @@ impl Format {
             Format::Decimals(decimals) => format!("{value:.decimals$}"),
             Format::Scientific(digits) => format!("{value:.digits$e}"),
         };
-        // A number that rounds to zero has no sign.
+        // a number that rounds to zero has no sign
         match text.strip_prefix('-') {
             Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_owned(),
             _ => text,
@@ -221,7 +222,7 @@ impl Format {
     }
 }
 
-/// Decimals at which an engineer reads a quantity of this unit.
+/// Number of decimals with which engineers usually give a quantity in this unit.
 fn natural_decimals(unit: &str) -> usize {
     match unit {
         "s" | "m" | "rad" => 3,
@@ -231,7 +232,7 @@ fn natural_decimals(unit: &str) -> usize {
     }
 }
 
-/// Number of decimals that distinguishes the rows of a column of equidistant times; `None` for any other column.
+/// Number of decimals that distinguish the rows of a column of equidistant times; `None` for other columns.
 fn spacing_decimals(column: &Column) -> Option<usize> {
     let values = &column.values;
     if !["s", "ms"].contains(&column.unit.as_str()) || values.len() < 2 {
@@ -239,7 +240,7 @@ fn spacing_decimals(column: &Column) -> Option<usize> {
     }
     let step = values[1] - values[0];
     let equidistant = |pair: &[f64]| (pair[1] - pair[0] - step).abs() <= 1e-6 * step;
-    // The last sample of a run need not be on the grid.
+    // the last sample of a run may be nearer than the others
     if step <= 0.0 || !values[..values.len() - 1].windows(2).all(equidistant) {
         return None;
     }
@@ -253,7 +254,7 @@ fn spacing_decimals(column: &Column) -> Option<usize> {
     })
 }
 
-/// The columns that stand side by side.
+/// The columns of each block; the columns of a block fit side by side.
 fn blocks(cells: &[Cells], width: Option<usize>) -> Vec<Vec<usize>> {
     let Some(first) = cells.first() else {
         return Vec::new();
@@ -284,7 +285,7 @@ fn block_text(cells: &[Cells], block: &[usize], text: &mut String) {
         for (position, &index) in block.iter().enumerate() {
             let (gap, width) = (if position == 0 { 0 } else { GAP }, cells[index].width);
             let content = cell(&cells[index]);
-            // Padding counts characters, not bytes: units hold superscripts.
+            // the width is in characters, not bytes, because units have superscripts
             let _ = write!(text, "{:gap$}{content:>width$}", "");
         }
         text.truncate(text.trim_end().len());

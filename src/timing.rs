@@ -1,7 +1,7 @@
-//! Times of one evaluation of several models, measured in comparison with each other.
+//! Measures the time of one evaluation of several models, which are compared with each other.
 //!
-//! All models run in this process in turn, round after round, so that a disturbance of the machine slows all of them down. Several states
-//! are used, which avoid the special values of the start.
+//! All models run in this process in turn, round after round, so that a disturbance of the machine slows down all of
+//! them. Several states are used, which avoid the special values of the start.
 
 use crate::equations::Engine;
 use bryant_runtime::Adjustable;
@@ -11,9 +11,9 @@ use std::time::Instant;
 /// The method that is timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// The derivative of the state, whose main part is the accelerations.
+    /// The rates of the state, which are mainly accelerations.
     Accelerations,
-    /// The outputs, with the accelerations if they need them.
+    /// The outputs, including the accelerations if they need them.
     Outputs,
 }
 
@@ -36,14 +36,14 @@ pub struct Measured {
     pub bytes: Option<u64>,
 }
 
-/// Rounds; every model runs once in each.
+/// Number of rounds; each model has one turn in each round.
 const ROUNDS: usize = 101;
-/// Length of a turn, about \[s\].
+/// Approximate length of a turn \[s\].
 const TURN: f64 = 5e-5;
-/// States that are evaluated in turn.
+/// Number of states that are evaluated in turn.
 const STATES: usize = 8;
 
-/// Times one method of each model.
+/// Measures one method of each model.
 pub fn time(models: &[(&Engine, Method)]) -> Vec<Measured> {
     let mut all: Vec<Evaluations<'_>> = models
         .iter()
@@ -53,7 +53,8 @@ pub fn time(models: &[(&Engine, Method)]) -> Vec<Measured> {
     let mut times = vec![Vec::with_capacity(ROUNDS); all.len()];
     for _ in 0..ROUNDS {
         for ((evaluations, times), &count) in all.iter_mut().zip(&mut times).zip(&counts) {
-            // the models before have displaced it from the caches
+            // first some evaluations that are not measured, because other models have displaced this one from the
+            // caches
             evaluations.take(count / 8);
             times.push(evaluations.take(count) / count as f64);
         }
@@ -81,7 +82,7 @@ fn bytes(engine: &Engine, method: Method) -> Option<u64> {
     engine.code_bytes(method).map(|bytes| bytes as u64)
 }
 
-/// Repeated evaluations of a model.
+/// Evaluates a model repeatedly.
 struct Evaluations<'a> {
     model: Box<dyn Adjustable<f64> + 'a>,
     method: Method,

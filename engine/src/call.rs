@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Library {
     curves: Vec<Table>,
-    /// `None` if the model calls no function of the user.
+    /// The functions of the user; `None` if the model calls none.
     users: Option<Arc<dyn UserFunctions>>,
 }
 
@@ -43,8 +43,8 @@ impl Library {
         &self.curves[index as usize]
     }
 
-    /// Calls a function and writes all its results, in order. It is compiled once for each scalar, for the instructions that the scalar
-    /// needs.
+    /// Calls a function and writes all its results, in order. The function is compiled for each scalar, with the
+    /// instructions that the scalar needs.
     #[inline(never)]
     pub fn call<T: Real>(&self, function: Function, arguments: &[T], results: &mut [T]) {
         T::dispatch(Call {
@@ -88,7 +88,7 @@ impl Library {
     }
 }
 
-/// A call as a task.
+/// A call of a function as a task.
 struct Call<'a, T> {
     library: &'a Library,
     function: Function,
@@ -116,7 +116,7 @@ impl<T: Real> Task for SinCos<T> {
     }
 }
 
-/// (sin, cos). It is compiled once for each scalar, for the instructions that the scalar needs.
+/// (sin, cos), compiled for each scalar, with the instructions that the scalar needs.
 #[inline]
 pub fn sin_cos<T: Real>(angle: T) -> (T, T) {
     T::dispatch_apart(SinCos(angle))

@@ -1,4 +1,4 @@
-//! Evaluation by machine code where that is possible, and by the interpreter elsewhere.
+//! Evaluates methods by machine code where possible, else by the interpreter.
 
 use crate::execute::{Execute, Given};
 use crate::interpret::Interpreter;
@@ -10,8 +10,8 @@ use bryant_runtime::Real;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-/// Evaluates lists over one scalar. Numbers and registers of numbers use machine code where the processor and the system allow it; everything
-/// else uses the interpreter. Both give the same bits.
+/// Evaluates lists over one scalar. Numbers, and registers of several numbers, use machine code if the processor and
+/// the system allow it; other scalars use the interpreter. Both give the same bits.
 ///
 /// A method is compiled when it runs for the first time.
 #[derive(Debug)]
@@ -19,17 +19,17 @@ pub struct Evaluator<T: Real> {
     shared: Arc<Shared>,
     parameters: Vec<T>,
     derived: Vec<T>,
-    /// For each method, its code once compiled; `None` where compilation was tried and there is no code.
+    /// The machine code of each method, set when the method first runs; `None` if the method has to be interpreted.
     compiled: [OnceCell<Option<Code<T>>>; Method::ALL.len()],
-    /// The same for each combination of methods.
+    /// The machine code of each combination of methods, in the same form.
     combined: [OnceCell<Option<Code<T>>>; Combination::ALL.len()],
-    /// The same for the wanted outputs, if only some are wanted.
+    /// The machine code of the wanted outputs, in the same form, if only some outputs are wanted.
     outputs: OnceCell<Option<Code<T>>>,
-    /// The interpreter for methods without code.
+    /// The interpreter for methods without machine code.
     interpreter: OnceCell<Interpreter<T>>,
 }
 
-/// The code of one method.
+/// The machine code of one list.
 type Code<T> = Compiled<T, LibraryFunction>;
 
 impl<T: Real> Evaluator<T> {
@@ -45,12 +45,12 @@ impl<T: Real> Evaluator<T> {
         }
     }
 
-    /// Whether the method runs as machine code.
+    /// True if the method runs as machine code.
     pub fn is_compiled(&self, method: Method) -> bool {
         self.compiled(method).is_some()
     }
 
-    /// Length of the machine code of a method in bytes, with its constants; `None` where it is interpreted.
+    /// Length of the machine code of a method in bytes, with its constants; `None` if the method is interpreted.
     pub fn bytes(&self, method: Method) -> Option<usize> {
         self.compiled(method).map(Code::bytes)
     }
@@ -140,7 +140,7 @@ impl<T: Real> Execute<T> for Evaluator<T> {
     }
 }
 
-/// A function of the runtime or of the user, in the form that code calls.
+/// A function of the runtime or of the user, in the form that machine code calls.
 #[derive(Debug)]
 #[allow(dead_code, reason = "machine code alone calls it")]
 struct LibraryFunction {

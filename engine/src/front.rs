@@ -1,5 +1,5 @@
-//! Runs, rows and gradients of a model by its engine. None of these functions is generic. So all time loops over all scalars are compiled
-//! with this crate, and crates that use it only call them.
+//! Runs, rows and gradients of a model by its engine. These functions are not generic, so that the time loops over all
+//! scalars are compiled with this crate, and not with crates that use it.
 
 use crate::model::Engine;
 use bryant_runtime::batch::rows::{self, Gradients, NoSuchRegisters, Results, Sampled};
@@ -39,7 +39,7 @@ impl Engine {
         rows::rows(self, job, rows)
     }
 
-    /// The same, with reports of rows that take long: [`rows::rows_heard`].
+    /// Runs rows as [`Engine::rows`] does, and reports rows that take long: [`rows::rows_heard`].
     ///
     /// # Errors
     /// If the processor lacks the registers that the job asks for.
@@ -53,7 +53,7 @@ impl Engine {
         rows::rows_heard(self, job, rows, hear)
     }
 
-    /// The same in single precision: [`rows::rows_of_singles`].
+    /// Runs rows in single precision: [`rows::rows_of_singles`].
     ///
     /// # Errors
     /// If the processor lacks the registers that the job asks for.
@@ -66,7 +66,7 @@ impl Engine {
         rows::rows_of_singles(self, job, rows)
     }
 
-    /// The same, with reports of rows that take long: [`rows::rows_of_singles_heard`].
+    /// Runs rows in single precision, and reports rows that take long: [`rows::rows_of_singles_heard`].
     ///
     /// # Errors
     /// If the processor lacks the registers that the job asks for.
@@ -89,7 +89,7 @@ impl Engine {
         rows::series(self, job, row, outputs)
     }
 
-    /// The same in single precision: [`rows::series_of_singles`].
+    /// Samples of outputs of one row in single precision: [`rows::series_of_singles`].
     ///
     /// # Errors
     /// If the processor lacks the registers that the job asks for.

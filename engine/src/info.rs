@@ -1,4 +1,4 @@
-//! The facts of a model in the form of the runtime, which live as long as the program.
+//! Converts the facts of a model to the form of the runtime, which lives as long as the program.
 
 use bryant_generator::equations::Watched;
 use bryant_generator::model;
@@ -7,13 +7,13 @@ use bryant_runtime::curve::Extrapolate;
 use bryant_runtime::{CurveInfo, CurveKind, Info, OutputInfo, ParameterInfo, StateKind};
 use std::sync::{Mutex, PoisonError};
 
-/// The facts that were converted, each with its result.
+/// All facts that were converted, each with its result.
 static KNOWN: Mutex<Vec<(Facts, &'static Info)>> = Mutex::new(Vec::new());
 
 /// The facts of a model as [`Info`].
 ///
-/// `Info` consists of references that last as long as the program. They are leaked on purpose: some kilobytes for each model. Equal facts
-/// give the same `Info`, so a model that is made many times leaks only once.
+/// `Info` consists of references that last as long as the program. Their memory is leaked on purpose, some kilobytes
+/// for each model. Equal facts give the same `Info`, so making a model many times leaks only once.
 pub fn info(facts: &Facts) -> &'static Info {
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, info)) = known.iter().find(|(of, _)| of == facts) {

@@ -1,5 +1,5 @@
 //! The derivatives of ẏ with respect to y and t: the equations over dual numbers, with as many columns at once as a
-//! register holds.
+//! register has lanes.
 
 use crate::evaluate::Evaluator;
 use crate::execute::{Execute, Given};
@@ -17,13 +17,13 @@ use std::sync::Arc;
 
 /// The Jacobian of a model over a scalar.
 pub(crate) trait Jacobian<T>: Debug {
-    /// To be called when the parameters change.
+    /// Must be called when the parameters change.
     fn forget_parameters(&mut self);
-    /// Writes ∂ẏ/∂y, by rows, and ∂ẏ/∂t, at these parameters.
+    /// Writes ∂ẏ/∂y, by rows, and ∂ẏ/∂t, for the time and state `at`.
     fn evaluate(&mut self, parameters: &[T], at: (T, &[T]), by_state: &mut [T], by_time: &mut [T]);
 }
 
-/// The fastest implementation for this processor. All give the same bits.
+/// The fastest implementation for this processor. All implementations give the same bits.
 pub(crate) fn jacobian<T: Real>(shared: &Arc<Shared>) -> Box<dyn Jacobian<T>> {
     let of_doubles = match TypeId::of::<T>() == TypeId::of::<f64>() {
         true => several(shared),
@@ -36,14 +36,14 @@ pub(crate) fn jacobian<T: Real>(shared: &Arc<Shared>) -> Box<dyn Jacobian<T>> {
     }
 }
 
-/// Several columns at once, if there is machine code for that.
+/// An implementation with several columns at once, if there is machine code for it.
 #[cfg(target_arch = "aarch64")]
 fn several(shared: &Arc<Shared>) -> Option<Box<dyn Jacobian<f64>>> {
     native::there::<Dual<Array2>>()
         .then(|| -> Box<dyn Jacobian<f64>> { Box::new(Differentiated::<f64, Array2>::new(shared)) })
 }
 
-/// Several columns at once, if there is machine code for that.
+/// An implementation with several columns at once, if there is machine code for it.
 #[cfg(not(target_arch = "aarch64"))]
 fn several(shared: &Arc<Shared>) -> Option<Box<dyn Jacobian<f64>>> {
     if Array8::there() && native::there::<Dual<Array8>>() {
@@ -55,7 +55,7 @@ fn several(shared: &Arc<Shared>) -> Option<Box<dyn Jacobian<f64>>> {
     }
 }
 
-/// A scalar that holds several of `T` side by side, each with the bits that it has alone.
+/// A scalar that has several lanes of type `T`; each lane has the bits of a `T` alone.
 trait Holds<T>: Real {
     const LANES: usize;
     /// The same value in every lane.
@@ -115,7 +115,7 @@ struct Differentiated<T, S: Real> {
     state: Vec<Dual<S>>,
     rate: Vec<Dual<S>>,
     derived: usize,
-    /// Whether the parameters are those of the model.
+    /// True if the evaluator has the current parameters of the model.
     current: bool,
     of: std::marker::PhantomData<T>,
 }
@@ -149,7 +149,7 @@ impl<T: Real, S: Holds<T>> Jacobian<T> for Differentiated<T, S> {
         self.current = false;
     }
 
-    /// Computes the columns of the entries that vary, then that of the time, several at each evaluation.
+    /// Computes the columns of the varying entries of y, then that of t, `LANES` columns at each evaluation.
     fn evaluate(
         &mut self,
         parameters: &[T],

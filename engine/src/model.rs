@@ -15,7 +15,7 @@ use bryant_runtime::{Adjustable, Arrival, Dynamics, Family, Info, Real, Schedule
 use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
 
-/// A model that is not yet bound to a scalar. It is made once from the lists of the model and shared by all threads.
+/// A model for any scalar. It is made once from the lists of the model and shared by all threads.
 #[derive(Clone, Debug)]
 pub struct Engine {
     shared: Arc<Shared>,
@@ -27,9 +27,9 @@ pub(crate) struct Shared {
     pub info: &'static Info,
     pub lists: Lists,
     pub library: Library,
-    /// Made when a method is interpreted for the first time.
+    /// The form for the interpreter, made when a method is interpreted for the first time.
     programs: OnceLock<Programs>,
-    /// Several methods as one list, made when the combination is used for the first time.
+    /// Combinations of methods, each as one list, made when the combination is used for the first time.
     combined: [OnceLock<List>; Combination::ALL.len()],
 }
 
@@ -39,18 +39,18 @@ impl Shared {
         self.programs.get_or_init(|| Programs::new(&self.lists))
     }
 
-    /// Several methods as one list.
+    /// A combination of methods as one list.
     pub fn combined(&self, combination: Combination) -> &List {
         let list = || self.lists.combined(combination);
         self.combined[combination as usize].get_or_init(list)
     }
 }
 
-/// Why an engine cannot be made.
+/// Why an engine could not be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The model calls a function of the user, which needs a compiler.
+    /// The model calls a function of the user, and none was given; such functions need a compiler.
     UserFunction {
         /// Its name in the description.
         name: String,
@@ -78,7 +78,7 @@ impl Engine {
         Self::with_functions(lists, None)
     }
 
-    /// The engine of a model that may call these functions of the user.
+    /// The engine of a model that may call these functions of its user.
     ///
     /// # Errors
     /// If the model calls a function of the user that is not among these.
@@ -126,7 +126,7 @@ impl Engine {
         }
     }
 
-    /// Length in bytes of the machine code of a method over doubles; `None` where it is interpreted.
+    /// Length in bytes of the machine code of a method over doubles; `None` if the method is interpreted.
     pub fn code_bytes(&self, method: Method) -> Option<usize> {
         Evaluator::<f64>::new(self.shared.clone()).bytes(method)
     }
@@ -136,13 +136,13 @@ impl Engine {
         &self.shared.lists
     }
 
-    /// The model over a scalar, with the default values of all parameters: by machine code where that is possible, by the
-    /// interpreter elsewhere.
+    /// The model over a scalar, with the default values of all parameters. It uses machine code where possible, else
+    /// the interpreter.
     pub fn over<T: Real>(&self) -> Evaluated<T> {
         Machine::new(self.shared.clone(), Evaluator::new(self.shared.clone()))
     }
 
-    /// The model over a scalar, with the default values of all parameters, by the interpreter.
+    /// The model over a scalar, with the default values of all parameters. It uses the interpreter only.
     pub fn interpreted<T: Real>(&self) -> Interpreted<T> {
         Machine::new(self.shared.clone(), Interpreter::new(self.shared.clone()))
     }
@@ -153,9 +153,10 @@ impl Family for Engine {
         self.shared.info
     }
 
-    /// The model has its Jacobian, except over double-doubles: reference solutions are computed by explicit methods.
+    /// The model has a Jacobian, except over double-doubles: these are for reference solutions, which use explicit
+    /// methods.
     fn over<T: Real>(&self) -> Box<dyn Adjustable<T> + '_> {
-        // a branch on a constant: dual numbers over double-doubles are not compiled
+        // a branch on a constant, so that dual numbers over double-doubles are not compiled
         match const { is_double_double::<T>() } {
             true => Box::new(WithoutJacobian(Engine::over::<T>(self))),
             false => Box::new(Engine::over::<T>(self)),
@@ -191,23 +192,24 @@ pub struct Machine<T, E> {
     shared: Arc<Shared>,
     execute: E,
     parameters: Vec<T>,
-    /// The values that depend on the parameters alone.
+    /// The values that depend only on parameters.
     derived: Vec<T>,
-    /// The rates, for methods that start from accelerations.
+    /// Room for the rates; methods that need accelerations read them here.
     rates: RefCell<Vec<T>>,
-    /// The event functions, for methods that start from them.
+    /// Room for the event functions, for methods that need them.
     event_functions: RefCell<Vec<T>>,
     /// Results that are processed before they are returned.
     results: RefCell<Vec<T>>,
-    /// The results of several methods at once.
+    /// Room for the results of a combination of methods.
     combined: RefCell<Vec<T>>,
-    /// The wanted outputs, if not all are wanted.
+    /// The indices of the wanted outputs; `None` if all are wanted.
     wanted: Option<Box<[usize]>>,
-    /// Made when a Jacobian is used for the first time.
+    /// The Jacobian, made when it is used for the first time.
     jacobian: RefCell<Option<Box<dyn Jacobian<T>>>>,
 }
 
-/// A model over one scalar without its Jacobian, for which the equations are not compiled over dual numbers. A batch never uses one.
+/// A model over one scalar without a Jacobian, so that its equations are not compiled over dual numbers. A batch never
+/// uses this type.
 struct WithoutJacobian<M>(M);
 
 impl<T: Real, E: Execute<T>> Machine<T, E> {
@@ -244,7 +246,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         machine
     }
 
-    /// Computes the values that depend on the parameters alone.
+    /// Computes the values that depend only on parameters.
     fn derive(&mut self) {
         derive(&mut self.execute, &self.parameters, &mut self.derived);
         if let Some(jacobian) = self.jacobian.get_mut() {
@@ -252,7 +254,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         }
     }
 
-    /// Runs a method at a state, after the method whose results it starts from, if any.
+    /// Runs a method at a state. If it needs results of another method, that method runs first.
     fn at(&self, method: Method, t: T, y: &[T], results: &mut [T]) {
         let routine = self.shared.lists.routine(method);
         if routine.list.results.is_empty() {
@@ -290,7 +292,8 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         }
     }
 
-    /// Runs several methods at once and passes their results to `hand_on`; returns false if that is not possible.
+    /// Runs a combination of methods and passes the results of each to `hand_on`; returns false if this is not
+    /// possible.
     fn at_once(
         &self,
         combination: Combination,
@@ -315,7 +318,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         done
     }
 
-    /// [`Dynamics::exchange`] at once; returns false if that is not possible.
+    /// Computes [`Dynamics::exchange`] by a combination of methods; returns false if this is not possible.
     fn exchange_at_once(
         &self,
         at: (T, &[T]),
@@ -328,7 +331,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         })
     }
 
-    /// [`Dynamics::arrive`] at once; returns false if that is not possible.
+    /// Computes [`Dynamics::arrive`] by a combination of methods; returns false if this is not possible.
     fn arrive_at_once(&self, at: (T, &[T]), arrival: &mut Arrival<'_, T>) -> bool {
         let combination = match (&arrival.account, arrival.curves.is_empty()) {
             (Some(_), _) => Combination::WatchedArrival,
@@ -373,7 +376,8 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         })
     }
 
-    /// Writes the wanted outputs to their places, if only some are wanted and there is code for these; otherwise returns false.
+    /// Writes only the wanted outputs, to their places, and returns true; returns false if all are wanted or there is
+    /// no machine code.
     fn wanted_outputs(&self, t: T, y: &[T], outputs: &mut [T]) -> bool {
         let Some(wanted) = &self.wanted else {
             return false;
@@ -394,14 +398,14 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         done
     }
 
-    /// Runs a method that needs parameters alone.
+    /// Runs a method that needs only parameters.
     fn of_parameters(&self, method: Method, results: &mut [T]) {
         if !self.shared.lists.list(method).results.is_empty() {
             self.execute.run(method, Given::nothing(), results);
         }
     }
 
-    /// Six results, or zeros where no system is free.
+    /// The six results of a method; zeros if the method has none because no system is free.
     fn six(&self, method: Method, t: T, y: &[T]) -> [T; 6] {
         let mut results = [T::from_f64(0.0); 6];
         self.at(method, t, y, &mut results);
@@ -409,14 +413,14 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
     }
 }
 
-/// Computes the values that depend on the parameters alone, and passes both on.
+/// Computes the values that depend only on parameters, and sets both in `execute`.
 pub(crate) fn derive<T: Real>(execute: &mut impl Execute<T>, parameters: &[T], derived: &mut [T]) {
     execute.set_constants(parameters, &[]);
     execute.run(Method::Derived, Given::nothing(), derived);
     execute.set_constants(parameters, derived);
 }
 
-/// [`Dynamics`] for a type that holds a model over one scalar, without its Jacobian.
+/// Implements [`Dynamics`] for a type that holds a model over one scalar; the Jacobian is an argument.
 macro_rules! dynamics {
     ($holder:ty, $jacobian:item) => {
 impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
@@ -612,7 +616,7 @@ impl<T: Real, E: Execute<T>> Adjustable<T> for Machine<T, E> {
     }
 
     fn want_outputs(&mut self, wanted: &[usize]) {
-        // each index once, and only those that exist
+        // each valid index once
         let all = 0..self.shared.info.outputs.len();
         let wanted: Box<[usize]> = all.filter(|index| wanted.contains(index)).collect();
         self.wanted = (wanted.len() < self.shared.info.outputs.len()).then_some(wanted);
@@ -636,7 +640,7 @@ impl<T: Real> Task for Normalize<'_, T> {
     }
 }
 
-/// The first kink after a time, over the curves whose abscissae depend on parameters, as a task.
+/// The first kink after a time, of the curves whose abscissae depend on parameters, as a task.
 struct KinkAfter<'a, T> {
     library: &'a Library,
     stretched: &'a [u32],

@@ -29,7 +29,8 @@ fn precision(layout: &Layout) -> Precision {
     }
 }
 
-/// The target of code over this scalar. `None` if the scalar is not made of numbers side by side, or if the processor lacks the instructions.
+/// The target of machine code over this scalar. `None` if the scalar is not made of numbers side by side, or if the
+/// processor lacks the instructions.
 #[cfg(target_arch = "x86_64")]
 pub fn target<T: Real>() -> Option<Target> {
     use bryant_generator::target::machine::Length;
@@ -58,7 +59,7 @@ pub fn target<T: Real>() -> Option<Target> {
     })
 }
 
-/// The target of code over this scalar. `None` if the scalar is neither a number nor a register of 16 bytes.
+/// The target of machine code over this scalar. `None` if the scalar is neither a number nor a register of 16 bytes.
 #[cfg(target_arch = "aarch64")]
 pub fn target<T: Real>() -> Option<Target> {
     let layout = Layout::of::<T>()?;
@@ -76,13 +77,14 @@ pub fn target<T: Real>() -> Option<Target> {
     })
 }
 
-/// Whether there is machine code over this scalar.
+/// True if there is machine code over this scalar.
 pub fn there<T: Real>() -> bool {
     target::<T>().is_some()
 }
 
-/// The code of a list over a scalar. `None` if there can be none; the list must then be interpreted. `curves` are those of the model. `function`
-/// gives the functions that are called, besides sine, cosine and `atan2`, which are those of the scalar.
+/// The machine code of a list over a scalar. `None` if there is none, so that the list must be interpreted. `curves`
+/// are those of the model. `function` gives the functions that the list calls, except sine, cosine and `atan2`, which
+/// are those of the scalar.
 pub fn compile<T: Real, C: Call<T>>(
     list: &List,
     curves: &[Curve],

@@ -13,28 +13,28 @@ pub trait Call<T> {
     fn call(&self, arguments: &[T], results: &mut [T]);
 }
 
-/// Code that cannot exist.
+/// Machine code, which cannot exist here.
 #[derive(Debug)]
 pub struct Compiled<T, C>(std::convert::Infallible, PhantomData<(T, C)>);
 
 impl<T: Real, C: Call<T>> Compiled<T, C> {
-    /// Never happens.
+    /// Cannot be called.
     pub fn bytes(&self) -> usize {
         match self.0 {}
     }
 
-    /// Never happens.
+    /// Cannot be called.
     pub fn run(&self, _: Given<T>, _: &[T], _: &[T], _: &mut [T]) {
         match self.0 {}
     }
 }
 
-/// No scalar has machine code.
+/// Returns false: no scalar has machine code.
 pub fn there<T: Real>() -> bool {
     false
 }
 
-/// No code.
+/// Returns `None`: there is no machine code.
 pub fn compile<T: Real, C: Call<T>>(
     _: &List,
     _: &[Curve],

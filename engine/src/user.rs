@@ -1,26 +1,29 @@
-//! Functions of the user as an engine calls them: by plain numbers, whichever compiler made them.
+//! Functions of the user as an engine calls them: with plain numbers, so any compiler may have made them.
 
 use bryant_runtime::Real;
 use bryant_runtime::real::Form;
 use std::cell::Cell;
 use std::fmt::Debug;
 
-/// The functions of a model's user forces. They take and return words ([`Form`]), so one table of them serves all scalars.
+/// The functions of a model's user forces. They take and return plain numbers, the words of a scalar ([`Form`]), so
+/// they serve all scalars.
 pub trait UserFunctions: Debug + Send + Sync {
-    /// Whether there is a function for the force with this index in the model.
+    /// True if there is a function for the force with this index in the model.
     fn knows(&self, force: usize) -> bool;
-    /// Calls the function of a force, lane by lane: `arguments` has the words of all arguments, `results` takes the words of all results,
-    /// those of the first lane first. A function that fails writes NaN to all results, and reports the reason elsewhere.
+    /// Calls the function of a force, lane by lane: `arguments` has the words of all arguments, `results` takes the
+    /// words of all results, those of the first lane first. A function that fails writes NaN to all results, and
+    /// reports the reason elsewhere.
     fn call(&self, force: usize, form: Form, arguments: &[f64], results: &mut [f64]);
 }
 
 thread_local! {
-    /// A buffer for words, so that a second call does not allocate.
+    /// A buffer for words, kept so that later calls do not allocate.
     static PLACE: Cell<Vec<f64>> = const { Cell::new(Vec::new()) };
 }
 
 impl dyn UserFunctions {
-    /// Calls the function of a force over a scalar that has a [form](Real::FORM). Over any other scalar all results are NaN.
+    /// Calls the function of a force over a scalar that has a [form](Real::FORM). Over any other scalar all results are
+    /// NaN.
     #[inline(always)]
     pub fn call_over<T: Real>(&self, force: usize, arguments: &[T], results: &mut [T]) {
         let Some(form) = T::FORM else {

@@ -1,13 +1,15 @@
-//! D'Alembert's principle for given accelerations, body by body \[Newton–Euler\]. This gives the residual S v̇ − r of the equations of
-//! motion without S, and without any part of the generator's derivation or solution.
+//! D'Alembert's principle for given accelerations, body by body \[Newton–Euler\]. It gives the residual S v̇ − r of the
+//! equations of motion, but needs neither S nor any part of the generator's derivation or solution.
 //!
-//! Root to leaves, with α = Σ e_j v̇_j + Σ ė_j v_j and u, c from a joint to the next and to the centre of gravity,
+//! From the root to the leaves, with α = Σ e_j v̇_j + Σ ė_j v_j, and with the vectors u from a joint to the next and c
+//! from a joint to the centre of gravity,
 //!
 //! a_c = a + α × u + ω × (ω × u),   F = m (a + α × c + ω × (ω × c) − g),   N = I α + ω × I ω + c × F
 //!
-//! From leaves to root, the contributions outboard of each joint are added up: F += ΣF_c, N += Σ u_c × F_c. A ball joint transmits no
-//! moment, so by virtual power the residual for v_j of an element is e_j · N, and that for a free reference joint is F of the root. Loads
-//! are subtracted from F and N where they act. Each term is a sum of products of body quantities, n elements take n steps, and there are no
+//! From the leaves to the root, forces and moments outboard of each joint are added up: F += ΣF_c, N += Σ u_c × F_c. A
+//! ball joint transmits no moment, so by virtual power the residual for v_j of an element is e_j · N, and that for a
+//! free reference joint is F of the root. Loads are subtracted from F and N of the element on which they act. Each term
+//! is a sum of products of body quantities, the effort is proportional to the number of elements, and there are no
 //! divisions: in double-double the residual is correct to 30 digits of its largest term.
 
 use bryant_generator::dynamics::layout::{Layout, Orientation};
@@ -51,31 +53,31 @@ struct Load {
 
 /// An element in its current orientation: all vectors in absolute axes.
 struct Turned<S> {
-    /// e_j
+    /// e_j, the axes of its velocities.
     axes: Vec<Vector<S>>,
     /// Principal axes of inertia.
     principal: [Vector<S>; 3],
-    /// u of its joint on the parent.
+    /// u: from the joint of its parent to its own joint.
     offset: Vector<S>,
-    /// c
+    /// c: from its joint to its centre of gravity.
     center: Vector<S>,
-    /// The point of each load.
+    /// The points of the loads, from its joint.
     loaded: Vec<Vector<S>>,
 }
 
-/// The elements of a tree in a position.
+/// The elements of a tree at given coordinates.
 pub struct Posture<'t, S> {
     tree: &'t Tree,
     turned: Vec<Turned<S>>,
-    /// True where the velocities are rates of Bryant angles, whose axes move.
+    /// True if the velocities are rates of Bryant angles, whose axes move.
     of_angles: bool,
 }
 
 impl Tree {
-    /// The only system of a model without parameters, whose forces are constant fields and loads.
+    /// The tree of a model that has only one system, no parameters, and only constant fields and loads as forces.
     ///
     /// # Errors
-    /// The model has other parts.
+    /// The model is of another form.
     pub fn of(model: &Model) -> Result<Tree, Trouble> {
         let unfit = || Trouble::Case("only one system with constant fields and loads".to_owned());
         let [system] = &model.systems[..] else {
@@ -145,7 +147,7 @@ impl Tree {
         self.elements.len()
     }
 
-    /// The tree at q.
+    /// The tree at the coordinates q.
     pub fn posture<S: Real>(&self, q: &[S]) -> Posture<'_, S> {
         let mut turned: Vec<Turned<S>> = Vec::with_capacity(self.elements.len());
         let mut rotations: Vec<[Vector<S>; 3]> = Vec::with_capacity(self.elements.len());
@@ -181,8 +183,9 @@ impl Tree {
 }
 
 impl<S: Real> Posture<'_, S> {
-    /// Linear and angular momentum of a tree whose velocities are angular velocities; the angular momentum is about the reference joint.
-    /// They are S v along the freedoms that move and rotate the whole tree. The second result has the same sums with all terms positive.
+    /// Linear and angular momentum of a tree whose velocities are angular velocities; the angular momentum is about the
+    /// reference joint. They are sums of S v over the freedoms that translate or rotate the whole tree. The second
+    /// result has the same sums over absolute values.
     pub fn momentum(&self, v: &[S]) -> [[S; 6]; 2] {
         let layout = &self.tree.layout;
         let zero = S::from_f64(0.0);
@@ -202,12 +205,12 @@ impl<S: Real> Posture<'_, S> {
         [momentum, size]
     }
 
-    /// S v̇ − r at v.
+    /// S v̇ − r at the velocities v; `rates` are v̇.
     pub fn residual(&self, v: &[S], rates: &[S]) -> Vec<S> {
         self.balance(Some(v), rates)
     }
 
-    /// S by rows: the residual of unit accelerations at rest, without forces.
+    /// S by rows: each is the residual of a unit acceleration at rest, without forces.
     pub fn matrix(&self) -> Vec<Vec<S>> {
         let size = self.tree.layout.velocities.len();
         let column = |j: usize| {
@@ -218,8 +221,8 @@ impl<S: Real> Posture<'_, S> {
         (0..size).map(column).collect()
     }
 
-    /// Converts rates of Bryant angles to ω and α in absolute axes, which the posture uses from then on; changes nothing if velocities are
-    /// ω already. Those of a reference joint stay.
+    /// Converts rates of Bryant angles to ω, and their derivatives to α, in absolute axes; the posture uses these from
+    /// then on. Does nothing if the velocities are ω already. Velocities of a reference joint do not change.
     pub fn in_angular_velocities(&mut self, v: &mut [S], rates: &mut [S]) {
         if !std::mem::take(&mut self.of_angles) {
             return;
@@ -242,7 +245,8 @@ impl<S: Real> Posture<'_, S> {
         }
     }
 
-    /// The balance; with velocities it includes bias forces, field and loads, without velocities only inertia.
+    /// The balance S v̇ − r: with velocities it includes bias forces, fields and loads; without velocities only
+    /// inertia.
     fn balance(&self, v: Option<&[S]>, rates: &[S]) -> Vec<S> {
         let Tree {
             layout,
@@ -264,7 +268,7 @@ impl<S: Real> Posture<'_, S> {
             }
             let mut omega = zero;
             if let Some(v) = v {
-                // ė_j = ω of the elements before × e_j: absolute axes and the axis of the plane are constant
+                // ė_j = (sum of the earlier rotations of the element) × e_j; for other velocities the axes are constant
                 for (e, rate) in turned.axes.iter().zip(&v[range]) {
                     if self.of_angles {
                         alpha = sum(alpha, scaled(*rate, cross(omega, *e)));
@@ -362,7 +366,7 @@ fn orientation<S: Real>(kind: Orientation, q: &[S]) -> ([Vector<S>; 3], Vec<Vect
             (columns, axes.to_vec())
         }
         (Orientation::Quaternion, &[w, x, y, z]) => {
-            // The rotation of the four numbers, whatever rounding does to their length: v + 2 p × (p × v + w v).
+            // the rotation by the quaternion, whatever rounding did to its length: v + 2 p × (p × v + w v)
             let norm = w * w + x * x + y * y + z * z;
             let (p, two) = ([x, y, z], S::from_f64(2.0) / norm);
             let turn = |v| {
@@ -375,7 +379,7 @@ fn orientation<S: Real>(kind: Orientation, q: &[S]) -> ([Vector<S>; 3], Vec<Vect
     }
 }
 
-/// The columns of Rx(φ₁) Ry(φ₂) Rz(φ₃), rotated one after another, and the axes of the three rotations.
+/// The columns of Rx(φ₁) Ry(φ₂) Rz(φ₃), and the axes of the three successive rotations.
 fn bryant<S: Real>([first, second, third]: Vector<S>) -> ([Vector<S>; 3], [Vector<S>; 3]) {
     let (zero, one) = (S::from_f64(0.0), S::from_f64(1.0));
     let ([s1, c1], [s2, c2], [s3, c3]) = (sin_cos(first), sin_cos(second), sin_cos(third));

@@ -1,4 +1,4 @@
-//! The tools of a case: it runs scenes and records its checks.
+//! The workbench of a case, which runs scenes and records checks.
 
 use crate::case::{Bound, Check, Found};
 use crate::scene::Scene;
@@ -10,18 +10,19 @@ use bryant_runtime::program::{Energy, Finding, Header, Job, RunError};
 
 /// Runs scenes in the same way as a user's models.
 pub trait Engine: Sync {
-    /// Generates and compiles the scene, unless that was done before, and runs a job with it, in the arithmetic that the job requests.
+    /// Runs a job with a scene, in the arithmetic that the job requests. The scene is generated and compiled first,
+    /// unless that was done before.
     ///
     /// # Errors
     /// The scene is not a valid model, or does not compile. A failed run is not an error.
     fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble>;
 
-    /// The value of a function of a model that is not algebra, with as many arguments as it needs; NaN for a user function, which only
-    /// compiled code can call.
+    /// The value of a function that generated code calls, such as a curve; NaN for a user function, which only compiled
+    /// code can call.
     fn call(&self, model: &Model, function: Function, arguments: &[f64]) -> f64;
 }
 
-/// The functions of a model, for the evaluation of its equations.
+/// The functions of a model as the evaluation of its equations needs them.
 pub fn functions<'a>(engine: &'a dyn Engine, model: &'a Model) -> impl Functions<f64> + 'a {
     |function: Function, arguments: &[f64]| engine.call(model, function, arguments)
 }
@@ -39,9 +40,9 @@ pub struct Run {
     pub outputs: Vec<Vec<f64>>,
     /// The cost of the run, or its failure.
     pub result: Result<Report, RunError>,
-    /// The balance of energy, if anything ran.
+    /// The balance of energy; `None` if the run did not start.
     pub energy: Option<Energy>,
-    /// Why it cannot be trusted.
+    /// The reasons why the run cannot be trusted.
     pub doubts: Vec<Finding>,
 }
 
@@ -54,7 +55,7 @@ pub enum Trouble {
     Failed(String),
     /// An error of the system: the compiler, a file.
     System(String),
-    /// The case requests something that its scene does not have: an error in the case.
+    /// The case refers to a part that its scene lacks: an error in the case.
     Case(String),
     /// The case panicked, with this message.
     Panicked(String),
@@ -118,7 +119,7 @@ impl Run {
     /// The balance of energy.
     ///
     /// # Errors
-    /// Nothing ran.
+    /// The run did not start.
     pub fn energy(&self) -> Result<&Energy, Trouble> {
         let energy = self.energy.as_ref();
         energy.ok_or_else(|| Trouble::Case("the run has no balance of energy".into()))
@@ -145,7 +146,7 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// A bench for one case; `full` includes the harder variants that take long.
+    /// A bench for one case; if `full`, the case includes harder variants that take long.
     pub fn new(engine: &'a dyn Engine, full: bool) -> Bench<'a> {
         Bench {
             engine,
@@ -160,7 +161,7 @@ impl<'a> Bench<'a> {
         self.engine
     }
 
-    /// Whether the harder variants are included.
+    /// True if harder variants are included.
     pub fn full(&self) -> bool {
         self.full
     }
@@ -175,7 +176,7 @@ impl<'a> Bench<'a> {
         self.variant = name.into();
     }
 
-    /// Runs a job, whatever its result.
+    /// Runs a job; the run may fail.
     ///
     /// # Errors
     /// The scene is not a valid model, or does not compile.
@@ -186,7 +187,7 @@ impl<'a> Bench<'a> {
     /// Runs a job that must succeed.
     ///
     /// # Errors
-    /// As [`Bench::run`], and a failed run.
+    /// Those of [`Bench::run`], or the run failed.
     pub fn succeed(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble> {
         let run = self.engine.run(scene, job)?;
         run.report()?;
@@ -227,7 +228,7 @@ impl<'a> Bench<'a> {
         self.note(criterion.into(), because.into(), found);
     }
 
-    /// Records whether a statement holds, with the observation.
+    /// Records a statement that must hold, with what was observed.
     pub fn states(
         &mut self,
         criterion: impl Into<String>,

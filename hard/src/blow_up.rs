@@ -1,4 +1,4 @@
-//! Runs that cannot be trusted report this, with the time and the reason; runs that can be trusted do not.
+//! Runs that cannot be trusted must say so, with the time and the reason; runs that can be trusted must not.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -52,7 +52,7 @@ fn real_limit(coefficients: &[f64]) -> f64 {
         let value = coefficients.iter().rev().fold(0.0, |sum, c| sum * -x + c);
         value.abs() <= 1.0
     };
-    // The limit of each polynomial is between 1 and 10, and there is none below.
+    // the limit of each polynomial is between 1 and 10, with |R| ≤ 1 everywhere below it
     let (mut low, mut high) = (1.0, 10.0);
     while inside(low + 1e-3) && low < 10.0 {
         low += 1e-3;
@@ -68,7 +68,7 @@ fn real_limit(coefficients: &[f64]) -> f64 {
     low
 }
 
-/// Stability polynomials (Hairer & Wanner II, IV.2; Merson's: Hairer, Nørsett & Wanner I, II.4).
+/// Stability polynomials (Hairer & Wanner II, IV.2; for Merson's method: Hairer, Nørsett & Wanner I, II.4).
 const POLYNOMIALS: [(Formula, &[f64]); 4] = [
     (Formula::Heun, &[1.0, 1.0, 0.5]),
     (Formula::Rk4, &[1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0]),
@@ -90,7 +90,7 @@ const POLYNOMIALS: [(Formula, &[f64]); 4] = [
     ),
 ];
 
-/// The messages of a run: its failure, or its doubts.
+/// The messages of a run: its failure, else its doubts.
 fn said(run: &Run) -> String {
     match &run.result {
         Err(error) => format!("failed: {}", error.message),
@@ -109,7 +109,7 @@ fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let limit = real_limit(polynomial) / rate;
         bench.variant(formula.name());
         let below = bench.run(&scene, &fixed(formula, 0.9 * limit))?;
-        // the effect of such a large step on the energy of the first swing does not matter here
+        // the energy error of the first swing with such a large step does not matter here
         bench.states(
             "0.9 of the limit: not doubted because of the step",
             below.result.is_ok() && below.doubts.iter().all(|doubt| doubt.kind != "step"),
@@ -125,7 +125,8 @@ fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "unstable",
         );
         if let Some(doubt) = of_step {
-            // the step over the largest stable one, by the limit in the direction where the limit is largest
+            // ratio of the step to the largest stable one along the direction in which the stable region reaches
+            // farthest
             let largest = formula.stability_limit().unwrap_or(f64::NAN) / rate;
             let found = 1.2 * limit / doubt.amount;
             bench.at_most(
@@ -144,7 +145,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let scene: Scene = scene!("oscillator");
     for h in [0.5, 0.2, 0.1f64] {
         bench.variant(format!("h = {h}"));
-        // steps end on samples
+        // a whole number of steps between samples
         let job = Job {
             duration: Some(8.0 * 0.02 * 4.0 / h.powi(3)),
             every: Some(h),
@@ -160,7 +161,8 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         );
         if let Some(doubt) = doubt {
             let growth = (h.powi(4) / 4.0).ln_1p();
-            // E/E₀ − 1 = 2 % of E, the largest energy; twice in a period all of it is kinetic or has gone into the spring
+            // a doubt begins when E − E₀ exceeds 2 % of E; twice in a period all energy is kinetic, or all is in the
+            // spring
             let expected = -(0.98f64).ln() / growth * h;
             let pi = std::f64::consts::PI;
             bench.at_least(
@@ -185,7 +187,7 @@ fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 fn curves_left_behind(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let run = bench.run(&scene!("left-curves"), &Job::default())?;
     for (name, since) in [
-        // more than the width beyond the curve: 0.1 + 0.1 rad at 1 rad/s
+        // doubts begin at more than the width of the curve beyond its end: 0.1 + 0.1 rad at 1 rad/s
         ("line", Some(0.2)),
         ("held", Some(0.1)),
         ("told", None),

@@ -2,7 +2,7 @@
 
 use crate::bench::{Bench, Trouble};
 
-/// A hard case: its scene has the difficulty, its law says what must hold.
+/// A hard case: its scene is difficult, and its law says what must hold.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// The kind of difficulty.
@@ -11,7 +11,7 @@ pub struct Case {
     pub name: &'static str,
     /// The law that must hold, in a sentence, with the source of its formula.
     pub law: &'static str,
-    /// Measures, and adds checks to the bench.
+    /// Runs scenes, and records checks on the bench.
     pub run: fn(&mut Bench<'_>) -> Result<(), Trouble>,
 }
 
@@ -28,9 +28,9 @@ pub enum Group {
     NonSmoothness,
     /// Units, origin, order, precision.
     ScaleAndPrecision,
-    /// Input that is not a model, NaN and infinite numbers.
+    /// Long chains, long runs.
     Length,
-    /// Input that is no model, numbers that are none.
+    /// Input that is not a model, NaN and infinite numbers.
     Garbage,
     /// Runs that cannot be trusted.
     BlowUp,
@@ -91,9 +91,9 @@ pub enum Found {
     },
     /// A statement.
     Statement {
-        /// Whether it holds.
+        /// True if the statement holds.
         holds: bool,
-        /// The observation ("refused: …").
+        /// What was observed ("refused: …").
         seen: String,
     },
 }
@@ -101,14 +101,14 @@ pub enum Found {
 /// The bound of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// At most this.
+    /// The number must be at most this.
     AtMost(f64),
-    /// At least this.
+    /// The number must be at least this.
     AtLeast(f64),
 }
 
 impl Check {
-    /// Whether the bound is kept: NaN keeps no bound.
+    /// True if the bound is kept, or the statement holds; NaN keeps no bound.
     pub fn holds(&self) -> bool {
         match &self.found {
             Found::Number {
@@ -121,7 +121,7 @@ impl Check {
         }
     }
 
-    /// The distance from the bound as a factor, above 1 on the good side; `None` for a statement.
+    /// The margin to the bound as a factor, above 1 if the bound is kept; `None` for a statement.
     pub fn margin(&self) -> Option<f64> {
         match self.found {
             Found::Number {

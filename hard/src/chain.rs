@@ -1,4 +1,4 @@
-//! Chains of elements as models: YAML made by functions, and random states of them.
+//! Chains of elements as models: makes their YAML and random states.
 
 use crate::random::Random;
 use crate::scene::Scene;
@@ -15,13 +15,13 @@ pub struct Link {
     pub mass: f64,
     /// Centre of gravity, local frame \[m\].
     pub cg: [f64; 3],
-    /// Principal moments about it \[kg m²\]; in the plane the second counts.
+    /// Principal moments about the centre of gravity \[kg m²\]; in the plane only the second counts.
     pub inertia: [f64; 3],
-    /// Bryant angles of the principal axes \[rad\]; none in the plane.
+    /// Bryant angles of the principal axes \[rad\]; not used in the plane.
     pub axes: [f64; 3],
 }
 
-/// Dimension and coordinates.
+/// Dimension and coordinates of a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Motion in the x–z plane.
@@ -33,7 +33,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All three.
+    /// All kinds.
     pub const ALL: [Kind; 3] = [Kind::Plane, Kind::Quaternion, Kind::Bryant];
 
     /// The name for people.
@@ -51,14 +51,14 @@ impl Kind {
 pub struct Setting {
     /// Dimension and coordinates.
     pub kind: Kind,
-    /// Whether the first joint floats; else it is fixed.
+    /// True if the first joint is free; else it is fixed.
     pub free: bool,
-    /// Whether a force and a moment act on the last element: an element without load is eliminated in a cheaper way.
+    /// True if a force and a moment act on the last element. An element without loads is eliminated in a cheaper way.
     pub loaded: bool,
 }
 
-/// A general element of this mass: a solid ellipsoid with semi-axes of 3 to 20 cm, rotated in its frame; its centre of gravity and its
-/// joint are at random positions.
+/// A general element with this mass: a solid ellipsoid with semi-axes of 3 to 20 cm, rotated in its frame, with its
+/// centre of gravity and its joint at random positions.
 pub fn general(random: &mut Random, mass: f64) -> Link {
     let squares = [0, 1, 2].map(|_| random.uniform(0.03, 0.2f64).powi(2));
     let sum: f64 = squares.iter().sum();
@@ -71,7 +71,7 @@ pub fn general(random: &mut Random, mass: f64) -> Link {
     }
 }
 
-/// The chain, in a field of gravity.
+/// The model of a chain under gravity.
 pub fn scene(setting: Setting, links: &[Link]) -> Scene {
     let mut text = tree(setting, links);
     let vector = |v| vector(setting.kind, v);
@@ -95,7 +95,7 @@ pub fn scene(setting: Setting, links: &[Link]) -> Scene {
     Scene::new(format!("chain of {}", links.len()), text)
 }
 
-/// The floating chain without any force, with these angular velocities at the start.
+/// The model of a free chain without any force, with these angular velocities at the start.
 pub fn afloat(links: &[Link], rates: &[[f64; 3]]) -> Scene {
     let setting = Setting {
         kind: Kind::Quaternion,
@@ -110,7 +110,7 @@ pub fn afloat(links: &[Link], rates: &[[f64; 3]]) -> Scene {
     Scene::new(format!("chain of {} afloat", links.len()), text)
 }
 
-/// A vector with the components of the dimension; "{:?}" of a number reads back exactly.
+/// A vector with two or three components, depending on the dimension; "{:?}" of a number reads back exactly.
 fn vector(kind: Kind, [x, y, z]: [f64; 3]) -> String {
     match kind {
         Kind::Plane => format!("[{x:?}, {z:?}]"),
@@ -118,7 +118,7 @@ fn vector(kind: Kind, [x, y, z]: [f64; 3]) -> String {
     }
 }
 
-/// The model up to the elements of its only system.
+/// The text of the model up to the elements of its only system.
 fn tree(setting: Setting, links: &[Link]) -> String {
     let vector = |v| vector(setting.kind, v);
     let planar = setting.kind == Kind::Plane;
@@ -154,8 +154,8 @@ fn tree(setting: Setting, links: &[Link]) -> String {
     text
 }
 
-/// A random state: positions within a metre, any orientation (Bryant angles away from their singularity, which does not depend on masses),
-/// rates of a few per second.
+/// A random state: positions within a metre, any orientation, rates of a few per second. Bryant angles are kept away
+/// from their singularity, because it does not depend on masses.
 pub fn random_state(random: &mut Random, model: &Model) -> (Vec<f64>, Vec<f64>) {
     let layout = Layout::of(model);
     let mut q: Vec<f64> = (layout.coordinates.iter())

@@ -1,4 +1,4 @@
-//! Long chains: the accelerations at one state.
+//! Long chains: errors of the accelerations at one state.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};

@@ -38,8 +38,8 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// A method with its order, and a step for ẍ = −x: it is so small that the first term of the drift dominates, and so large that the drift
-/// is far above rounding after a million steps.
+/// A method, its order, and a step for ẍ = −x. The step is so small that the first term of the drift dominates, and so
+/// large that after a million steps the drift is far above rounding.
 const STEPS: [(Formula, i32, f64); 7] = [
     (Formula::Heun, 2, 0.02),
     (Formula::Rk4, 4, 0.1),
@@ -54,7 +54,7 @@ fn oscillator(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let scene = scene!("oscillator");
     let energy = |state: &[f64]| 0.5 * (state[0] * state[0] + state[1] * state[1]);
     for (formula, order, h) in STEPS {
-        // Heun's energy grows by e in the time that other methods need for their first digit
+        // the drift of Heun's method is larger, so fewer steps suffice
         let steps = if formula == Formula::Heun { 1e5 } else { 1e6 };
         bench.variant(format!("{} at h = {h} and {}", formula.name(), h / 2.0));
         let mut slopes = [0.0; 2];
@@ -77,7 +77,7 @@ fn oscillator(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The energy of the scene for the state φ₁, φ₂, ω₁, ω₂; the height is relative to the pivot.
+/// The energy of the scene at the state φ₁, φ₂, ω₁, ω₂; heights are relative to the pivot.
 fn energy(state: &[f64]) -> f64 {
     let &[first, second, w1, w2] = state else {
         return f64::NAN;
@@ -91,7 +91,7 @@ fn energy(state: &[f64]) -> f64 {
     kinetic - mass * g * depth
 }
 
-/// A method with its order, and a step for a double pendulum whose fastest swing takes about a second.
+/// A method, its order, and a step for a double pendulum whose fastest swing takes about a second.
 const SWINGS: [(Formula, i32, f64); 8] = [
     (Formula::SemiImplicitEuler, 1, 0.002),
     (Formula::Heun, 2, 0.002),
@@ -108,7 +108,7 @@ fn double_pendulum(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let seconds = if bench.full() { 1000.0 } else { 40.0 };
     for (formula, order, h) in SWINGS {
         bench.variant(format!("{} at h = {h} and {}", formula.name(), h / 2.0));
-        // samples are a whole number of steps apart, at the same times in both runs: otherwise steps would be shortened
+        // samples are a whole number of steps apart, and at the same times in both runs; other steps would be shortened
         let samples = (seconds / h / 10.0).round();
         let worst = |parts: f64| -> Result<f64, Trouble> {
             let job = many(formula, h / parts, 10.0 * samples * parts, samples);
@@ -151,7 +151,7 @@ fn free_flight(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let (q, v) = state.split_at(coordinates);
         let [momentum, size] = tree.posture(&numbers(q)).momentum(&numbers(v));
         let [mut momentum, mut size] = [momentum, size].map(|six| six.map(Real::to_f64));
-        // from the reference joint to the origin: L + x × P
+        // angular momentum about the origin instead of the reference joint: L + x × P
         for i in 0..3 {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             momentum[3 + i] += q[j] * momentum[k] - q[k] * momentum[j];

@@ -1,9 +1,10 @@
-//! Errors of accelerations: the backward error, which is the smallest change of S and r for which they are exact, and the forward error.
+//! Errors of accelerations v̇: the backward error η, which is the smallest relative change of S and r for which v̇ is
+//! exact; and the forward error.
 //!
 //! η = ‖S v̇ − r‖∞ / (‖S‖∞ ‖v̇‖∞ + ‖r‖∞)   \[Rigal & Gaches 1967; Higham 2002, theorem 7.1\]
 //!
-//! It is computed for S itself, and for S scaled to a unit diagonal, D⁻¹ S D⁻¹ with D = √diag S. In the first, masses of a ton hide all
-//! errors of masses of a gram; in the second, nothing is hidden, and units do not matter.
+//! η is computed for S itself, and for S scaled to a unit diagonal, D⁻¹ S D⁻¹ with D = √diag S. In the first, masses of
+//! a ton hide all errors of masses of a gram; in the second, nothing is hidden, and units do not matter.
 
 use crate::balance::{Posture, Tree};
 use crate::symmetric::Factors;
@@ -12,9 +13,9 @@ use bryant_runtime::{DoubleDouble, Real};
 /// Backward errors of accelerations at a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Backward {
-    /// η
+    /// η of S itself.
     pub plain: f64,
-    /// η of the scaled system.
+    /// η of the scaled S.
     pub scaled: f64,
 }
 
@@ -28,7 +29,7 @@ pub struct Forward {
 }
 
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    // NaN is kept
+    // NaN is kept, too
     values.fold(0.0, |most, value| {
         if value.abs() <= most {
             most
@@ -38,8 +39,8 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
     })
 }
 
-/// A tree at a state with its accelerations, as angular velocities, in which the equations are solved: the rates of Bryant angles follow
-/// from φ̈ = W⁻¹ (α − ε).
+/// A tree at a state, with its velocities and accelerations. Rates of Bryant angles are converted to angular
+/// velocities, for which the equations are solved; the accelerations of angles follow from them by φ̈ = W⁻¹ (α − ε).
 fn state<'t, S: Real>(tree: &'t Tree, numbers: [&[f64]; 3]) -> (Posture<'t, S>, Vec<S>, Vec<S>) {
     let [q, mut v, mut rates] = numbers
         .map(|numbers| -> Vec<S> { numbers.iter().map(|&value| S::from_f64(value)).collect() });
@@ -80,7 +81,8 @@ pub fn backward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Backward {
     }
 }
 
-/// The forward error of v̇ against the solution of the same system in double-double; `None` if the matrix is not positive definite there.
+/// The forward error of v̇ against the solution of the same equations in double-double; `None` if S is not positive
+/// definite at this state.
 pub fn forward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Option<Forward> {
     let (posture, v, rates) = state::<DoubleDouble>(tree, [q, v, rates]);
     let factors = Factors::of(&posture.matrix())?;
@@ -97,8 +99,8 @@ pub fn forward(tree: &Tree, q: &[f64], v: &[f64], rates: &[f64]) -> Option<Forwa
     })
 }
 
-/// The smallest pivot of S, scaled to a unit diagonal, at a position: its distance from singularity; 0 if it is not positive definite in
-/// double-double.
+/// The smallest pivot of S scaled to a unit diagonal, at a position: a measure of the distance from singularity. 0 if S
+/// is not positive definite in double-double.
 pub fn smallest_pivot(tree: &Tree, q: &[f64]) -> f64 {
     let q: Vec<DoubleDouble> = q.iter().map(|&value| Real::from_f64(value)).collect();
     Factors::of(&tree.posture(&q).matrix()).map_or(0.0, |factors| factors.smallest_pivot())

@@ -1,5 +1,5 @@
-//! The accelerations of a model by its generated source, without compilation: the same operations in the same order, interpreted in `f64`,
-//! or in double-double to see which part of an error is rounding.
+//! Evaluates the accelerations of a model from its graph without compilation: the operations of the generated source in
+//! the same order, in `f64`, or in double-double to see which part of an error is rounding.
 
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
@@ -11,8 +11,8 @@ use bryant_runtime::{DoubleDouble, Real};
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// v̇ at given q and v. The forces of the model must be algebra, without dependence on time or memory; Bryant angles are in their first
-/// chart, in which A = Rx(φ₁) Ry(φ₂) Rz(φ₃).
+/// Computes v̇ for given q and v. The forces of the model must be algebraic, and must not depend on time or memory.
+/// Bryant angles are in their first chart, in which A = Rx(φ₁) Ry(φ₂) Rz(φ₃).
 #[derive(Debug)]
 pub struct Accelerations<S> {
     evaluator: Evaluator<S>,
@@ -20,12 +20,12 @@ pub struct Accelerations<S> {
 }
 
 impl<S: Scalar + PartialOrd> Accelerations<S> {
-    /// By elimination, with the passes of the emitted text.
+    /// Solves by elimination, with the passes of the generated source.
     pub fn by_elimination(model: &Model) -> Accelerations<S> {
         Self::by(model, Route::Elimination)
     }
 
-    /// By a route.
+    /// Solves by the given route.
     pub fn by(model: &Model, route: Route) -> Accelerations<S> {
         let options = Options {
             matrices: false,
@@ -45,7 +45,7 @@ impl<S: Scalar + PartialOrd> Accelerations<S> {
         }
     }
 
-    /// v̇; q and v in the model's order.
+    /// v̇; q, v and v̇ are in the model's order.
     pub fn at(&mut self, q: &[S], v: &[S]) -> Vec<S> {
         let inputs = Inputs {
             time: S::from_f64(0.0),
@@ -55,7 +55,8 @@ impl<S: Scalar + PartialOrd> Accelerations<S> {
             auxiliaries: &[],
             memory: &self.charts,
         };
-        // the only call is the choice of a chart: the third argument if the first is less than the second, else the fourth
+        // the only function is the choice of a chart: the third argument if the first is less than the second, else the
+        // fourth
         let choose = |function: Function, given: &[S]| match (function, given) {
             (Function::Choose, &[a, b, then, _]) if a < b => then,
             (Function::Choose, &[_, _, _, otherwise]) => otherwise,
@@ -65,7 +66,7 @@ impl<S: Scalar + PartialOrd> Accelerations<S> {
     }
 }
 
-/// Double-double for the interpreter: the runtime's type with the generator's trait.
+/// Double-double numbers for the interpreter: the runtime's type with the generator's trait.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Precise(pub DoubleDouble);
 

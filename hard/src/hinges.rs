@@ -1,5 +1,5 @@
-//! Trees of hinges, sliders, screws, lists and welds: accelerations in the frames of the links, checked by the residual of S v̇ = r in
-//! double-double.
+//! Trees of hinges, sliders, screws, lists and welds. Their accelerations are computed in the frames of the links, and
+//! checked by the residual of S v̇ = r in double-double.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
@@ -27,9 +27,9 @@ const STATES: usize = 3;
 struct Link {
     joint: String,
     mass: f64,
-    /// Size \[m\]: of the distance to its joint and of its inertia.
+    /// Size \[m\]: scales the distance to its joint and its inertia.
     size: f64,
-    /// The coordinate of its states; random if `None`.
+    /// The value of its coordinate in all states; random if `None`.
     at: Option<f64>,
 }
 
@@ -62,7 +62,7 @@ fn tilted(random: &mut Random, k: usize, tilt: f64) -> Link {
     }
 }
 
-/// A list of three hinges, of which the first and the last are almost parallel when the middle one is at `middle`.
+/// A list of three hinges. The first and the last become parallel as the angle `middle` of the middle hinge goes to 0.
 fn near_singular(random: &mut Random, middle: f64) -> Link {
     Link {
         joint: "[{ hinge: z, name: a }, { hinge: y, name: b }, { hinge: z, name: c }]".into(),
@@ -142,7 +142,7 @@ const CHAINS: [(&str, Chain); 19] = [
     (
         "gears of 1 to 1000, rotors of 1 kg m²",
         |random, k, _| match k {
-            // the first element of a floating system is on a ball joint
+            // in a floating system, this element is on a ball joint instead
             0 | 1 => Link {
                 joint: "{ hinge: y, armature: 1 }".into(),
                 ..hinge(random, 1.0)
@@ -222,7 +222,7 @@ fn model(random: &mut Random, reference: &str, links: &[Link]) -> Result<Model, 
             0 => String::new(),
             _ => format!("on: e{}, at: {:?}, ", k - 1, vector(random)),
         };
-        // the first element of a floating system turns freely
+        // the first element of a floating system is on a ball joint
         let joint = match (k, reference) {
             (0, "free") => "ball",
             _ => &link.joint,
@@ -242,8 +242,8 @@ fn model(random: &mut Random, reference: &str, links: &[Link]) -> Result<Model, 
         .map_err(|problems| Trouble::Refused(problems.to_string()))
 }
 
-/// |S v̇ − r| relative to the possible size of S, v̇ and the squares of v, over n ε: by the largest entries, and row by row with S scaled
-/// to a unit diagonal.
+/// |S v̇ − r| over n ε and over the largest possible terms, from the sizes of S, v̇ and the squares of v. The first
+/// result takes the largest entries of the whole system, the second each row alone with S scaled to a unit diagonal.
 fn backward_error(model: &Model, random: &mut Random, links: &[Link]) -> [f64; 2] {
     let exact = derive_with(
         model,
@@ -307,8 +307,8 @@ fn backward_error(model: &Model, random: &mut Random, links: &[Link]) -> [f64; 2
         .collect();
     let largest = |of: &dyn Fn(usize) -> f64| (0..n).map(of).fold(0.0, worst);
     let unit = n as f64 * f64::EPSILON;
-    // a bias force is a column times an inertia times two rates; for a follower the rate is larger by the ratio in all three, and S
-    // contains two of these ratios
+    // a bias force is a column times an inertia times two rates. For a follower with a ratio, column and rates are
+    // larger by the ratio, and S contains two of these three factors already.
     let systems = model.systems.iter().flat_map(|system| system.freedoms());
     let ratios = systems.filter_map(|freedom| freedom.follows.as_ref());
     let fastest = ratios.fold(1.0f64, |most, f| most.max(f.ratio.value(&[]).abs()));

@@ -1,9 +1,9 @@
-//! Jobs that several cases use, and their names in checks.
+//! Jobs that several cases use, and their names.
 
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Method, Tolerances};
 
-/// Fixed steps of this length \[s\]; everything else as in the scene.
+/// A job with fixed steps of this length \[s\], and otherwise the settings of the scene.
 pub fn fixed(formula: Formula, step: f64) -> Job {
     Job {
         method: Some(Method::fixed(formula, step)),
@@ -11,18 +11,18 @@ pub fn fixed(formula: Formula, step: f64) -> Job {
     }
 }
 
-/// This number of steps of this length \[s\], with this number of samples at equal intervals.
+/// A job with `count` fixed steps of this length \[s\], and `samples` samples at equal intervals.
 pub fn many(formula: Formula, step: f64, count: f64, samples: f64) -> Job {
     Job {
         duration: Some(step * count),
         every: Some(step * count / samples),
-        // rounding may require a few more steps
+        // rounding may cause a few more steps
         max_steps: Some(2 * count as u64),
         ..fixed(formula, step)
     }
 }
 
-/// Steps with error control; everything else as in the scene.
+/// A job with steps by error control, and otherwise the settings of the scene.
 pub fn adaptive(formula: Formula, tolerances: Tolerances) -> Job {
     Job {
         method: Some(Method::adaptive(formula, tolerances)),
@@ -30,7 +30,7 @@ pub fn adaptive(formula: Formula, tolerances: Tolerances) -> Job {
     }
 }
 
-/// The same with kinks of force laws located or passed.
+/// A job with steps by error control in which kinks of force laws are located (`locate`) or passed.
 pub fn with_kinks(formula: Formula, tolerances: Tolerances, locate: bool) -> Job {
     Job {
         locate: Some(locate),
@@ -38,12 +38,12 @@ pub fn with_kinks(formula: Formula, tolerances: Tolerances, locate: bool) -> Job
     }
 }
 
-/// "dopri5 at 1e-9".
+/// The name of a job: "dopri5 at 1e-9".
 pub fn name(formula: Formula, tolerance: f64) -> String {
     format!("{formula} at {tolerance:e}")
 }
 
-/// "dopri5 at 1e-9, kinks located".
+/// The name of a job: "dopri5 at 1e-9, kinks located".
 pub fn name_with_kinks(formula: Formula, tolerance: f64, locate: bool) -> String {
     let kinks = if locate { "located" } else { "passed" };
     format!("{}, kinks {kinks}", name(formula, tolerance))

@@ -1,4 +1,4 @@
-//! Long chains, and many steps.
+//! Many steps: the energy over a million steps.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
@@ -15,11 +15,11 @@ pub const CASES: &[Case] = &[Case {
     run: energy_over_a_million_steps,
 }];
 
-/// Coefficients of 1, z, z² … of the stability polynomials: up to the order of the method those of eᶻ, then the method's own.
+/// Coefficients of 1, z, z² … of the stability polynomials: those of eᶻ up to the order of the method, then others.
 const POLYNOMIALS: [(Formula, &[f64]); 4] = [
     (Formula::Heun, &[1.0, 1.0, 0.5]),
     (Formula::Rk4, &[1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0]),
-    // Merson's: Hairer, Nørsett & Wanner I, II.4, solution of order 4
+    // Merson's method: Hairer, Nørsett & Wanner I, II.4, solution of order 4
     (
         Formula::Merson,
         &[1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 144.0],
@@ -39,13 +39,14 @@ const POLYNOMIALS: [(Formula, &[f64]); 4] = [
     ),
 ];
 
-/// |R(iy)|² − 1. The powers below the method's order cancel in exact arithmetic and are left out, so that the rest is not lost in rounding.
+/// |R(iy)|² − 1. Powers below the method's order would cancel in exact arithmetic; they are left out, so that rounding
+/// does not hide the rest.
 fn growth(coefficients: &[f64], y: f64) -> f64 {
     let count = coefficients.len();
     let mut sum = 0.0;
     for power in (2..2 * count).step_by(2) {
         let pairs = (0..count).filter(|i| *i <= power && power - i < count);
-        // i^j times the conjugate of i^k with j + k = power: i^(2 j − power)
+        // the sign of i^j times the conjugate of i^k, with j + k = power: i^(2 j − power)
         let terms = pairs.map(|j| {
             let sign = if (2 * j + 3 * power).is_multiple_of(4) {
                 1.0
@@ -73,8 +74,8 @@ fn energy_over_a_million_steps(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let run = bench.succeed(&scene, &job(formula))?;
         let seen = (energy(run.last()?) / 0.5).ln();
         let expected = steps * growth(polynomial, h).ln_1p();
-        // A step rounds each of two numbers to ε/2 of the state, and so changes the energy by at most 2 ε of it. The phase of the samples
-        // and the rounding of h do not change the energy of a circle.
+        // A step rounds each of two numbers to ε/2 of the state, and so changes the energy by at most 2 ε of it.
+        // Samples at other phases and a rounded h do not matter, because the energy is constant on a circle.
         bench.at_most(
             format!("deviation of ln E/E₀ from {expected:.3e}"),
             (seen - expected).abs(),

@@ -1,9 +1,10 @@
-//! Hard cases: small scenes, each with the law that it must obey, and a theoretical bound for the error.
+//! Hard cases: small scenes, each with a law that it must obey, and a theoretical bound of the error.
 //!
-//! A [`Case`] measures; a [`Check`] is one result: a number and its bound, with the reason of the bound in words. Bounds follow from theory
-//! (order of the method × tolerance × growth of errors, c·κ·ε of the arithmetic), never from measured results. Scenes are YAML files
-//! (`scenes/`), or are made by a function if there are many. An [`Engine`] runs them in the same way as a user's model: generated,
-//! compiled, simulated. Cases without motion are evaluated on the graph of the equations.
+//! A [`Case`] runs scenes and makes measurements; a [`Check`] is one result: a number and its bound, with the reason
+//! for the bound in words. Bounds follow from theory (order of the method × tolerance × growth of errors, c·κ·ε of the
+//! arithmetic), never from measured results. Scenes are YAML files (`scenes/`), or are made by a function if there are
+//! many. An [`Engine`] runs them in the same way as a user's models: generated, compiled, simulated. Cases without
+//! motion are evaluated on the graph of the equations.
 //!
 //! Each group has a file, in the order of the table that `bryant stability` prints.
 

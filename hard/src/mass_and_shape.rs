@@ -1,4 +1,5 @@
-//! Ratios of masses, vanishing moments of inertia, coincident joints: S is far from a multiple of the unit matrix, and may be singular.
+//! Ratios of masses, vanishing moments of inertia, coincident joints: S is far from a multiple of the unit matrix, and
+//! may be singular.
 
 mod singular;
 
@@ -66,7 +67,7 @@ fn mass_ratios(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 /// Makes an element from the random generator, its index, and the length of the chain.
 type Maker<'a> = &'a dyn Fn(&mut Random, usize, usize) -> Link;
 
-/// Chains of these elements in all coordinates, free and fixed, with and without a load.
+/// Tests chains of these elements, in all coordinates, free and fixed, with and without a load.
 fn over(bench: &mut Bench<'_>, counts: &[usize], make: Maker<'_>) -> Result<(), Trouble> {
     let mut survey = Survey::default();
     for kind in Kind::ALL {
@@ -87,7 +88,7 @@ fn over(bench: &mut Bench<'_>, counts: &[usize], make: Maker<'_>) -> Result<(), 
     Ok(())
 }
 
-/// Makes element k with 1 kg and a shape; all other properties are general.
+/// Makes element k of 1 kg with a special shape; its other properties are general.
 type Shape = fn(&mut Random, usize) -> Link;
 
 const SHAPES: [(&str, Shape); 14] = [
@@ -102,7 +103,8 @@ const SHAPES: [(&str, Shape); 14] = [
     (
         "needles without moment about an axis beside the joint",
         |random, k| Link {
-            // the root of a floating system would rotate about that axis
+            // without this moment, the root of a floating system could rotate about its third axis without kinetic
+            // energy
             inertia: [0.01, 0.01, if k == 0 { 0.005 } else { 0.0 }],
             ..general(random, 1.0)
         },
@@ -171,7 +173,7 @@ const SHAPES: [(&str, Shape); 14] = [
         ..general(random, 1.0)
     }),
     ("centre of gravity in the joint outboard", |random, _| {
-        // all have the same joint
+        // the joints of all elements coincide
         let at = [0.1, -0.2, 0.3];
         Link {
             cg: at,

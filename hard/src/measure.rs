@@ -18,13 +18,14 @@ pub fn steps(run: &Run) -> Result<f64, Trouble> {
     Ok((report.steps + report.rejected) as f64)
 }
 
-/// The largest change of a speed v \[m/s\] in a step with error control, for an oscillation of frequency ω \[1/s\] that converts errors of
-/// position to errors of speed: r v + a_v + ω a_x.
+/// Bound of the change of a speed v \[m/s\] in a step with error control: r v + a_v + ω a_x. It includes errors of
+/// position, which an oscillation of frequency ω \[1/s\] converts to errors of speed.
 pub fn error_of_speed(of: &Tolerances, speed: f64, omega: f64) -> f64 {
     of.relative * speed + of.velocities + omega * of.positions
 }
 
-/// The same for a rate \[rad/s\] and an angle: r θ' + a_ω + ω a_θ.
+/// Bound of the change of a rate θ' \[rad/s\] in a step with error control: r θ' + a_ω + ω a_θ, as in
+/// [`error_of_speed`].
 pub fn error_of_rate(of: &Tolerances, rate: f64, omega: f64) -> f64 {
     of.relative * rate + of.angular_velocities + omega * of.angles
 }

@@ -1,8 +1,9 @@
-//! Random scenes in which a ball, a belt or a wheel moves freely until it meets something, or meets nothing.
+//! Random scenes in which a ball, a belt or a wheel moves freely for a second, and meets something on its way or not.
 //!
-//! Everything moves freely for a second, so a method of order 2 or more could take a single step, whose end does not show what lies
-//! between. The straight line or the parabola tells whether something is met. If it is met by more than a hundredth of its size, the end of
-//! the run must differ from that of free flight; if nothing is met, both ends must agree.
+//! A method of order 2 or more could take a single step over the free motion, and the end of this step does not show
+//! whether something was met within it. The straight line or parabola of the free motion tells this in closed form. If
+//! a body goes deeper than a hundredth of its size into another, the end of the run must differ from that of free
+//! flight; if it meets nothing, both must agree.
 
 mod shapes;
 
@@ -42,14 +43,14 @@ pub const TOLERANCE: f64 = 1e-6;
 /// Number of scenes of each shape.
 const SCENES: usize = 170;
 
-/// Whether something is met.
+/// Whether a free motion meets something.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Met {
-    /// By more than a hundredth of its size.
+    /// The body would go deeper than a hundredth of its size.
     Yes,
     /// Not at all.
     No,
-    /// By too little to be seen, or not known.
+    /// The body would go too little deep to be seen, or the depth is not known.
     Hardly,
 }
 
@@ -58,15 +59,15 @@ pub enum Met {
 pub struct Case {
     /// The parameters of the shape, in their order.
     pub parameters: Vec<f64>,
-    /// The outputs at the end, if nothing is met.
+    /// The outputs at the end of free flight.
     pub free: Vec<f64>,
-    /// The scale of differences.
+    /// Differences of outputs are relative to this.
     pub scale: f64,
-    /// Whether something is met.
+    /// Whether the free motion meets something.
     pub met: Met,
 }
 
-/// A stiffness that turns a mass of 1 within a tenth of a size.
+/// The stiffness that stops and returns a mass of 1 at this speed within a tenth of a size.
 fn stiffness(speed: f64, size: f64) -> f64 {
     (speed / (0.1 * size)).powi(2)
 }
@@ -100,16 +101,16 @@ fn direction(random: &mut Random) -> [f64; 2] {
 }
 
 impl Case {
-    /// The error in the outputs at the end of a run, if there is one.
+    /// The error in the outputs at the end of a run; `None` if they are as expected.
     pub fn judge(&self, end: &[f64]) -> Option<String> {
         let pairs = self.free.iter().zip(end);
         let away = pairs.map(|(free, end)| (free - end).abs());
-        // NaN is kept
+        // NaN is kept, too
         let away = away.fold(0.0, |most: f64, x| if x <= most { most } else { x }) / self.scale;
         let wrong = match self.met {
-            // at a depth of a hundredth of its size it is turned by a tenth or more
+            // a body that goes a hundredth of its size deep is turned by a tenth or more
             Met::Yes => away < 1e-3,
-            // rounding of positions of hundreds of metres
+            // the bound is for rounding of positions of hundreds of metres
             Met::No => away > 1e-6,
             Met::Hardly => false,
         };
@@ -125,11 +126,11 @@ pub struct Shape {
     pub name: &'static str,
     /// Its model.
     pub scene: Scene,
-    /// Its scenes; each meets something, or meets nothing.
+    /// Its scenes; all of them clearly meet something or clearly meet nothing.
     pub cases: Vec<Case>,
 }
 
-/// All shapes, with this number of scenes each.
+/// All shapes, with `scenes` scenes each.
 pub fn shapes(scenes: usize) -> Vec<Shape> {
     let mut random = Random::new(20);
     let all = shapes::all().into_iter();

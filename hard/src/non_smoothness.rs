@@ -1,7 +1,8 @@
 //! Friction that holds, contacts that close and open.
 //!
-//! As for stiff scenes, N steps with error control change a speed v by at most N · tolerance · (1 + v) · ω, with ω the frequency of the
-//! stiffest acting spring. If a motion is at rest and damped, errors of steps decay: the tolerance of a few steps remains.
+//! As in stiff scenes, N steps with error control change a speed v by at most N · tolerance · (1 + v) · ω, with the
+//! frequency ω of the stiffest spring that acts. If a motion is damped and comes to rest, earlier errors decay, and the
+//! tolerance of a few steps remains.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -75,12 +76,13 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// The coefficient of friction, and the thresholds of its two laws (`scenes/incline.yaml`).
+/// The coefficient of friction, and the thresholds of the two friction laws (`scenes/incline.yaml`): a deflection of
+/// bristles \[m\] and a speed \[m/s\].
 const MU: f64 = 0.4;
 const BRISTLE: f64 = 1e-4;
 const CREEP: f64 = 1e-2;
 
-/// Downhill displacement of one of the blocks at every sample.
+/// Downhill displacement of a block at every sample.
 fn way(run: &Run, block: &str, slope: f64) -> Result<Vec<f64>, Trouble> {
     let (sin, cos) = slope.sin_cos();
     let x = run.state(&format!("{block}.x"))?;
@@ -94,7 +96,7 @@ fn sticks(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let limit = Tolerances::of(tolerance);
     for (formula, degrees) in [
         (Formula::Dopri5, 15.0),
-        // atan 0.4 is 21.8°
+        // it slides above atan 0.4 = 21.8°
         (Formula::Dopri5, 21.5),
         (Formula::Rodas5, 15.0),
         (Formula::Rodas5, 21.5),
@@ -143,7 +145,7 @@ fn brakes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let scene = scene!("brakes");
     let tolerance = 1e-7;
     let limit = Tolerances::of(tolerance);
-    // Q/M, by `scenes/brakes.yaml`
+    // Q/M of cage and arm, from `scenes/brakes.yaml`
     let (cage, arm) = (2.0 * 9.81 / 20.0, 2.0 * 9.81 * 0.5 / 12.0);
     for formula in [Formula::Dopri5, Formula::Rodas5] {
         bench.variant(name(formula, tolerance));
@@ -216,7 +218,7 @@ fn stops(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "m",
             "the deflection of the bristles",
         );
-        // ζ = c/(2 √(k m)) of the bristles, k = μ N/z_b, c = μ N/v_s
+        // ζ = c/(2 √(k m)) of the bristles, with k = μ N/z_b and c = μ N/v_s
         let damping = 0.5 / CREEP * (MU * 9.81 * BRISTLE).sqrt();
         bench.at_least(
             "damping of the bristles over critical damping",
@@ -263,7 +265,8 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                 ..with_kinks(formula, Tolerances::uniform(tolerance), locate)
             };
             let run = bench.succeed(&scene, &job)?;
-            // Without the ceiling the ball would be above it for 2 v₀/g; with it, δ'' = −g − ω² δ brings it back sooner.
+            // Without the ceiling the ball would be above it for 2 v₀/g; with the ceiling, δ'' = −g − ω² δ returns it
+            // sooner.
             let ahead = |excess: f64| {
                 let entry = (2.0 * gravity * excess.max(0.0)).sqrt();
                 2.0 * entry / gravity - 2.0 / omega * (entry * omega / gravity).atan()
@@ -274,7 +277,7 @@ fn grazes(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             let found = z[z.len() - 1];
             let contact = if excess > 0.0 { omega } else { 1.0 };
             let error = steps(&run)? * tolerance * (1.0 + speed) * contact;
-            // an error of the height changes the time of entry, and so the time above
+            // an error of the height changes the speed of entry, and so the time above the ceiling
             let height = error / contact * (1.0 + speed / gravity);
             let shift =
                 [excess - height, excess + height].map(|e| (ahead(e) - ahead(excess)).abs());
@@ -304,7 +307,7 @@ fn bounces_until_rest(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let limit = Tolerances::of(tolerance);
         let run = bench.succeed(&scene, &with_kinks(formula, limit, locate))?;
         let last = run.last()?;
-        // of the ball on the plate
+        // frequency of the ball on the plate
         let omega = 1e3;
         bench.at_most(
             "distance from the position of rest",
@@ -326,7 +329,7 @@ fn bounces_until_rest(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 
 fn ten_contacts(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let tolerance = 1e-9;
-    // k/m of all feet together
+    // √(k/m) of all feet together
     let omega = (1e6f64 / 10.0).sqrt();
     for (formula, locate) in [
         (Formula::Dopri5, false),
@@ -348,7 +351,7 @@ fn ten_contacts(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "steps of both × tolerance × (1 + v) ω, for 2 s",
         );
         let angles = ten.state("beam/body.phi")?.into_iter().map(f64::abs);
-        // Feet at ±x carry the same load up to rounding: moments of ε k δ x, and the feet return the angle.
+        // Feet at ±x carry equal loads up to rounding: moments of ε k δ x tilt the beam, and the feet resist.
         let moment = f64::EPSILON * 1e6 * 0.02;
         let stiffness: f64 = (0..10)
             .map(|i| 1e5 * (0.2 * f64::from(i) - 0.9).powi(2))
@@ -411,7 +414,7 @@ fn over_the_corner(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         );
         let energy = run.energy()?;
         let speed = steps(&run)? * tolerance * (1.0 + 3.0) * omega;
-        // T = ½ v·M v changes by M v·δv; the momentum is that of 2 kg at 1 m/s, and the same for the rotation
+        // T = ½ v·M v changes by M v·δv; the momentum is that of 2 kg at 1 m/s, and rotation adds as much
         bench.at_most(
             "change of the kinetic energy",
             (energy.end - energy.start).abs(),

@@ -57,7 +57,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// A free body with its centre of gravity at its origin, and the rest of the text.
+/// A free body whose centre of gravity is its origin; `rest` is the text that follows.
 fn body(name: &str, coordinates: &str, inertia: [f64; 3], rate: [f64; 3], rest: &str) -> Scene {
     let text = format!(
         "model: {name}
@@ -73,7 +73,7 @@ systems:
     Scene::new(name, text)
 }
 
-/// The position of a point of the body, and a length above its lever arm.
+/// A point of the body, and an upper bound of its distance from the origin \[m\].
 const POINT: [f64; 3] = [0.1, 0.2, 0.3];
 const LONGEST: f64 = 0.4;
 
@@ -90,7 +90,7 @@ fn point(run: &Run) -> Result<[Vec<f64>; 3], Trouble> {
     Ok([run.output("px")?, run.output("py")?, run.output("pz")?])
 }
 
-/// The largest difference of any output.
+/// The largest difference of any output at any sample.
 fn apart(a: &Run, b: &Run) -> f64 {
     let rows = a.outputs.iter().zip(&b.outputs);
     largest(rows.flat_map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b).abs())))
@@ -173,7 +173,7 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let mut scene = tree.scene(&format!("tumbling-{coordinates}"));
         let told = format!("dimension: 3\ncoordinates: {coordinates}\n");
         scene.text = scene.text.replace("dimension: 3\n", &told);
-        // no field acts
+        // removes the field, because no force may act
         scene.text = scene
             .text
             .replace(&tree.field("tree"), "")
@@ -193,7 +193,7 @@ fn tumbles(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "as many as the name of the case says",
         );
         let energy = run.energy()?;
-        // the error of v relative to v, and E ~ v²
+        // the error of the speed relative to v; and E ~ v² doubles it
         bench.at_most(
             "change of the energy over the energy",
             (energy.end / energy.start - 1.0).abs(),
@@ -233,7 +233,7 @@ fn jacobi(u: f64, m: f64) -> [f64; 3] {
     [sin, cos, ((1.0 - m) + m * cos * cos).sqrt()]
 }
 
-/// K(m), a quarter of the period.
+/// K(m), a quarter of the period of sn.
 fn quarter(m: f64) -> f64 {
     let (mut a, mut b) = (1.0, (1.0 - m).sqrt());
     while (a - b).abs() > 4.0 * f64::EPSILON * a {
@@ -242,10 +242,10 @@ fn quarter(m: f64) -> f64 {
     0.5 * std::f64::consts::PI / a
 }
 
-/// Moments of inertia of the flipping body, and its motion in its own axes.
+/// Principal moments of inertia of the flipping body.
 const MOMENTS: [f64; 3] = [0.01, 0.02, 0.03];
 
-/// ω in the body's axes at a time after the start at (a, 0, b), and the time between two flips.
+/// ω in the body's axes at time t after the start at (a, 0, b), and the time between two flips.
 fn euler(a: f64, b: f64, t: f64) -> ([f64; 3], f64) {
     let [i, j, k] = MOMENTS;
     let energy = i * a * a + k * b * b;
@@ -254,12 +254,12 @@ fn euler(a: f64, b: f64, t: f64) -> ([f64; 3], f64) {
     let m = (j - i) * (energy * k - momentum) / ((k - j) * (momentum - energy * i));
     let [sn, cn, dn] = jacobi(rate * t, m);
     let middle = ((energy * k - momentum) / (j * (k - j))).sqrt();
-    // for positive a and b, ω₂ grows from 0 where (J₃ − J₁) ω₃ ω₁ > 0
+    // for positive a and b, ω₂ starts at 0 and increases, because (J₃ − J₁) ω₃ ω₁ > 0
     ([a * cn, middle * sn, b * dn], 2.0 * quarter(m) / rate)
 }
 
 fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
-    // the separatrix is at a = √3 b
+    // at a = √3 b the motion would be on the separatrix
     let b = 2.0;
     let a = 3f64.sqrt() * b * (1.0 - 1e-3);
     let (_, flip) = euler(a, b, 0.0);
@@ -270,9 +270,10 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         duration / 1000.0
     );
     let scene = body("dzhanibekov", "quaternion", MOMENTS, [a, 0.0, b], &rest);
-    // The growth of an error of the start, in any direction; an error of ω₂ only shifts the motion. It shifts the flips, by more with each
-    // flip: errors grow linearly with the number of remaining flips, (1 + 2 + … + n)/n on average. They grow most at the start, because the
-    // period changes less the closer the motion is to the middle axis.
+    // The growth of an error at the start in ω₁ or ω₃; an error in ω₂ only shifts the motion in time. An error changes
+    // the period, and so shifts each further flip by more: it grows linearly with the number of remaining flips, (1 + 2
+    // + … + n)/n on average. Errors at the start grow most: the closer the motion is to the middle axis, the less an
+    // error changes the period.
     let nudge = 1e-7;
     let growth = largest((0..=1000).flat_map(|i| {
         let t = duration * f64::from(i) / 1000.0;
@@ -293,7 +294,7 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let mut turned = 0;
         let mut side: f64 = 1.0;
         for (t, y) in run.times.iter().zip(&run.states) {
-            // x, y, z, then the quaternion; v, then ω in absolute axes
+            // the state is x, y, z, the quaternion, v, and ω in absolute axes
             let (q, w) = ([y[3], y[4], y[5], y[6]], [y[10], y[11], y[12]]);
             let own = turned_back(q, w);
             let (exact, _) = euler(a, b, *t);
@@ -328,13 +329,13 @@ fn flips(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The largest change of ω in the body's axes in a step: the errors of its three components, and, as the quaternion errs by a_θ in each of
-/// four numbers, by 2 a_θ in total, a rotation by 4 a_θ.
+/// Bound of the change of ω in the body's axes in a step: errors of three components of ω, and errors a_θ of four
+/// numbers of the quaternion, 2 a_θ in total, which are a rotation by 4 a_θ.
 fn of_a_step(of: &Tolerances, rate: f64) -> f64 {
     of.relative * rate + 3f64.sqrt() * of.angular_velocities + 4.0 * rate * of.angles
 }
 
-/// A vector in absolute axes, converted to the axes of a body: Aᵀ v.
+/// Converts a vector in absolute axes to the axes of a body: Aᵀ v.
 fn turned_back([w, x, y, z]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
     let rows = [
         [
@@ -366,13 +367,13 @@ fn spins(bench: &mut Bench<'_>) -> Result<(), Trouble> {
   - { name: pz, of: top/body, at: [0, 0, 1], what: position, component: z }
 run: { duration: 0.1 s, every: 1 ms }
 ";
-    // L = (J₁ ω₁, 0, J₃ ω₃) is at an angle to the axis of the top, which is z at first
+    // L = (J₁ ω₁, 0, J₃ ω₃) is inclined to the axis of the top, which is z at the start
     let momentum: [f64; 2] = [across * wobble, along * spin];
     let size = momentum[0].hypot(momentum[1]);
     let [sin, cos] = momentum.map(|l| l / size);
     let rate = size / across;
     let exact = |t: f64| {
-        // z rotated about L by L/J₁ t: its part along L stays, the rest rotates
+        // z rotated about L by the angle L/J₁ t: its part along L stays, the rest rotates
         let (s, c) = (rate * t).sin_cos();
         let beside = [-sin * cos, 0.0, sin * sin];
         let third = [0.0, -sin, 0.0];
@@ -391,7 +392,7 @@ run: { duration: 0.1 s, every: 1 ms }
             bench.variant(format!("{coordinates}, {}", name(formula, tolerance)));
             let tolerances = Tolerances::of(tolerance);
             let run = bench.succeed(&scene, &adaptive(formula, tolerances))?;
-            // errors of angles and quaternions, and of three components or angles, of which at most one is faster than the wobble
+            // errors of angles or quaternions, and of three rates, of which at most one is faster than the wobble
             let turned = 4.0 * tolerances.angles;
             let rates = spin + 2.0 * wobble;
             let rate_error = tolerances.relative * rates + 3.0 * tolerances.angular_velocities;
@@ -473,7 +474,7 @@ run: { duration: 1 s, every: 5 ms }
     };
     let quaternions = bench.succeed(&of("quaternion"), &job)?;
     let angles = bench.succeed(&of("bryant"), &job)?;
-    // sin φ₂ = 2 (x z + w y) is above 0.9 while the floor pushes
+    // sin φ₂ = 2 (x z + w y) exceeds 0.9 while the floor pushes
     let force = quaternions.output("force")?;
     let pressed = quaternions.states.iter().zip(&force).filter(|(y, force)| {
         let sine: f64 = 2.0 * (y[4] * y[6] + y[3] * y[5]);
@@ -486,7 +487,7 @@ run: { duration: 1 s, every: 5 ms }
         "",
         "the chart changes there",
     );
-    // Height and speed oscillate with √(k/m) in the contact; without contact, an error of speed acts for the whole run.
+    // In contact, height and speed oscillate with √(k/m); without contact, an error of speed acts for the whole run.
     let (omega, rate, duration) = (2e3f64.sqrt(), 12.0, 1.0);
     let count = steps(&quaternions)? + steps(&angles)?;
     let turning = of_a_step(&tolerances, rate) + omega * 4.0 * tolerances.angles;

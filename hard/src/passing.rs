@@ -1,4 +1,4 @@
-//! Events that begin and end within a step: the ends of the step do not show them.
+//! Events that begin and end within one step, so that the ends of the step do not show them.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
@@ -35,7 +35,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// The methods that choose their steps, with their tolerances.
+/// Methods with error control, and their tolerances.
 const METHODS: [(Formula, f64); 5] = [
     (Formula::Dopri5, 1e-7),
     (Formula::Tsit5, 1e-4),
@@ -60,7 +60,7 @@ fn bullets(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         for _ in 0..SCENES {
             let speed = log_uniform(&mut random, 0.1, 500.0);
             let size = log_uniform(&mut random, 1e-3, 0.3);
-            // a mass of 1/2 turns within a tenth of the size
+            // the stiffness that turns the relative motion, whose mass is 1/2, within a tenth of the size
             let stiffness = 0.5 * (speed / (0.1 * size)).powi(2);
             let job = Job {
                 parameters: vec![
@@ -68,7 +68,7 @@ fn bullets(bench: &mut Bench<'_>) -> Result<(), Trouble> {
                     ("size".into(), size),
                     ("stiffness".into(), stiffness),
                 ],
-                // the end is some time after the impact, and differs in every run
+                // the run ends some time after the impact, different in every scene
                 duration: Some(random.uniform(1.5, 20.0) / speed),
                 every: Some(1.0 / speed),
                 ..adaptive(formula, Tolerances::of(tolerance))
@@ -95,7 +95,7 @@ fn thresholds(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench.variant(name(formula, tolerance));
         let mut missed = 0;
         for _ in 0..SCENES {
-            // angles are kept to a tenth of the tolerance in each of about a hundred steps
+            // the overshoot is above the error of angles: about a hundred steps of a tenth of the tolerance each
             let over = log_uniform(&mut random, 100.0 * tolerance, 3e-2);
             let phase = random.uniform(0.3, 2.0 * PI - 0.3);
             let job = Job {
@@ -146,7 +146,7 @@ fn flown_past(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         for _ in 0..SCENES {
             let speed = log_uniform(&mut random, 0.5, 500.0);
             let at = random.uniform(0.1, 0.9);
-            // the law is idle at both ends of the run
+            // the force law does not act at either end of the run
             let near = log_uniform(&mut random, 1e-3, 0.5f64.min(0.09 * speed));
             let aside = 0.95 * near * random.uniform(0.0, 1.0);
             let parameters = [
@@ -176,7 +176,8 @@ fn flown_past(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The angle after 1 s: cos(10 t + p) up to the level on its way up, and from there on about 0.05, where the push holds the spring.
+/// The angle after 1 s. It is cos(10 t + p) until it first rises through the level; from then on it oscillates about
+/// 0.05, where spring and push are in balance.
 fn expected(phase: f64, level: f64) -> f64 {
     let up = -level.acos();
     let at = 0.1 * (up - phase).rem_euclid(2.0 * PI);

@@ -1,5 +1,5 @@
-//! Changes that must not matter: units, the origin, directions, the order and the root of a tree, its neighbours, the direction of time;
-//! and single precision, which must matter only as much as its digits say.
+//! Changes that must not affect results: units, the origin, directions, the order and the root of a tree, other
+//! systems, the direction of time. Single precision may affect results only as far as its digits say.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -52,7 +52,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Units of length and mass for the text of a scene, with the factors of their numbers; "" for no unit.
+/// Units of length and mass in the text of a scene, as numbers per SI unit; if not `named`, no units are written.
 #[derive(Clone, Copy)]
 struct Units {
     length: f64,
@@ -69,20 +69,20 @@ impl Units {
         }
     }
 
-    /// A length in metres, written in the unit.
+    /// A length in metres, as text in the unit.
     fn m(self, value: f64) -> String {
         self.text(value, 1, 0, "mm")
     }
 }
 
-/// Two links that fall onto a rough plate while they rotate; moved by `away` \[m\] along both axes.
+/// Two rotating links that fall onto a rough plate; everything is moved by `away` \[m\] along both axes.
 fn links(name: &str, units: Units, away: f64) -> Scene {
     let m = |value| units.m(value);
     let kg = |value| units.text(value, 0, 1, "g");
     let speed = |value| units.text(value, 1, 0, "mm/s");
     let inertia = |value| units.text(value, 2, 1, "g*mm^2");
     let field = |value| units.text(value, 1, 0, "mm/s^2");
-    // Units of forces have names in one case, and none in the other.
+    // forces have units if units are named, and else the product of the factors
     let newton = |value: f64| match units.named {
         true => format!("{value:e} N"),
         false => units.text(value, 1, 1, ""),
@@ -169,11 +169,12 @@ const SI: Units = Units {
     named: false,
 };
 
-/// Frequency of the lighter link on its contact \[1/s\], and an upper bound of the speeds \[m/s\], in [`links`].
+/// Frequency of the lighter link on its contact \[1/s\], and an upper bound of speeds \[m/s\], for [`links`].
 const OMEGA: f64 = 316.0;
 const SPEED: f64 = 10.0;
 
-/// The largest difference of the coordinates `names` at any sample; those of the second run are larger by `factor`, and shifted by `moved`.
+/// The largest difference of coordinates at any sample. `names` has the name of each, and the factor and shift of its
+/// values in the second run.
 fn apart(a: &Run, b: &Run, names: &[(&str, f64, f64)]) -> Result<f64, Trouble> {
     let mut worst = 0.0;
     for (name, factor, moved) in names {
@@ -223,7 +224,7 @@ fn units(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 
 fn far_away(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let away = 1e6;
-    // half a unit in the last place of 10⁶ m
+    // rounding error: half a unit in the last place of 10⁶ m
     let rounding = away * 0.5 * f64::EPSILON;
     let (here, there) = (links("links-si", SI, 0.0), links("links-far", SI, away));
     let names = [away, away, 0.0, 0.0];
@@ -237,7 +238,8 @@ fn far_away(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         bench.succeed(&here, &fixed(Formula::Rk4, step))?,
         bench.succeed(&there, &fixed(Formula::Rk4, step))?,
     ];
-    // A rounded height is a wrong force for one step, and this is a wrong speed for the rest of the run.
+    // A rounding error of the height causes a wrong force during one step, and this a wrong speed for the rest of the
+    // run.
     let duration = 0.5;
     bench.at_most(
         "difference of any coordinate",
@@ -292,7 +294,8 @@ fn single_precision(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The largest growth of an error of the start until the end, found by runs with errors a million times those of the methods.
+/// The largest growth of an error of the start until the end, measured with errors that are a million times those of
+/// the method.
 fn growth(
     bench: &Bench<'_>,
     (tree, scene): (&Tree, &Scene),
@@ -316,7 +319,8 @@ fn growth(
 /// No rotation.
 const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// The largest distance between the centres of gravity of the elements, after those of the second run are rotated by a matrix.
+/// The largest distance between centres of gravity of the same element in two runs, after those of the second run are
+/// rotated by a matrix.
 fn positions_apart(a: &Run, b: &Run, tree: &Tree, turned: [[f64; 3]; 3]) -> Result<f64, Trouble> {
     let mut worst = 0.0;
     for element in &tree.elements {
@@ -423,7 +427,7 @@ fn time_reversed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let there = from(start)?;
         let turned = end(&there, -1.0)?;
         let back_run = from(turned)?;
-        // the growth of an error at the turning point
+        // growth of an error at the turning point
         let nudge = 1e-6;
         let mut growth: f64 = 1.0;
         for i in 0..4 {

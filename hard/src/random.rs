@@ -1,16 +1,16 @@
-//! Random numbers, the same for the same seed.
+//! Random numbers; equal seeds give equal numbers.
 
-/// A small generator of numbers (SplitMix64: Steele, Lea & Flood 2014).
+/// A small generator of random numbers (SplitMix64: Steele, Lea & Flood 2014).
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
-    /// A generator with a stream of its own for each seed.
+    /// A generator with a seed; each seed has its own stream.
     pub fn new(seed: u64) -> Self {
         Random(seed)
     }
 
-    /// Any 64 bits.
+    /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -29,7 +29,7 @@ impl Random {
         [0, 1, 2].map(|_| self.uniform(-size, size))
     }
 
-    /// A uniform integer from 0 to below − 1.
+    /// A uniform integer from 0 to `below` − 1.
     pub fn below(&mut self, below: usize) -> usize {
         (self.bits() % below as u64) as usize
     }
@@ -39,7 +39,7 @@ impl Random {
         self.below(of) == 0
     }
 
-    /// One of these values, of which there is at least one.
+    /// One of these values; the list must not be empty.
     pub fn one_of<'a, T>(&mut self, of: &'a [T]) -> &'a T {
         &of[self.below(of.len())]
     }

@@ -1,9 +1,9 @@
-//! The effect of rounding on a value: expressions are evaluated with random rounding of every operation.
+//! The effect of rounding on a value: expressions are evaluated with random relative errors in every operation.
 //!
 //! x ∘ y → (x ∘ y)(1 + ρ),   ρ uniform in \[−unit, unit\]
 //!
-//! The scatter of a few such evaluations is κ·ε with the condition κ of this expression itself, not an estimate of it: inputs and constants
-//! are disturbed as well as the results of operations (Monte Carlo arithmetic, Parker 1997).
+//! The scatter of a few such evaluations measures κ·ε with the condition κ of this very expression: inputs and
+//! constants are disturbed as well as results of operations (Monte Carlo arithmetic, Parker 1997).
 
 use bryant_generator::expression::evaluate::{Evaluator, Functions, Inputs, Scalar};
 use bryant_generator::expression::{Function, Graph, NodeId};
@@ -11,16 +11,16 @@ use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 thread_local! {
-    /// Unit of the disturbances and state of their generator.
+    /// Size of the disturbances, and state of their random generator.
     static DISTURBANCE: Cell<(f64, u64)> = const { Cell::new((0.0, 0)) };
 }
 
-/// A number whose operations are rounded at random.
+/// A number whose operations have random errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rough(pub f64);
 
 impl Rough {
-    /// A number disturbed by at most the unit.
+    /// The value with a random relative error of at most the current size.
     pub fn of(value: f64) -> Self {
         let factor = DISTURBANCE.with(|cell| {
             let (unit, mut x) = cell.get();
@@ -77,7 +77,7 @@ impl Scalar for Rough {
     }
 }
 
-/// Expressions prepared for values and their scatter.
+/// Expressions that can be evaluated to values with their scatter.
 pub struct Rounded {
     exact: Evaluator<f64>,
     rough: Evaluator<Rough>,
@@ -95,7 +95,7 @@ impl Rounded {
         }
     }
 
-    /// The values, and their largest deviations if every operation errs by up to `unit`.
+    /// The values, and their largest deviations if every operation has a relative error of up to `unit`.
     pub fn evaluate(
         &mut self,
         inputs: &Inputs<'_, f64>,

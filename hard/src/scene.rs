@@ -23,10 +23,10 @@ impl Scene {
         }
     }
 
-    /// The model, or its problems. A hard case is one file and includes nothing.
+    /// Reads the model. A scene is one text and includes no files.
     ///
     /// # Errors
-    /// Every problem found, with its place.
+    /// All problems, with their places.
     pub fn model(&self) -> Result<Model, Diagnostics> {
         let no_others = |_: &Path| Err(io::Error::from(io::ErrorKind::NotFound));
         let file = format!("{}.yaml", self.name);

@@ -1,11 +1,13 @@
-//! Random chains of sliders whose time scales differ by up to a factor of 10⁹, against an implicit method of the test's own.
+//! Random chains of sliders whose time scales differ by up to a factor of 10⁹, compared with an implicit method that is
+//! written here for this purpose.
 //!
-//! Masses m_i move on a line. Joint i carries mass i on mass i − 1, the first on the frame, with the force
+//! Masses m_i move on a line. Joint i connects mass i to mass i − 1, or to the frame for i = 0, with the force
 //!
 //! f_i = P_i − k_i q_i − c_i q'_i − F_i clamp(q'_i/v_i, −1, 1),   m_i x''_i = f_i − f_{i+1},   x_i = q_0 + … + q_i
 //!
-//! The reference is the Radau IIA method of order 5 (Hairer & Wanner, *Solving ODEs II*, IV.8) with Newton's iteration on all stages at once, and
-//! steps chosen by comparison with two steps of half the length. It shares nothing with the program.
+//! The reference is the Radau IIA method of order 5 (Hairer & Wanner, *Solving ODEs II*, IV.8). Newton's iteration
+//! solves all stages at once, and steps are chosen by comparison with two steps of half the length. It shares no code
+//! with the program.
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
@@ -28,14 +30,14 @@ const SCENES: u64 = 300;
 /// Length of each run and time between samples \[s\].
 const DURATION: f64 = 1.0;
 const EVERY: f64 = 0.01;
-/// The relative error of a step of the reference.
+/// Relative error that is allowed in a step of the reference.
 const SHARP: f64 = 1e-8;
 
-/// What a run promises of its outputs, as a share of their largest value.
+/// The error that a run promises for its outputs, as a share of their largest value.
 const PROMISED: f64 = 1e-3;
 
-/// The least speed at which friction is whole \[m/s\]: ten times the error of a speed that the tolerances allow. With less, an error that is allowed takes a
-/// body that creeps for one that slides, and an explicit method passes that corner again and again.
+/// Least speed of full friction \[m/s\]: ten times the error of a speed that the tolerances allow. Below it, an allowed
+/// error could make a creeping body slide, and an explicit method would pass this kink again and again.
 const CREEP: f64 = 1e-6;
 
 /// A joint of a chain, and the mass that it carries \[SI\].
@@ -58,7 +60,7 @@ fn joints(random: &mut Random) -> Vec<Joint> {
     (0..count)
         .map(|i| {
             let mass = 10f64.powf(random.uniform(-6.0, 3.0));
-            // what moves fastest against its neighbour
+            // the lighter of the two masses at this joint sets its fastest rate
             let lighter = mass.min(before);
             before = mass;
             let slow = random.uniform(0.5, 5.0);
@@ -104,8 +106,8 @@ fn joints(random: &mut Random) -> Vec<Joint> {
         .collect()
 }
 
-/// The springs are numbers and not curves: a curve through points at ±1 m rounds its argument to 10⁻¹⁶ m, and a spring of 10¹⁷ N/m would jump by 10 N, more
-/// than what loads it.
+/// The text of a chain. Stiffnesses are numbers instead of curves: a curve through points at ±1 m rounds its argument
+/// to 10⁻¹⁶ m, so a spring of 10¹⁷ N/m would jump by 10 N, more than the load.
 fn scene(name: &str, joints: &[Joint]) -> Scene {
     let mut elements = String::new();
     let mut forces = String::new();
@@ -156,7 +158,7 @@ fn scene(name: &str, joints: &[Joint]) -> Scene {
     )
 }
 
-/// The derivative of a state.
+/// The derivative of a state with respect to time.
 fn rate(joints: &[Joint], y: &[f64]) -> State {
     let n = joints.len();
     let forces: Vec<f64> = (0..n)
@@ -172,12 +174,12 @@ fn rate(joints: &[Joint], y: &[f64]) -> State {
     rate
 }
 
-/// The acceleration of mass `i` in space.
+/// The absolute acceleration of mass `i`.
 fn absolute(joints: &[Joint], forces: &[f64], i: usize) -> f64 {
     (forces[i] - forces.get(i + 1).copied().unwrap_or(0.0)) / joints[i].mass
 }
 
-/// That of the mass before.
+/// The absolute acceleration of the mass before mass `i`; 0 for the frame.
 fn before(joints: &[Joint], forces: &[f64], i: usize) -> f64 {
     if i == 0 {
         0.0
@@ -186,7 +188,8 @@ fn before(joints: &[Joint], forces: &[f64], i: usize) -> f64 {
     }
 }
 
-/// The derivatives of [`rate`] by the state, by columns of a unit change: it is linear but for the clamp.
+/// The derivative of [`rate`] with respect to the state, by columns: the rates of a unit change of each entry, because
+/// [`rate`] is linear except for the clamp.
 fn jacobian(joints: &[Joint], y: &[f64]) -> Vec<State> {
     let n = joints.len();
     (0..2 * n)
@@ -215,7 +218,7 @@ fn jacobian(joints: &[Joint], y: &[f64]) -> Vec<State> {
         .collect()
 }
 
-/// a_ij of the Radau IIA method with three stages.
+/// The coefficients a_ij of the Radau IIA method with three stages.
 fn radau() -> [[f64; 3]; 3] {
     let s = 6f64.sqrt();
     [
@@ -233,7 +236,8 @@ fn radau() -> [[f64; 3]; 3] {
     ]
 }
 
-/// The states of all stages of a step of the reference, the last of which is its end; `None` where Newton's iteration does not end.
+/// The states at all stages of a step of the reference; the last stage is the end of the step. `None` if Newton's
+/// iteration does not converge.
 fn step(joints: &[Joint], y: &[f64], h: f64) -> Option<[State; 3]> {
     let (a, n) = (radau(), y.len());
     let mut stages = vec![y.to_vec(); 3];
@@ -270,11 +274,12 @@ fn step(joints: &[Joint], y: &[f64], h: f64) -> Option<[State; 3]> {
     None
 }
 
-/// The place of the first stage in a step, (4 − √6)/10.
+/// Time of the first stage as a share of the step, (4 − √6)/10.
 const FIRST: f64 = 0.155_051_025_721_682_2;
 
-/// What the rates of a step are wrong by until its first stage, at the state `first`. If friction begins to slide or to stick before that, no stage has the force
-/// of where the step begins, in the whole step as in its halves, which agree on it.
+/// Bound of the error of the rates between the begin of a step and its first stage, whose state is `first`. If friction
+/// changes between sliding and sticking in this interval, no stage sees the force at the begin. As this holds for the
+/// whole step and for its halves, their comparison does not show the error.
 fn unseen(joints: &[Joint], y: &[f64], first: &[f64]) -> State {
     let n = joints.len();
     let forces: Vec<f64> = (0..n)
@@ -299,7 +304,8 @@ fn unseen(joints: &[Joint], y: &[f64], first: &[f64]) -> State {
     unseen
 }
 
-/// Solves a system, given with its right-hand side, by elimination; rows are scaled by their largest entry.
+/// Solves a linear system by elimination with pivoting; each row ends with its right-hand side, and is scaled by its
+/// largest coefficient.
 fn solve(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let n = rows.len();
     for row in &mut rows {
@@ -327,7 +333,8 @@ fn solve(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     x.iter().all(|x| x.is_finite()).then_some(x)
 }
 
-/// The states of the reference at the samples, and the largest acceleration of each mass at the end of any of its steps.
+/// The states of the reference at the samples, and the largest acceleration of any joint at the end of any step. `None`
+/// if steps become too short.
 fn reference(joints: &[Joint]) -> Option<(Vec<State>, f64)> {
     let n = joints.len();
     let mut y = vec![0.0; 2 * n];
@@ -385,7 +392,8 @@ fn reference(joints: &[Joint]) -> Option<(Vec<State>, f64)> {
     Some((all, largest))
 }
 
-/// The largest errors of a run: of coordinates \[m\], of speeds \[m/s\], of accelerations as a share of the largest acceleration.
+/// The largest errors of a run: coordinates \[m\]; speeds \[m/s\]; accelerations as a share of the largest
+/// acceleration.
 fn errors(run: &Run, joints: &[Joint]) -> Result<[f64; 3], Trouble> {
     let n = joints.len();
     let (states, largest) = reference(joints)
@@ -399,7 +407,7 @@ fn errors(run: &Run, joints: &[Joint]) -> Result<[f64; 3], Trouble> {
             let of = &mut worst[k / n];
             *of = of.max((found[k] - exact[k]).abs());
         }
-        // the accelerations that the state found has, by the laws of the test
+        // accelerations are computed by the force laws of this file, from the state of the run
         let [found, exact] = [found, exact].map(|y| rate(joints, y));
         for k in n..2 * n {
             worst[2] = worst[2].max((found[k] - exact[k]).abs() / largest);
@@ -408,11 +416,12 @@ fn errors(run: &Run, joints: &[Joint]) -> Result<[f64; 3], Trouble> {
     Ok(worst)
 }
 
-/// The accelerations of a run as the command delivers them: the tolerance is a tenth until two runs agree to what is promised. Whether that was needed, and the
-/// error as a share of the largest acceleration.
+/// Repeats a run as the command does to keep its promise for outputs: the tolerance is divided by ten until two
+/// successive runs agree within `PROMISED`. Returns whether more than the first comparison was needed, and the error of
+/// the accelerations as a share of the largest.
 ///
-/// One step errs by 10⁻⁷ m/s of speed at the default tolerances, so that an acceleration of an oscillation of frequency ω errs by ω 10⁻⁷ m/s: in a chain whose
-/// loads are small that is more than what is promised.
+/// At the default tolerances a step has an error of 10⁻⁷ m/s in a speed, so the acceleration of an oscillation of
+/// frequency ω has an error of ω 10⁻⁷ m/s. In a chain with small loads this exceeds the promise.
 fn promised(
     bench: &Bench<'_>,
     scene: &Scene,
@@ -465,7 +474,8 @@ fn chains(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             .iter()
             .flat_map(|y| &y[joints.len()..2 * joints.len()]);
         let speed = speed.fold(0.0f64, |m, v| m.max(v.abs()));
-        // a step errs by 1e-8 m and by 1e-7 (1 + v) of speed; every motion is damped or oscillates, and is over or seen within a second
+        // a step has errors of 1e-8 m and 1e-7 (1 + v); motions are damped or oscillate, so that errors are not
+        // amplified within the second
         let allowed = steps * (1e-8 + 1e-7 * (1.0 + speed));
         let found = errors(&run, &joints)?;
         let found = [found[0] / allowed, found[1] / (5.0 * allowed), promised];

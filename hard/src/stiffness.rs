@@ -1,9 +1,9 @@
-//! Stops, contacts and belts far stiffer than the rest of the scene.
+//! Stops, contacts and belts that are far stiffer than the rest of the scene.
 //!
-//! A step with error control errs by at most a_x in a coordinate and r v + a_v in a velocity v, with the relative tolerance r and the
-//! absolute tolerances a. While a spring of frequency ω acts, (v, ω x) moves on a circle: an error of x is worth ω times as much of v, and
-//! neither grows. Without losses, errors of the speed v = √(v² + ω² x²) add up, and N steps change it by at most N (r v + a_v + ω a_x),
-//! whatever happens in between.
+//! A step with error control has an error of at most a_x in a coordinate and r v + a_v in a velocity v, with the
+//! relative tolerance r and the absolute tolerances a. While a spring of frequency ω acts, the point (v, ω x) moves on
+//! a circle: an error of x counts as ω times as much of v, and neither grows. Without losses, errors of the amplitude
+//! √(v² + ω² x²) add up, and N steps change it by at most N (r v + a_v + ω a_x), whatever happens in between.
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
@@ -55,7 +55,7 @@ fn pressed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let scene = scene!("pressed-stop");
     let rest = 0.1 + 2.0 / 1e6;
     let omega = (1e6f64 / 1e-3).sqrt();
-    // x = −d (1 + ω t) exp(−ω t) is fastest at ω t = 1
+    // speed is largest at ω t = 1 in x = −d (1 + ω t) exp(−ω t)
     let fastest = 2.0 / 1e6 * omega * (-1.0f64).exp();
     let tolerances: &[f64] = match bench.full() {
         true => &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12],
@@ -67,7 +67,7 @@ fn pressed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             let tolerances = Tolerances::uniform(tolerance);
             let run = bench.run(&scene, &adaptive(formula, tolerances))?;
             let away = run.output("angle")?.into_iter().map(|a| (a - rest).abs());
-            // in 1 s
+            // number of steps in 1 s
             let taken = steps(&run).unwrap_or(f64::NAN);
             let left = errors_left(&tolerances, omega, omega / taken, fastest);
             bench.at_most(
@@ -94,8 +94,8 @@ fn pressed(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The remaining errors of steps of z/ω in a critically damped mode, which goes from (x, v) to (x (1 + ω t) + v t) exp(−ω t): with q =
-/// exp(−z), Σ qᵏ = 1/(1 − q) and Σ k qᵏ = q/(1 − q)².
+/// The errors that remain after many steps of length z/ω in a critically damped mode, which takes (x, v) to (x (1 + ω
+/// t) + v t) exp(−ω t): with q = exp(−z), Σ qᵏ = 1/(1 − q) and Σ k qᵏ = q/(1 − q)².
 fn errors_left(of: &Tolerances, omega: f64, z: f64, rate: f64) -> f64 {
     let q = (-z).exp();
     let decaying = 1.0 / (1.0 - q);
@@ -144,7 +144,7 @@ fn hard_ball(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let scene = scene!("hard-ball");
     let (gravity, stiffness): (f64, f64) = (10.0, 1e9);
     let omega = stiffness.sqrt();
-    // T + V from the first touch
+    // T + V with the height above the first touch
     let energy = |state: &[f64]| {
         let height = state[1] - 0.1;
         let speed = state[4];
@@ -195,7 +195,7 @@ fn snapping_belt(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let tolerances = Tolerances::uniform(tolerance);
         let asked = with_kinks(formula, tolerances, locate);
         let run = bench.succeed(&scene, &asked)?;
-        // An error of speed during slack changes the time at which the belt becomes taut.
+        // an error of speed while the belt is slack changes the time at which it becomes taut
         let flown = error_of_speed(&tolerances, speed, 0.0) * omega * taut;
         let error = steps(&run)? * (error_of_speed(&tolerances, speed, omega) + flown);
         let because = "steps × ((r v + a_v) (1 + ω t) + ω a_x), t the time of slack; an oscillation rotates errors and does not amplify them";
@@ -219,7 +219,7 @@ fn snapping_belt(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             "m/s",
             because,
         );
-        // an error of speed changes the oscillation by 1/ω of it
+        // in the oscillation, an error of speed becomes a displacement of 1/ω times as much
         bench.at_most(
             "error of the tension",
             away("tension", |exact| exact.2)?,

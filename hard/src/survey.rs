@@ -1,4 +1,4 @@
-//! The worst errors of accelerations over a family of chains and states.
+//! Collects the worst errors of accelerations over many chains and states.
 
 use crate::balance::Tree;
 use crate::bench::{Bench, Trouble};
@@ -7,13 +7,13 @@ use crate::error::{backward, forward};
 use crate::evaluate::Accelerations;
 use crate::random::Random;
 
-/// Up to this number of elements a system is also solved in double-double.
+/// Largest number of elements for which the system is also solved in double-double.
 const SOLVED: usize = 20;
 
 /// Number of states of each chain.
 const STATES: usize = 3;
 
-/// The worst errors of a family, each over its n·ε.
+/// The worst errors, each over n·ε.
 #[derive(Clone, Debug, Default)]
 pub struct Survey {
     plain: f64,
@@ -22,13 +22,13 @@ pub struct Survey {
     chains: usize,
 }
 
-/// The larger value; NaN is kept.
+/// The larger value, or NaN if one of them is NaN.
 fn worst(a: f64, b: f64) -> f64 {
     if a.is_nan() || b <= a { a } else { b }
 }
 
 impl Survey {
-    /// Measures a chain in random states.
+    /// Measures the errors of a chain in random states.
     ///
     /// # Errors
     /// The chain is refused, or singular in double-double.

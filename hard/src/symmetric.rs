@@ -1,22 +1,22 @@
-//! Dense symmetric positive definite matrices: factors, solutions, condition. Over any scalar; not optimised for speed.
+//! Dense symmetric positive definite matrices: factors, solutions, condition. For any scalar; not optimised for speed.
 
 use bryant_runtime::Real;
 
-/// S = L D Lᵀ of a matrix scaled to a unit diagonal, s_ij/√(s_ii s_jj). By van der Sluis (1969) no other diagonal scaling makes its
-/// condition much smaller, and by Demmel (1989) this condition determines the errors of a factorisation, whatever the units and sizes of
-/// the unknowns.
+/// The factors S = L D Lᵀ of a matrix scaled to a unit diagonal, s_ij/√(s_ii s_jj). No other diagonal scaling makes its
+/// condition much smaller (van der Sluis 1969), and this condition determines the errors of a factorisation, whatever
+/// the units and sizes of the unknowns (Demmel 1989).
 #[derive(Clone, Debug)]
 pub struct Factors<S> {
     /// √s_ii, each rounded to a double.
     scale: Vec<f64>,
     /// L below the diagonal, D on it, by rows.
     rows: Vec<Vec<S>>,
-    /// ‖scaled S‖∞
+    /// ‖S‖∞ of the scaled matrix.
     norm: f64,
 }
 
 impl<S: Real> Factors<S> {
-    /// Factors of a matrix given by rows; `None` if a pivot is not positive.
+    /// Factors a matrix that is given by rows; `None` if a pivot is not positive.
     pub fn of(matrix: &[Vec<S>]) -> Option<Factors<S>> {
         let scale: Vec<f64> = (matrix.iter().enumerate())
             .map(|(i, row)| row[i].to_f64().sqrt())
@@ -32,7 +32,7 @@ impl<S: Real> Factors<S> {
         let mut rows: Vec<Vec<S>> = Vec::with_capacity(scale.len());
         for i in 0..scale.len() {
             let mut row: Vec<S> = (0..=i).map(|j| scaled(i, j)).collect();
-            // row_j holds l_ij d_j until l_ij is needed
+            // row_j holds l_ij d_j at first, and l_ij in the end
             for j in 0..i {
                 for k in 0..j {
                     row[j] = row[j] - row[k] * rows[j][k];
@@ -52,7 +52,7 @@ impl<S: Real> Factors<S> {
         Some(Factors { scale, rows, norm })
     }
 
-    /// √s_ii
+    /// The scales √s_ii.
     pub fn scale(&self) -> &[f64] {
         &self.scale
     }
@@ -68,7 +68,7 @@ impl<S: Real> Factors<S> {
         pivots.fold(1.0, f64::min)
     }
 
-    /// S⁻¹ b
+    /// S⁻¹ b, for the matrix without scaling.
     pub fn solve(&self, b: &[S]) -> Vec<S> {
         let scaled = |values: &mut [S]| {
             for (value, scale) in values.iter_mut().zip(&self.scale) {
@@ -98,8 +98,8 @@ impl<S: Real> Factors<S> {
         }
     }
 
-    /// A lower estimate of κ∞ of the scaled matrix (Hager 1984; Higham 2002, algorithm 15.1), rarely below a third of it: the norm of S⁻¹
-    /// from a few solutions.
+    /// An estimate of κ∞ of the scaled matrix from below, rarely less than a third of it (Hager 1984; Higham 2002,
+    /// algorithm 15.1). The norm of S⁻¹ comes from a few solutions.
     pub fn condition(&self) -> f64 {
         let size = self.scale.len();
         let mut x = vec![S::from_f64(1.0 / size as f64); size];

@@ -1,33 +1,34 @@
-//! Trees in space that can be described in several ways.
+//! Trees in space that can be written in several equivalent ways.
 
 use crate::scene::Scene;
 use std::fmt::Write as _;
 
-/// A free tree of rigid elements, at its start, under gravity.
+/// A free tree of rigid elements under gravity, with its state at the start.
 #[derive(Clone, Debug)]
 pub struct Tree {
-    /// An element comes after its carrier, unless the order is permuted.
+    /// The elements. Each comes after its carrier, unless the order is permuted.
     pub elements: Vec<Element>,
     /// Position of the root's local origin \[m\].
     pub position: [f64; 3],
-    /// \[m/s\]
+    /// Velocity of this origin \[m/s\].
     pub velocity: [f64; 3],
-    /// \[m/s²\]
+    /// Gravity \[m/s²\].
     pub gravity: [f64; 3],
 }
 
 /// An element; its principal axes are those of its local frame.
 #[derive(Clone, Debug)]
 pub struct Element {
-    /// Unique.
+    /// Its name, unique.
     pub name: &'static str,
-    /// Index of the element that carries it, and the joint in its local frame \[m\].
+    /// Index of the element that carries it, and the position of the joint in the frame of that element \[m\]; `None`
+    /// for the root.
     pub on: Option<(usize, [f64; 3])>,
-    /// \[kg\]
+    /// Mass \[kg\].
     pub mass: f64,
-    /// In the local frame \[m\].
+    /// Centre of gravity in the local frame \[m\].
     pub cg: [f64; 3],
-    /// \[kg m²\]
+    /// Principal moments of inertia \[kg m²\].
     pub inertia: [f64; 3],
     /// Absolute Bryant angles \[rad\].
     pub angles: [f64; 3],
@@ -47,7 +48,7 @@ pub fn rotation(angles: [f64; 3]) -> Matrix {
     ]
 }
 
-/// The angles of a rotation whose second angle is not ±90°.
+/// The Bryant angles of a rotation; the second must not be ±90°.
 fn angles(r: &Matrix) -> [f64; 3] {
     [
         (-r[1][2]).atan2(r[2][2]),
@@ -142,7 +143,7 @@ impl Tree {
         }
     }
 
-    /// The tree with its elements in another order.
+    /// The tree with its elements in reverse order.
     pub fn permuted(&self) -> Tree {
         let count = self.elements.len();
         let place = |index: usize| count - 1 - index;
@@ -154,10 +155,11 @@ impl Tree {
         other
     }
 
-    /// The tree with another root: the local frame of each element on the path to it then begins in the joint to its new carrier.
+    /// The same tree with another root. The local frame of each element on the path to the new root then begins at the
+    /// joint to its new carrier.
     pub fn rooted_at(&self, root: usize) -> Tree {
         let mut other = self.clone();
-        // the local origin of the new root and its velocity, from the old root down
+        // position and velocity of the new root's local origin, computed from the old root downwards
         let mut way = vec![root];
         while let Some((carrier, _)) = self.elements[way[way.len() - 1]].on {
             way.push(carrier);
@@ -171,11 +173,11 @@ impl Tree {
             other.position = add(other.position, arm);
             other.velocity = add(other.velocity, cross(carrier.rate, arm));
         }
-        // each carrier on the path is now carried by the element that it carried, through the joint between them
+        // on the path, each carrier is now carried by the element that it carried before, through the same joint
         for pair in way.windows(2) {
             let [carried, carrier] = [pair[0], pair[1]];
             let joint = self.elements[carried].on.unwrap_or_default().1;
-            // the position of this joint in the new local frame of the new carrier: its old origin
+            // the position of this joint in the frame of its new carrier, whose local origin may have moved
             let moved = if carried == root {
                 [0.0; 3]
             } else {
@@ -196,7 +198,7 @@ impl Tree {
         other
     }
 
-    /// The shift of the local origin of an element on the path, in its own frame.
+    /// The shift of the local origin of an element on the path, in the frame of the element.
     fn shift_of(&self, before: &Tree, element: usize, way: &[usize]) -> [f64; 3] {
         let place = way.iter().position(|e| *e == element).unwrap_or(0);
         match place {
@@ -205,7 +207,7 @@ impl Tree {
         }
     }
 
-    /// The tree rotated as a whole, including gravity.
+    /// The tree with everything rotated, including gravity.
     pub fn turned(&self, r: &Matrix) -> Tree {
         let mut other = self.clone();
         other.position = times(r, self.position);
@@ -221,7 +223,7 @@ impl Tree {
         other
     }
 
-    /// The tree alone, with the absolute position of every centre of gravity as outputs ("hub x").
+    /// A scene with only this tree; outputs are the absolute positions of all centres of gravity ("hub x").
     pub fn scene(&self, name: &str) -> Scene {
         let mut outputs = String::new();
         self.outputs("tree", "", &mut outputs);
@@ -234,7 +236,7 @@ impl Tree {
         Scene::new(name, text)
     }
 
-    /// Two trees that do not touch; the outputs of the second begin with "other".
+    /// A scene with two trees that do not touch; the outputs of the second begin with "other".
     pub fn scene_of_two(name: &str, a: &Tree, b: &Tree) -> Scene {
         let mut outputs = String::new();
         a.outputs("tree", "", &mut outputs);
@@ -269,7 +271,7 @@ impl Tree {
                 three(element.inertia)
             );
         }
-        // two parameters can change each start slightly
+        // two parameters can change the start of each element slightly
         let angles = self.elements.iter().map(|e| {
             let [x, y, z] = e.angles;
             format!("{0}: [{x:e} rad + turn_{0}, {y:e}, {z:e}]", e.name)
@@ -289,7 +291,8 @@ impl Tree {
         text
     }
 
-    /// Parameters for the additional rotation and angular velocity of each element at the start ("turn_hub", "spin_hub").
+    /// Parameters that change the start of each element, for example of `hub`: `turn_hub` is added to its first angle,
+    /// `spin_hub` to its rate about y.
     fn parameters(&self) -> String {
         let mut text = "parameters:\n".to_owned();
         for element in &self.elements {
@@ -304,7 +307,7 @@ impl Tree {
         text
     }
 
-    /// The line for the gravity of the tree.
+    /// The line of the field with the tree's gravity.
     pub fn field(&self, name: &str) -> String {
         let [x, y, z] = self.gravity;
         format!(

@@ -1,4 +1,5 @@
-//! A frame with axes: round ticks, at least three if they fit, a grid, names, and a legend above the frame.
+//! Charts: axes in a frame with a grid, names and round ticks (at least three if they fit), and a legend above the
+//! frame.
 
 use crate::drawing::{Anchor, Drawing};
 use crate::text::wrap;
@@ -9,7 +10,7 @@ pub const COLOURS: [&str; 6] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7a5195", "#8c6d1f",
 ];
 
-/// The style of axes, and of lines `c0`, `c1` … in [`COLOURS`].
+/// The style of axes, and of lines with the classes `c0`, `c1` …, which have the [`COLOURS`].
 pub fn style() -> String {
     let mut style = "\
 text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#222}
@@ -26,12 +27,12 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
     style
 }
 
-/// An axis has at least this many labelled ticks, if they fit.
+/// Least number of labelled ticks of an axis, if they fit.
 const TICKED: usize = 3;
-/// Width in pixels of a character of a tick, and of a name.
+/// Width of a character in pixels: in the label of a tick, and in a name.
 const DIGIT: f64 = 7.0;
 const LETTER: f64 = 7.4;
-/// Pixels from one line of text to the next.
+/// Distance between lines of text in pixels.
 const LINE: f64 = 15.0;
 
 /// Axes in a frame.
@@ -39,14 +40,14 @@ const LINE: f64 = 15.0;
 pub struct Axes {
     /// Left, top, width, height \[px\].
     pub frame: [f64; 4],
-    /// The ranges of the frame, across and upwards.
+    /// The ranges of values, horizontally and vertically.
     pub ranges: [Range<f64>; 2],
-    /// The positions of the ticks.
+    /// The values of the ticks, horizontally and vertically.
     pub ticks: [Vec<f64>; 2],
 }
 
 impl Axes {
-    /// Axes with round ticks. Ranges are not empty.
+    /// Axes with round ticks. The ranges must not be empty.
     pub fn new(frame: [f64; 4], ranges: [Range<f64>; 2]) -> Self {
         let across = |step: f64| {
             let widest = multiples(step, &ranges[0])
@@ -65,7 +66,7 @@ impl Axes {
         }
     }
 
-    /// Where a point is \[px\].
+    /// The place of a point in the drawing \[px\].
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [left, top, width, height] = self.frame;
         let share =
@@ -76,8 +77,8 @@ impl Axes {
         ]
     }
 
-    /// The grid, the ticks with their labels, and the frame. The name of the horizontal axis is below it, that of the vertical axis above
-    /// it on the left.
+    /// Draws the grid, the ticks with their labels, the frame and the names. The name of the horizontal axis is below
+    /// it, that of the vertical axis above it on the left.
     pub fn draw(&self, drawing: &mut Drawing, [across, upwards]: [&str; 2]) {
         let [left, top, width, height] = self.frame;
         let mut grid = Vec::new();
@@ -102,7 +103,8 @@ impl Axes {
     }
 }
 
-/// From the least to the largest finite value, with a margin of this share; never empty.
+/// The range from the least to the largest finite value, with a margin of this share of the span at either end; never
+/// empty.
 pub fn range(values: impl Iterator<Item = f64>, share: f64) -> Range<f64> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for value in values.filter(|value| value.is_finite()) {
@@ -111,7 +113,7 @@ pub fn range(values: impl Iterator<Item = f64>, share: f64) -> Range<f64> {
     if low > high {
         return 0.0..1.0;
     }
-    // values that differ only by rounding count as one: there are no ticks between them
+    // values that differ only by rounding count as one, because no ticks fit between them
     let span = high - low;
     let size = low.abs().max(high.abs());
     let margin = match span > 1e-10 * size {
@@ -122,12 +124,12 @@ pub fn range(values: impl Iterator<Item = f64>, share: f64) -> Range<f64> {
     low - margin..high + margin
 }
 
-/// The height of a legend with these names in a frame that is `across` pixels wide \[px\].
+/// The height \[px\] of a legend with these names, if the frame is `across` pixels wide.
 pub fn legend_height(names: &[&str], across: f64) -> f64 {
     LINE * rows(names, across).len() as f64
 }
 
-/// Draws the legend with its upper left corner at a point.
+/// Draws the legend with its upper left corner at this point, in at most `across` pixels.
 pub fn legend(drawing: &mut Drawing, [left, top]: [f64; 2], across: f64, names: &[&str]) {
     for (row, entries) in rows(names, across).iter().enumerate() {
         let y = top + LINE * (row as f64 + 0.5);
@@ -140,7 +142,7 @@ pub fn legend(drawing: &mut Drawing, [left, top]: [f64; 2], across: f64, names: 
     }
 }
 
-/// The lines of a legend: the position and the index of each entry.
+/// The lines of a legend, each with the horizontal position and the index of its entries.
 fn rows(names: &[&str], across: f64) -> Vec<Vec<(f64, usize)>> {
     let mut rows: Vec<Vec<(f64, usize)>> = Vec::new();
     let mut x = f64::INFINITY;
@@ -158,7 +160,7 @@ fn rows(names: &[&str], across: f64) -> Vec<Vec<(f64, usize)>> {
     rows
 }
 
-/// A title in as many lines as it needs, with its upper left corner at a point; returns its height in pixels.
+/// Draws a title with its upper left corner at this point, in as many lines as it needs; returns its height in pixels.
 pub fn title(drawing: &mut Drawing, [left, top]: [f64; 2], across: f64, text: &str) -> f64 {
     let lines = title_lines(text, across);
     for (index, line) in lines.iter().enumerate() {
@@ -168,12 +170,13 @@ pub fn title(drawing: &mut Drawing, [left, top]: [f64; 2], across: f64, text: &s
     21.0 * lines.len() as f64
 }
 
-/// Lines of a title.
+/// The lines of a title that is at most `across` pixels wide.
 pub fn title_lines(text: &str, across: f64) -> Vec<String> {
     wrap(text, (across / 11.2) as usize)
 }
 
-/// Round numbers in a range: as many as fit easily, or three if three fit at all. `room` is the size of a label at a step \[px\].
+/// Round numbers in a range for ticks: as many as fit easily, else three if three fit at all. `room` returns the size
+/// of a label \[px\] for ticks at a distance.
 fn ticks(range: &Range<f64>, pixels: f64, room: impl Fn(f64) -> f64) -> Vec<f64> {
     let span = range.end - range.start;
     let fits = |step: &f64, ease: f64| step / span * pixels >= ease * room(*step);
@@ -193,13 +196,13 @@ fn ticks(range: &Range<f64>, pixels: f64, room: impl Fn(f64) -> f64) -> Vec<f64>
     best
 }
 
-/// 10^`exponent`: exact where it is whole and at most 10²², and the nearest double where it is a reciprocal of these.
+/// 10^`exponent`: exact for whole numbers up to 10²², and the nearest double for their reciprocals.
 pub fn power_of_ten(exponent: i32) -> f64 {
     let power = libm::pow(10.0, f64::from(exponent.abs()));
     if exponent < 0 { 1.0 / power } else { power }
 }
 
-/// The smallest of 1, 2, 5 times a power of ten that is not below `value` (positive).
+/// The smallest number that is 1, 2 or 5 times a power of ten and not below `value`, which is positive.
 fn round_above(value: f64) -> f64 {
     let power = power_of_ten(libm::log10(value).floor() as i32);
     let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= value);
@@ -209,7 +212,7 @@ fn round_above(value: f64) -> f64 {
 /// The multiples of a step in a range.
 fn multiples(step: f64, range: &Range<f64>) -> Vec<f64> {
     let (first, last) = (range.start / step, range.end / step);
-    // larger multiples cannot be distinguished
+    // larger multiples cannot be distinguished as doubles
     let farthest = first.abs().max(last.abs());
     if farthest.is_nan() || farthest >= 1e12 {
         return vec![range.start, range.end];
@@ -227,7 +230,7 @@ fn step(ticks: &[f64]) -> f64 {
     }
 }
 
-/// A label with as many digits as distinguish ticks at this distance.
+/// The label of a tick, with as many digits as distinguish ticks at a distance of `step`.
 pub fn label(value: f64, step: f64) -> String {
     let power = libm::log10(step * (1.0 + 1e-9)).floor();
     let size = value.abs();

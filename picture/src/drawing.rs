@@ -1,15 +1,15 @@
-//! A picture as a list of shapes, before it is written as vector graphics (`svg`) or as pixels ([`crate::raster`]). Numbers are rounded to
-//! a hundredth of a pixel, so that both formats show the same.
+//! A picture as a list of shapes, which is written as vector graphics (`svg`) or as pixels ([`crate::raster`]). Numbers
+//! are rounded to a hundredth of a pixel, so that both formats show the same.
 
 use crate::raster::{self, RasterError};
 use crate::{Format, svg};
 
-/// A picture under construction, in pixels, y downwards, on white.
+/// A picture under construction: coordinates in pixels, y downwards, a white background.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     pub(crate) size: [f64; 2],
     pub(crate) title: String,
-    /// CSS.
+    /// The style sheet in CSS.
     pub(crate) style: String,
     pub(crate) items: Vec<Item>,
 }
@@ -23,11 +23,11 @@ pub(crate) enum Item {
     Group { class: String, opacity: f64 },
     /// Ends the last group.
     Close,
-    /// A shape, drawn as its classes say.
+    /// A shape, drawn in the style of its classes.
     Shape { class: String, shape: Shape },
 }
 
-/// A shape.
+/// A shape. All lengths are in pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
     Line([[f64; 2]; 2]),
@@ -40,7 +40,7 @@ pub(crate) enum Shape {
     Ellipse {
         centre: [f64; 2],
         semi: [f64; 2],
-        /// Angle, clockwise on the screen.
+        /// Rotation, clockwise on the screen.
         degrees: f64,
     },
     /// Left, top, width, height.
@@ -55,11 +55,11 @@ pub(crate) enum Shape {
 /// The position of a text relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// The text begins there.
+    /// The text begins at the point.
     Start,
-    /// The text is centred there.
+    /// The text is centred at the point.
     Middle,
-    /// The text ends there.
+    /// The text ends at the point.
     End,
 }
 
@@ -74,12 +74,12 @@ impl Drawing {
         }
     }
 
-    /// The picture as vector graphics.
+    /// The text of the picture as an SVG file.
     pub fn svg(&self) -> String {
         svg::text(self)
     }
 
-    /// The picture as pixels.
+    /// The bytes of the picture as a PNG file.
     ///
     /// # Errors
     /// The style is not known, or the picture is too large.
@@ -98,7 +98,7 @@ impl Drawing {
         }
     }
 
-    /// Opens a group whose content is clipped by a rectangle.
+    /// Opens a group that is clipped to a rectangle.
     pub fn open_clipped(&mut self, id: &str, rectangle: [f64; 4]) {
         self.items.push(Item::Clip {
             id: id.to_owned(),
@@ -106,7 +106,7 @@ impl Drawing {
         });
     }
 
-    /// Opens a group of a class that is drawn with an opacity.
+    /// Opens a group with a class and an opacity.
     pub fn open(&mut self, class: &str, opacity: f64) {
         self.items.push(Item::Group {
             class: class.to_owned(),
@@ -114,7 +114,7 @@ impl Drawing {
         });
     }
 
-    /// Closes the last group.
+    /// Closes the group that was opened last.
     pub fn close(&mut self) {
         self.items.push(Item::Close);
     }
@@ -145,7 +145,8 @@ impl Drawing {
         self.add(class, Shape::Circle { centre, radius });
     }
 
-    /// An ellipse, rotated by an angle (clockwise on the screen, degrees). The angle of a circle, which rounding alone decides, is 0.
+    /// An ellipse, rotated by an angle (clockwise on the screen, degrees). For a circle the angle is set to 0, because
+    /// otherwise rounding would decide it.
     pub fn ellipse(&mut self, class: &str, centre: [f64; 2], semi: [f64; 2], degrees: f64) {
         let semi = point(semi);
         let is_circle = semi[0] == semi[1];
@@ -178,7 +179,7 @@ fn point(point: [f64; 2]) -> [f64; 2] {
     point.map(round)
 }
 
-/// Rounded to hundredths; zero has no sign.
+/// The value rounded to hundredths; zero has no sign.
 fn round(value: f64) -> f64 {
     (value * 100.0).round() / 100.0 + 0.0
 }

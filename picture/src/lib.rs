@@ -1,5 +1,4 @@
-//! Pictures: a few kinds of shapes with coordinates to a hundredth of a pixel, written as vector graphics (SVG) or as pixels (PNG); axes of
-//! charts.
+//! Pictures: a few kinds of shapes, written as vector graphics (SVG) or as pixels (PNG), and charts with axes.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -31,10 +30,10 @@ pub enum Format {
 }
 
 impl Format {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Format; 2] = [Format::Svg, Format::Png];
 
-    /// The ending of the names of its files.
+    /// The extension of its files.
     pub const fn ending(self) -> &'static str {
         match self {
             Format::Svg => "svg",
@@ -42,13 +41,13 @@ impl Format {
         }
     }
 
-    /// The format whose files have this ending, in lower or upper case.
+    /// The format whose files have this extension, whose case does not matter.
     pub fn named(ending: &str) -> Option<Format> {
         let ends = |format: &Format| format.ending().eq_ignore_ascii_case(ending);
         Format::ALL.into_iter().find(ends)
     }
 
-    /// The format of a file by the ending of its name; `None` for other endings.
+    /// The format of a file by its extension; `None` for other extensions.
     pub fn of(path: &Path) -> Option<Format> {
         Format::named(path.extension()?.to_str()?)
     }

@@ -3,7 +3,7 @@
 use super::drawing::{Anchor, Drawing, Item, Shape};
 use std::fmt::Write as _;
 
-/// The file of a drawing.
+/// The text of the SVG file of a drawing.
 pub fn text(drawing: &Drawing) -> String {
     let ([w, h], title, style) = (drawing.size, escape(&drawing.title), &drawing.style);
     let mut text = format!(
@@ -42,7 +42,7 @@ fn write_item(out: &mut String, item: &Item) -> std::fmt::Result {
     }
 }
 
-/// Writes the attributes after the class.
+/// Writes the attributes of a shape that follow its class.
 fn write_shape(out: &mut String, shape: &Shape) -> std::fmt::Result {
     match shape {
         Shape::Line([[x1, y1], [x2, y2]]) => {
@@ -95,7 +95,7 @@ fn write_shape(out: &mut String, shape: &Shape) -> std::fmt::Result {
 }
 
 impl Shape {
-    /// The name of its element in SVG, which a style may select.
+    /// The name of its SVG element, which selectors use.
     pub fn element(&self) -> &'static str {
         match self {
             Shape::Line(_) => "line",

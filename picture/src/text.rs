@@ -1,6 +1,6 @@
-//! Splits text into lines, and writes units as people do.
+//! Splits text into lines, and typesets units.
 
-/// Splits words into lines of at most `width` characters; a longer word has a line of its own.
+/// Splits text into lines of at most `width` characters; a longer word gets a line of its own.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

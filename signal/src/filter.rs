@@ -1,4 +1,5 @@
-//! Filters of channel frequency classes (ISO 6487, SAE J211-1) for signals: [`bryant_runtime::response::filter`] has the mathematics.
+//! Filters signals by channel frequency classes (ISO 6487, SAE J211-1); [`bryant_runtime::response::filter`] has the
+//! mathematics.
 
 use crate::Signal;
 use crate::mme::is_code;
@@ -16,11 +17,11 @@ pub fn letter(class: Class) -> char {
     }
 }
 
-/// The class with which the samples of a channel were filtered, by its channel code of ISO-MME; `None` if the code gives none or is not a
-/// code.
+/// The class with which the samples of a channel were filtered, by its channel code of ISO-MME; `None` if the code
+/// names no class, or is not a channel code.
 pub fn class_of_code(code: &str) -> Option<Class> {
     let last = last_of_code(code)?;
-    // E to H are A to D of the editions of 1987 and 1988
+    // E to H are the classes A to D by the editions of 1987 and 1988
     let last = match last {
         'E'..='H' => char::from(last as u8 - b'E' + b'A'),
         last => last,
@@ -28,8 +29,8 @@ pub fn class_of_code(code: &str) -> Option<Class> {
     Class::ALL.into_iter().find(|class| letter(*class) == last)
 }
 
-/// The filter of a channel that is none of the classes and takes away more than they do, or that is not known well enough to be followed by
-/// another; in words, by the channel code of ISO-MME.
+/// The filter of a channel in words, by its channel code of ISO-MME, if it forbids a further filter: it removes more
+/// than every class, or is not known well enough. `None` for other filters.
 pub fn narrow_filter(code: &str) -> Option<&'static str> {
     match last_of_code(code)? {
         '1' => Some("the filter FIR 100"),
@@ -40,12 +41,12 @@ pub fn narrow_filter(code: &str) -> Option<&'static str> {
     }
 }
 
-/// The last character of a channel code, which is the filter.
+/// The last character of a channel code, which stands for the filter.
 fn last_of_code(code: &str) -> Option<char> {
     code.chars().nth(15).filter(|_| is_code(code))
 }
 
-/// A class, written as `CFC180`, `cfc 180` or `180`.
+/// Reads a class, written as `CFC180`, `cfc 180` or `180`.
 ///
 /// # Errors
 /// There is no such class.
@@ -58,7 +59,7 @@ pub fn class(text: &str) -> Result<Class, UnknownClass> {
     known.ok_or_else(|| UnknownClass(text.to_owned()))
 }
 
-/// A class that does not exist.
+/// The text is not a class.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("there is no filter class `{0}`: give CFC60, CFC180, CFC600 or CFC1000")]
 pub struct UnknownClass(pub String);
@@ -82,7 +83,8 @@ pub enum FilterError {
     Missing(f64),
 }
 
-/// The filtered signal. The samples must be at least ten times as frequent as the class says, as both standards require.
+/// The filtered signal. The sampling frequency must be at least ten times the number of the class in Hz, as both
+/// standards require.
 ///
 /// # Errors
 /// The samples are too far apart, there are too few, or some are missing.

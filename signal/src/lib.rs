@@ -10,7 +10,7 @@
 //! | [`mme`] | recordings as ISO-MME (ISO/TS 13499) |
 //! | [`unit`](mod@unit) | units of channels, as they are spelled |
 //!
-//! Nothing here knows a model or a run.
+//! This crate knows no model and no run.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod filter;

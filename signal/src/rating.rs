@@ -4,22 +4,23 @@
 //!
 //! | part | weight | what |
 //! |---|---|---|
-//! | corridor | 0.4 | of each sample 1 within 5 % of max \|R\| of the reference, 0 beyond 50 %, between them ((b − \|R − C\|)/(b − a))²; the mean |
-//! | phase | 0.2 | C is shifted to where it correlates best with R, by 20 % of N at most: 1 − shift/(0.2 N) |
-//! | magnitude | 0.2 | where the shifted signals overlap, C is warped in time onto R (dynamic time warping, within 10 %): 1 − E/0.5, E = Σ\|C − R\|/Σ\|R\| |
-//! | slope | 0.2 | there, too, of the slopes, each the mean of nine: 1 − E/2 |
+//! | corridor | 0.4 | mean over all samples of a score: 1 if \|R − C\| is within a = 5 % of max \|R\|, 0 beyond b = 50 %, between them ((b − \|R − C\|)/(b − a))² |
+//! | phase | 0.2 | C is shifted to the best correlation with R, by at most 20 % of N samples: 1 − shift/(0.2 N) |
+//! | magnitude | 0.2 | the overlap of the shifted signals, with C warped in time onto R (dynamic time warping, within 10 %): 1 − E/0.5, E = Σ\|C − R\|/Σ\|R\| |
+//! | slope | 0.2 | the overlap of the shifted signals, with slopes that are smoothed over nine samples in place of C and R in E: 1 − E/2 |
 //!
-//! The phase takes the smallest shift among those that correlate best, a shift to the left before one to the right. Periodic signals, ramps
-//! and exponentials correlate equally well at many shifts; correlations count as equal within `ROUNDING`. If several paths of the
-//! warping cost the same, a step along both signals is taken first, then one along the reference alone, then one along the comparison.
+//! Of the shifts with the best correlation, the phase uses the smallest, and a shift of C to the left before one to the
+//! right. Periodic signals, ramps and exponentials correlate equally well at many shifts; correlations count as equal
+//! within `ROUNDING`. If several paths of the warping cost the same, a step along both signals is taken first, then one
+//! along the reference alone, then one along the comparison.
 
 use thiserror::Error;
 
 /// Samples per second in ISO 18571.
 pub const RATE: f64 = 1e4;
 
-/// Correlations that differ by less count as equal. The sums of a correlation round by about 1e-16 for each sample, so by 1e-11 for
-/// 10 s; a signal that a file gives with six digits changes a correlation of 1 by about 1e-12.
+/// Correlations that differ by less count as equal. The sums of a correlation have rounding errors of about 1e-16 for
+/// each sample, so 1e-11 for 10 s. If a file has six digits, a correlation of 1 changes by about 1e-12.
 const ROUNDING: f64 = 1e-9;
 
 /// The agreement of two signals; each number is from 0 to 1.
@@ -79,7 +80,7 @@ impl std::fmt::Display for Grade {
 }
 
 impl Rating {
-    /// The rating of a signal beside itself.
+    /// The rating of two equal signals.
     const SAME: Rating = Rating {
         corridor: 1.0,
         phase: 1.0,
@@ -104,10 +105,11 @@ impl Rating {
     }
 }
 
-/// Rates a comparison by a reference, both at 10 kHz over the rated interval.
+/// Rates a comparison against a reference, both at 10 kHz over the rated interval.
 ///
 /// # Errors
-/// The signals have different lengths or are too short, a sample is missing, or the reference never changes and differs from the comparison.
+/// The signals have different lengths or are too short, a sample is missing, or the reference is constant and differs
+/// from the comparison.
 pub fn rate(reference: &[f64], comparison: &[f64]) -> Result<Rating, RatingError> {
     let count = reference.len();
     if comparison.len() != count {
@@ -143,7 +145,7 @@ pub fn rate(reference: &[f64], comparison: &[f64]) -> Result<Rating, RatingError
     })
 }
 
-/// Whether a signal never changes, but for the rounding of what has passed a filter.
+/// True if a signal is constant, apart from rounding errors of a filter.
 fn is_constant(signal: &[f64]) -> bool {
     let apart = signal.iter().map(|x| (x - signal[0]).abs());
     apart.fold(0.0, f64::max) <= 1e-12 * signal[0].abs()
@@ -169,10 +171,10 @@ fn corridor(reference: &[f64], comparison: &[f64]) -> f64 {
     scores / reference.len() as f64
 }
 
-/// Number of samples by which the comparison is late.
+/// Number of samples by which the comparison is late: the shift with the best correlation.
 fn best_shift(reference: &[f64], comparison: &[f64]) -> i64 {
     let count = reference.len();
-    // in the order in which a shift is preferred
+    // preferred shifts first
     let mut all = vec![(correlation(reference, comparison), 0)];
     for shift in 1..=count / 5 {
         let (short, long) = (count - shift, shift);
@@ -187,7 +189,7 @@ fn best_shift(reference: &[f64], comparison: &[f64]) -> i64 {
     first.map_or(0, |(_, shift)| *shift)
 }
 
-/// Pearson's coefficient; −1 for a signal that does not change, because it correlates with nothing.
+/// Pearson's coefficient; −1 if one of the signals is constant, so that such a shift is never the best.
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let count = a.len() as f64;
     let mean = |x: &[f64]| x.iter().sum::<f64>() / count;
@@ -205,7 +207,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
     }
 }
 
-/// The step by which a cell of the warping is reached.
+/// The last step of the cheapest path to a cell of the warping.
 #[derive(Clone, Copy, PartialEq)]
 enum Step {
     Both,
@@ -260,7 +262,7 @@ fn warped_error(reference: &[f64], comparison: &[f64]) -> f64 {
         }
         before = row;
     }
-    // the path from the end back to the start
+    // follow the path from the end back to the start
     let (mut i, mut j) = (count - 1, count - 1);
     let (mut apart, mut size) = (0.0, 0.0);
     loop {
@@ -282,7 +284,7 @@ fn slope_error(reference: &[f64], comparison: &[f64]) -> f64 {
     relative(apart, r.iter().map(|r| r.abs()).sum())
 }
 
-/// A difference as a share of a size; nothing is no difference from nothing.
+/// A difference as a share of a size; 0 if there is no difference, whatever the size.
 fn relative(apart: f64, size: f64) -> f64 {
     match apart == 0.0 {
         true => 0.0,

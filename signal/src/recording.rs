@@ -9,11 +9,11 @@ use thiserror::Error;
 pub struct Channel {
     /// Its name: the name of an output of a run, or the channel code of a test.
     pub name: String,
-    /// An additional name, if there is one: the name of the channel in words.
+    /// A second name, such as the channel in words; empty if there is none.
     pub title: String,
-    /// Its unit as it is written; empty if it is not given.
+    /// Its unit as it is written; empty if there is none.
     pub unit: String,
-    /// What its file says about its data if that casts doubt on them, such as `channel failed`.
+    /// The status in its file that casts doubt on its data, such as `channel failed`.
     pub doubt: Option<String>,
     /// Its samples.
     pub signal: Signal,
@@ -94,7 +94,8 @@ pub(crate) fn text_of(path: &Path) -> Result<String, ReadError> {
 }
 
 impl Recording {
-    /// The channels of a CSV file, or of an ISO-MME file `.mme` with its folder `Channel`, or of a folder with one `.mme` file.
+    /// Reads a recording: a CSV file, or an ISO-MME file `.mme` with its folder `Channel`, or a folder with one `.mme`
+    /// file.
     ///
     /// # Errors
     /// A file cannot be read, or its content is wrong.
@@ -108,7 +109,7 @@ impl Recording {
         }
     }
 
-    /// The channel with this name, or else the one with this title.
+    /// The channel with this name; if there is none, the channel with this title.
     ///
     /// # Errors
     /// There is no such channel, or there are several.
@@ -129,13 +130,13 @@ impl Recording {
     }
 }
 
-/// Why a name does not stand for a channel.
+/// Why no channel could be found by a name.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum NoChannel {
-    /// No channel has this name.
+    /// No channel has this name or title.
     #[error("no channel has this name")]
     Unknown,
-    /// So many channels have it.
+    /// This many channels have the name or title.
     #[error("{0} channels have this name")]
     Several(usize),
 }

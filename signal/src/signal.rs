@@ -1,6 +1,7 @@
 //! Numbers at equal intervals of time.
 
-/// Intervals count as equal if they deviate by at most this share of their mean: times are printed with few digits.
+/// Largest relative deviation of an interval from the mean for which the intervals count as equal: times are printed
+/// with few digits.
 const UNEVEN: f64 = 1e-3;
 
 /// Numbers at equal intervals of time. NaN stands for a missing sample.
@@ -15,7 +16,8 @@ pub struct Signal {
 }
 
 impl Signal {
-    /// Samples at these times if the times are at equal intervals; `None` if they are not, or if there are fewer than two.
+    /// The signal with these samples at these times; `None` if the times are not at equal intervals, or if there are
+    /// fewer than two.
     pub fn of_samples(times: &[f64], values: &[f64]) -> Option<Signal> {
         let (first, last) = (*times.first()?, *times.last()?);
         let count = times.len();
@@ -43,7 +45,7 @@ impl Signal {
         self.time(self.values.len().saturating_sub(1))
     }
 
-    /// The value at a time between the first sample and the last, interpolated linearly; NaN elsewhere.
+    /// The value at a time, interpolated linearly; NaN before the first and after the last sample.
     pub fn at(&self, time: f64) -> f64 {
         let place = (time - self.first) / self.interval;
         let last = self.values.len() as f64 - 1.0;
@@ -61,7 +63,7 @@ impl Signal {
         }
     }
 
-    /// The same signal from one time to another, at other intervals. Times outside have the value NaN.
+    /// The signal sampled anew from one time to another, at other intervals; NaN at times that it does not cover.
     pub fn resampled(&self, from: f64, to: f64, interval: f64) -> Signal {
         let count = ((to - from) / interval + UNEVEN).floor() as usize + 1;
         let values = (0..count).map(|i| self.at(from + i as f64 * interval));

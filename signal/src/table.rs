@@ -1,14 +1,16 @@
-//! Recordings as CSV: a column of times in seconds, then a column for each channel, with names such as `head acceleration [m/s^2]`.
+//! Recordings as CSV: a column of times in seconds, then a column for each channel. Headings are names such as `head
+//! acceleration [m/s^2]`.
 
 use crate::recording::text_of;
 use crate::{Channel, ReadError, Recording, Signal, unit};
 use bryant_table::{Fault, Table};
 use std::path::Path;
 
-/// Reads a table: fields between `,`, `;` or tabs, as curves of models have them. An empty cell is a sample that is missing.
+/// Reads a table, with fields between `,`, `;` or tabs, as in the tables of curves. An empty cell is a missing sample.
 ///
 /// # Errors
-/// The file cannot be read, a cell is not a number, a line has too many or too few fields, or times are not at equal intervals.
+/// The file cannot be read, a cell is not a number, a line has too many or too few fields, or times are not at equal
+/// intervals.
 pub fn read(path: &Path) -> Result<Recording, ReadError> {
     let text = text_of(path)?;
     let wrong = |fault: Fault| {
@@ -37,7 +39,7 @@ pub fn read(path: &Path) -> Result<Recording, ReadError> {
     let times: Vec<f64> = columns[0].iter().map(|t| t * scale).collect();
     let mut channels = Vec::new();
     for (heading, column) in headings.iter().zip(&columns).skip(1) {
-        // a separator at the end of every line
+        // an empty column is due to a separator at the end of every line
         if heading.field.text.is_empty() && column.iter().all(|x| x.is_nan()) {
             continue;
         }

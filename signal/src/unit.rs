@@ -1,9 +1,9 @@
-//! Units of channels, as they are written in tables and in files of test data.
+//! Units of channels in the spellings of tables and of files of test data.
 
-/// A quantity, named by its SI unit as it is written here.
+/// A quantity, named by the first spelling of its SI unit.
 type Quantity = &'static str;
 
-/// Ways to write a unit, its quantity, and the SI value of one unit.
+/// Spellings of a unit, its quantity, and the SI value of the unit.
 const KNOWN: &[(&str, Quantity, f64)] = &[
     ("m/s^2", "m/s^2", 1.0),
     ("m/(s*s)", "m/s^2", 1.0),
@@ -43,14 +43,14 @@ const KNOWN: &[(&str, Quantity, f64)] = &[
     ("-", "1", 1.0),
 ];
 
-/// The SI unit of the quantity that a unit measures; `None` for an unknown unit.
+/// The SI unit of the quantity of a unit; `None` for an unknown unit.
 pub fn quantity(unit: &str) -> Option<&'static str> {
     let known = KNOWN.iter().find(|known| known.0 == unit);
     known.map(|known| known.1)
 }
 
-/// The factor that converts numbers from one unit to another; `None` if the quantities differ, or if one unit is unknown and they are
-/// written differently. A missing unit fits no given unit.
+/// The factor that converts numbers from one unit to another; `None` if the quantities differ, or if a unit is unknown
+/// and the two spellings differ. A missing unit fits only a missing unit.
 pub fn factor(from: &str, to: &str) -> Option<f64> {
     if from == to {
         return Some(1.0);

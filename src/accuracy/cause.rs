@@ -1,10 +1,11 @@
-//! Why two runs do not agree, by what is measured: rounding, or the growth of errors.
+//! Finds out why two runs do not agree: because of rounding, or because errors grow.
 //!
-//! **Rounding.** A state that changes by a few of its rounding errors changes an output by [`conditioning`](super::conditioning::reach); if the runs are no
-//! further apart than that, rounding explains it. A large coordinate does this: 100 km from the origin, a double tells 0.01 nm apart.
+//! **Rounding.** A change of a state by a few of its rounding errors changes an output by
+//! [`conditioning`](super::conditioning::reach). If the runs differ by less, rounding explains the difference. Large
+//! coordinates cause this: at 100 km from the origin, doubles are 0.01 nm apart.
 //!
-//! **Growth.** The run is repeated from a start that differs by a share `MOVED` of each entry. What the outputs differ by, over that share, is the factor
-//! by which an error grows.
+//! **Growth.** The run is repeated from a start in which each entry is changed by the share `MOVED`. The difference of
+//! the outputs over that share is the factor by which an error grows.
 
 use super::target::{Difference, largest};
 use crate::simulation::{self, Recording, Runs};
@@ -16,31 +17,32 @@ use std::time::Duration;
 /// Why two runs do not agree.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cause {
-    /// Rounding of this position \[m\], whose size is the largest.
+    /// Rounding of a position \[m\]: the one with the largest size.
     Rounding {
-        /// Its name.
+        /// The name of the position.
         coordinate: String,
-        /// Its largest size.
+        /// Its largest magnitude.
         size: f64,
     },
-    /// Errors grow by this factor: the motion is chaotic, or about to tip over.
+    /// Errors grow by this factor, because the motion is chaotic or near an unstable position.
     Growth(f64),
     /// Errors do not grow, but the run changed its method because the scene is stiff.
     Stiff,
-    /// None of these.
+    /// None of the other causes.
     Unknown,
 }
 
-/// The share by which each entry of the start is changed, and the least size that an entry counts as.
+/// The share by which each entry of the start is changed; smaller entries are changed as if they had the size `LEAST`.
 const MOVED: f64 = 1e-9;
 const LEAST: f64 = 1e-3;
-/// From this factor on, errors grow: a motion that goes on evenly amplifies a change of its start by the number of times that it repeats itself.
+/// Least factor that counts as growth. A regular motion amplifies a change of its start, too: by about the number of
+/// its periods.
 const GROWS: f64 = 1e4;
-/// Positions further from the origin are large \[m\].
+/// Distance from the origin above which a position counts as large \[m\].
 const FAR: f64 = 1e3;
 
-/// Finds the cause of a difference of the outputs of a run from those of another one. `rounding` has the reach of rounding errors for each output. The run
-/// is repeated, for at most `patience`.
+/// Finds the cause of a difference between the outputs of a run and those of another run. `rounding` has the reach of
+/// rounding errors for each output. The run is repeated, which takes at most `patience`.
 pub fn find(
     model: &dyn Runs,
     job: &Job,
@@ -58,7 +60,7 @@ pub fn find(
     }
 }
 
-/// Rounding of a large position, if it explains the difference.
+/// The cause "rounding of a large position"; `None` if it does not explain the difference.
 fn by_rounding(
     model: &dyn Runs,
     run: &Recording,
@@ -84,7 +86,7 @@ fn by_rounding(
     })
 }
 
-/// The factor by which a change of the start grows in the outputs; `None` if that is not known in time.
+/// The factor by which a change of the start grows in the outputs; `None` if the repeated run does not end in time.
 fn growth(model: &dyn Runs, job: &Job, run: &Recording, patience: Duration) -> Option<f64> {
     let mut start = job.start.clone();
     let first = Job {

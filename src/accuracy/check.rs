@@ -1,19 +1,20 @@
-//! A run is checked by a second run: by another formula and at a tenth of the tolerance.
+//! Checks a run by a second run, which uses another formula and a tenth of the tolerance.
 //!
-//! A run at the default tolerance promises an error of at most [`PROMISED`] in every output, relative to the output's largest magnitude. If
-//! the second run differs by more, in an output or in a response (relative to the response itself), the run is repeated, each time at a
-//! tenth of the tolerance and by the other formula, until two successive runs agree. The sharper of the two is the result.
+//! A run at the default tolerance promises an error of at most [`PROMISED`] in every output, relative to the output's
+//! largest magnitude. If the second run differs by more, in an output or in a response (relative to the response
+//! itself), the run is repeated, each time at a tenth of the tolerance and by the other formula, until two successive
+//! runs agree. The sharper of the two is the result.
 //!
-//! A quantity that is exactly 0 shrinks with the tolerance and never agrees between two runs; the velocity of a ball at rest is an example.
-//! An output is taken as such a quantity when it has fallen below a hundredth of its size in the first run. Its size in the sharpest run is
-//! then its bound, and its relative error does not count. The same holds for an output that consists of [rounding
-//! errors](super::conditioning).
+//! A quantity that is exactly 0, such as the velocity of a ball at rest, decreases with the tolerance, and two runs
+//! never agree on it. An output counts as such a quantity if its size has fallen below a hundredth of that in the first
+//! run. Its size in the sharpest run is then an upper bound, and its relative error does not count. The same holds for
+//! an output that consists of [rounding errors](super::conditioning).
 //!
-//! The second run changes to the Rosenbrock method where the scene is stiff, as the first one does: there both are of the same family, at a tenth of the
-//! tolerance.
+//! Where the scene is stiff, the second run changes to the Rosenbrock method, as the first one does. There both use the
+//! same formula, but the second has a tenth of the tolerance.
 //!
-//! If the user chose the method, the run makes no such promise. It is not repeated, and only a difference beyond [`FAR`] says that it
-//! cannot be trusted.
+//! If the user chose the method, the run promises nothing. It is not repeated, and cannot be trusted only if the
+//! difference exceeds [`FAR`].
 
 use super::cause::{self, Cause};
 use super::conditioning;
@@ -27,52 +28,54 @@ use bryant_runtime::program::{ErrorKind, Job, Scalar};
 use bryant_runtime::response::Answer;
 use std::time::{Duration, Instant};
 
-/// The error of every output that a run promises unless the user asks for another accuracy, relative to the output's largest magnitude.
+/// The error of each output, relative to its largest magnitude, that a run promises unless the user requests another
+/// accuracy.
 pub const PROMISED: f64 = 1e-3;
-/// A run by any method is wrong if it differs from its check by more than this.
+/// A run by any method is wrong if it differs from its check by more than this share.
 pub const FAR: f64 = 0.1;
-/// The check and all sharper runs together may always take this time \[s\], and this many times the time of the first run. A check usually takes 1.6 times
-/// the steps; one that takes far more has something to report, so it is waited for.
+/// Time limit of the check and all sharper runs together: the larger of this time \[s\], and this multiple of the time
+/// of the first run. A check usually takes 1.6 times the steps. A check that takes far more shows a problem, so the
+/// limit is generous.
 const LONGEST: [f64; 2] = [10.0, 5.0];
-/// Below this tolerance kinks are located, which pays there.
+/// Tolerance below which kinks are located, because this then saves time.
 const LOCATED: f64 = 1e-8;
-/// Below this tolerance a method of order 8 is cheaper.
+/// Tolerance below which a method of order 8 is cheaper.
 const HIGH: f64 = 1e-10;
 
-/// A run and what its check says.
+/// A run and the result of its check.
 #[derive(Clone, Debug)]
 pub struct Checked {
-    /// The run, or the sharpest one that took its place.
+    /// The run, or the sharpest run, which replaces it.
     pub recording: Recording,
-    /// How it was computed.
+    /// The setting of this run.
     pub setting: Setting,
-    /// How far the first run was from its check, if sharper runs followed.
+    /// The difference of the first run from its check, if sharper runs followed.
     pub first: Option<Difference>,
     /// Number of all runs.
     pub runs: usize,
     /// The setting of the second run, and its verdict; `None` if the run failed.
     pub check: Option<(Setting, Verdict)>,
-    /// The run cannot be trusted if it differs from its check by more than this.
+    /// The run cannot be trusted if it differs from its check by more than this share.
     pub limit: f64,
-    /// Whether there was not enough time for sharper runs.
+    /// True if there was not enough time for sharper runs.
     pub out_of_time: bool,
-    /// Why the run is not as accurate as promised, although sharper runs followed.
+    /// The reason why the run is less accurate than promised, although sharper runs followed.
     pub cause: Option<Cause>,
 }
 
-/// What a second run says.
+/// The result of a second run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// How far the two runs are apart.
+    /// The difference of the two runs.
     Apart(Difference),
-    /// The second run failed, for this reason.
+    /// The second run failed; the reason.
     Failed(String),
-    /// The second run would have taken longer than this \[s\].
+    /// The second run was stopped at this time limit \[s\].
     TooLong(f64),
 }
 
-/// Runs a job and checks it. `chosen` says that the user chose the method. `progress` is called with the number of runs before, and the time of
-/// every sample.
+/// Runs a job and checks it. `chosen` is true if the user chose the method. `progress` is called with the number of
+/// earlier runs, and the time of each sample.
 pub fn run(
     model: &dyn Runs,
     job: &Job,
@@ -125,7 +128,7 @@ pub fn run(
             }
         }
         let Verdict::Apart(difference) = &verdict else {
-            // a sharper run that failed says nothing new; the comparison before it stands
+            // a sharper run that failed says nothing new: the comparison before it remains valid
             match checked.first {
                 None => checked.check = Some((opinion, verdict)),
                 Some(_) => checked.out_of_time = matches!(verdict, Verdict::TooLong(_)),
@@ -158,7 +161,7 @@ pub fn run(
     }
 }
 
-/// A run of another setting, which may take `patience` \[s\].
+/// Runs the job with another setting, for at most `patience` \[s\].
 pub fn second(
     model: &dyn Runs,
     job: &Job,
@@ -168,23 +171,24 @@ pub fn second(
 ) -> Recording {
     let mut job = Job {
         time_limit: run::limit(patience),
-        // the limit on the steps of the run does not apply to its check
+        // the limit of steps holds for the run, but not for its check
         max_steps: None,
         ..opinion.job(job)
     };
-    // signals that are looked at in the run alone
+    // leaves out signals that are kept only for the run itself
     job.reading.kept.retain(|kept| kept.in_place_of.is_some());
     simulation::run(model, &job, progress)
 }
 
 impl Verdict {
-    /// Whether the two runs are as close as promised, or nothing is known about that.
+    /// True unless the two runs are known to differ by more than promised.
     fn is_close(&self) -> bool {
         !matches!(self, Verdict::Apart(d) if d.worst > PROMISED || d.worst_response > PROMISED)
     }
 
-    /// The verdict of a second run, which was allowed to take `patience` \[s\]. Outputs that are nowhere larger than their floors do not
-    /// count. Nor do responses of signals that shrink; `asked` and `first` are the responses and their answers in the first run.
+    /// The verdict of a second run, which had the time limit `patience` \[s\]. Not counted are outputs that never
+    /// exceed their floors, and responses of signals that decrease with the tolerance. `asked` and `first` are the
+    /// responses and their answers in the first run.
     pub fn of(
         run: &Recording,
         second: &Recording,
@@ -207,11 +211,11 @@ impl Verdict {
     }
 }
 
-/// Another formula at a tenth of the tolerance.
+/// The setting with the other formula, and a tenth of the tolerance.
 fn sharper(setting: &Setting) -> Setting {
     let tolerance = match setting.pace {
         Pace::Tolerance(tolerance) => rounded(0.1 * tolerance).max(FINEST),
-        // nobody knows the accuracy of a fixed step
+        // the accuracy of a fixed step is not known
         Pace::Step(_) => 1e-8,
     };
     let high = tolerance < HIGH;
@@ -221,7 +225,7 @@ fn sharper(setting: &Setting) -> Setting {
             Formula::Tsit5 => Formula::Dopri5,
             _ => Formula::Tsit5,
         },
-        // what takes the explicit method too long is done by the other one, where it can
+        // changes to the Rosenbrock method if the explicit method would take too long, if possible
         switches: true,
         pace: Pace::Tolerance(tolerance),
         scalar: Scalar::F64,

@@ -1,11 +1,11 @@
-//! Motions that are known in closed form, recognised from the model itself.
+//! Recognises models whose motion is known in closed form.
 //!
 //! | scene | motion |
 //! |---|---|
 //! | one element on a hinge at rest in the plane, uniform constant fields | θ̈ = −κ sin θ: Jacobi's elliptic functions \[Whittaker, Analytical Dynamics, § 44\] |
 //! | one free element in the plane, uniform constant fields | the centre of gravity on a parabola, constant angular velocity |
 //!
-//! Nothing else may act: no other force, no switch, no vehicle.
+//! Nothing else may act: there is no other force, no switch and no vehicle.
 
 use super::elliptic::{amplitude, first_kind};
 use super::trajectory::Trajectory;
@@ -15,10 +15,10 @@ use bryant_generator::model::{
 };
 use std::f64::consts::PI;
 
-/// A motion in closed form: the state at any time, coordinates first.
+/// A motion in closed form, which gives the state at any time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ClosedForm {
-    /// A plane pendulum, or an element that turns about its centre of gravity.
+    /// A plane pendulum, or an element that rotates about its centre of gravity.
     Pendulum(Pendulum),
     /// A free element in the plane.
     Flight(Flight),
@@ -27,7 +27,7 @@ pub enum ClosedForm {
 /// θ̈ = −κ sin θ, θ = φ − φ₀.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pendulum {
-    /// φ at stable equilibrium, less whole turns so that the motion begins with |θ| ≤ π \[rad\].
+    /// φ₀, the angle of stable equilibrium \[rad\]; it includes whole turns, so that |θ| ≤ π at the start.
     equilibrium: f64,
     /// Angular velocity at t = 0 \[rad/s\].
     rate: f64,
@@ -47,28 +47,29 @@ enum Motion {
     Rotation { inverse: f64, phase: f64, sign: f64 },
 }
 
-/// A parabola and a uniform rotation.
+/// A motion on a parabola with uniform rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flight {
     /// Centre of gravity at t = 0: x, z \[m\].
     position: [f64; 2],
-    /// Its velocity \[m/s\].
+    /// Velocity of the centre of gravity at t = 0 \[m/s\].
     velocity: [f64; 2],
-    /// Its acceleration \[m/s²\].
+    /// Acceleration of the centre of gravity \[m/s²\].
     acceleration: [f64; 2],
-    /// From the reference joint to the centre of gravity, local frame \[m\].
+    /// Vector from the reference joint to the centre of gravity, local frame \[m\].
     arm: [f64; 2],
     /// φ at t = 0 \[rad\].
     angle: f64,
-    /// \[rad/s\]
+    /// Angular velocity φ̇ \[rad/s\].
     rate: f64,
 }
 
-/// Closer to the separatrix (k² = 1) than this, the start does not determine the last digits of the motion any more.
+/// Least distance of k² from that of the separatrix, k² = 1: nearer to it, the start does not determine the last digits
+/// of the motion.
 const SEPARATRIX: f64 = 1e-6;
 
 impl ClosedForm {
-    /// The closed form of a model at these parameters (SI, in the model's order), if it is known.
+    /// The closed form of a model at these parameters (SI, in the model's order); `None` if it is not known.
     pub fn of(model: &Model, parameters: &[f64]) -> Option<ClosedForm> {
         let [system] = model.systems.as_slice() else {
             return None;
@@ -94,7 +95,7 @@ impl ClosedForm {
         }
     }
 
-    /// Its name, for people.
+    /// The name for people.
     pub fn name(&self) -> &'static str {
         match self {
             ClosedForm::Pendulum(pendulum) => match pendulum.motion {
@@ -123,7 +124,8 @@ impl ClosedForm {
         }
     }
 
-    /// Bound of its rounding errors, relative to how far the state goes: some roundings of the functions, and one of the phase.
+    /// Bound of the rounding errors of a state, relative to its largest magnitudes: some roundings of functions, and
+    /// one of the phase.
     pub fn rounding(&self, duration: f64) -> f64 {
         let phase = match self {
             ClosedForm::Pendulum(p) => p.frequency.max(p.rate.abs()) * duration,
@@ -133,7 +135,7 @@ impl ClosedForm {
     }
 }
 
-/// The sum of the fields, x and z \[m/s²\]; `None` if anything else acts on the element.
+/// The sum of all fields, x and z \[m/s²\]; `None` if another force acts on the element.
 fn field(model: &Model, parameters: &[f64]) -> Option<[f64; 2]> {
     const ONLY: ElementId = ElementId {
         system: 0,
@@ -161,7 +163,7 @@ fn field(model: &Model, parameters: &[f64]) -> Option<[f64; 2]> {
     Some(sum)
 }
 
-/// The one element and what acts on it.
+/// The only element, and the field that acts on it.
 struct Scene<'a> {
     element: &'a Element,
     parameters: &'a [f64],
@@ -173,13 +175,14 @@ impl Scene<'_> {
         number.value(self.parameters)
     }
 
-    /// x and z of a vector.
+    /// The components x and z of a vector.
     fn plane(&self, vector: &[Number; 3]) -> [f64; 2] {
         [self.value(&vector[0]), self.value(&vector[2])]
     }
 
-    /// A local vector (c_x, c_z) turned by φ about y is l (sin(φ + α), cos(φ + α)), c = l (sin α, cos α): with the field
-    /// g (sin β, cos β), m c·g = m l g cos θ, θ = φ + α − β, and (I + m l²) θ̈ = −m l g sin θ.
+    /// The motion of the element as a pendulum; `None` near the separatrix and in equilibrium. With the centre of
+    /// gravity c = l (sin α, cos α), the local vector (c_x, c_z) rotated by φ about y is l (sin(φ + α), cos(φ + α)). In
+    /// the field g (sin β, cos β), m c·g = m l g cos θ with θ = φ + α − β, so (I + m l²) θ̈ = −m l g sin θ.
     fn pendulum(&self) -> Option<Pendulum> {
         let cg = self.plane(&self.element.cg);
         let (mass, inertia) = (
@@ -201,7 +204,7 @@ impl Scene<'_> {
         }
         let frequency = square.sqrt();
         let turned = start + libm::atan2(cg[0], cg[1]) - libm::atan2(self.field[0], self.field[1]);
-        // θ at the start, in −π..π
+        // θ at the start, from −π to π
         let theta = turned - 2.0 * PI * (turned / (2.0 * PI)).round();
         let half = libm::sin(0.5 * theta);
         let swing = 0.5 * rate / frequency;
@@ -239,7 +242,7 @@ impl Scene<'_> {
         let [x, z] = turned(arm, angle);
         Flight {
             position: [position[0] + x, position[1] + z],
-            // ω about y: (ω z, −ω x)
+            // v + ω × c, with ω × c = ω (z, −x) for a rotation about y
             velocity: [velocity[0] + rate * z, velocity[1] - rate * x],
             acceleration: self.field,
             arm,
@@ -249,7 +252,7 @@ impl Scene<'_> {
     }
 }
 
-/// F(φ, k) for |φ| ≤ π: beyond a quarter, F(φ) = 2K − F(π − φ).
+/// F(φ, k) for |φ| ≤ π; for |φ| > π/2 from F(φ) = 2K − F(π − φ).
 fn quarter_wise(phi: f64, modulus: f64) -> f64 {
     if phi.abs() <= 0.5 * PI {
         return first_kind(phi, modulus);
@@ -258,7 +261,7 @@ fn quarter_wise(phi: f64, modulus: f64) -> f64 {
     phi.signum() * (half_period - first_kind(PI - phi.abs(), modulus))
 }
 
-/// A local vector (x, z) in absolute axes, the element turned by φ about y.
+/// A local vector (x, z) in absolute axes, for an element that is rotated by φ about y.
 fn turned([x, z]: [f64; 2], phi: f64) -> [f64; 2] {
     let (sin, cos) = libm::sincos(phi);
     [x * cos + z * sin, z * cos - x * sin]
@@ -291,7 +294,7 @@ impl Pendulum {
 }
 
 impl Flight {
-    /// x, z \[m\], φ \[rad\], ẋ, ż \[m/s\], φ̇ \[rad/s\] of the reference joint and the element.
+    /// The state: x, z \[m\], φ \[rad\], ẋ, ż \[m/s\], φ̇ \[rad/s\] of the reference joint and the element.
     fn state(&self, t: f64) -> [f64; 6] {
         let phi = self.angle + self.rate * t;
         let [x, z] = turned(self.arm, phi);

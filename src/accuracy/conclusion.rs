@@ -1,4 +1,4 @@
-//! The conclusion of a study: the Pareto front, and one sentence that says what an accuracy costs.
+//! The conclusion of a study: the Pareto front, and a sentence about the cost of an accuracy.
 
 use super::front::{self, Cost, Digits};
 use super::point::{Point, Status};
@@ -6,14 +6,14 @@ use super::report::text::schemes;
 use super::setting::{Curves, Pace, time, two_digits};
 use super::study::Study;
 
-/// The conclusion of a study for one error.
+/// The conclusion of a study about one kind of error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conclusion {
-    /// Indices of the points on the front; the error falls.
+    /// Indices of the points on the front, in the order of decreasing error.
     pub front: Vec<usize>,
-    /// The cheapest point for [`Conclusion::wanted`] that all finer points of its series confirm.
+    /// The cheapest point whose error is at most [`Conclusion::wanted`]; all finer points of its series confirm this.
     pub cheapest: Option<usize>,
-    /// The error that the sentence names.
+    /// The error that the sentence is about.
     pub wanted: f64,
     /// The cost of each further digit along the front.
     pub digits: Option<Digits>,
@@ -24,7 +24,7 @@ impl Conclusion {
     pub fn of(study: &Study, wanted: f64) -> Conclusion {
         let costs: Vec<Cost> = study.points.iter().map(|p| cost(study, p)).collect();
         let front = front::pareto(&costs);
-        // Errors below that of the reference are not known.
+        // errors below that of the reference are not known
         let known = |&&i: &&usize| !at_most(study, &study.points[i]);
         let fitted: Vec<Cost> = front.iter().filter(known).map(|&i| costs[i]).collect();
         Conclusion {
@@ -35,8 +35,8 @@ impl Conclusion {
         }
     }
 
-    /// "for 1 % in peak belt force the cheapest is tsit5 at tolerance 3e-4, at 0.21 ms per run; each further digit costs a
-    /// factor 1.6"
+    /// The sentence: "for 1 % in peak belt force the cheapest is tsit5 at tolerance 3e-4, at 0.21 ms per run; each
+    /// further digit costs a factor 1.6"
     pub fn sentence(&self, study: &Study) -> String {
         let name = study.of.name(&study.reference.readings);
         let wanted = percent(self.wanted);
@@ -61,7 +61,8 @@ impl Conclusion {
     }
 }
 
-/// The number of settings that a conclusion rests on, and what became of the others.
+/// The number of settings on which the conclusion rests, and the numbers of those that failed or were skipped, in
+/// words.
 fn rests_on(study: &Study) -> String {
     let (mut done, mut failed, mut skipped) = (0, 0, 0);
     for point in &study.points {
@@ -86,7 +87,7 @@ fn rests_on(study: &Study) -> String {
     text
 }
 
-/// The methods with the largest share of skipped settings, at most three: "rodas5 (31 of 33)".
+/// The methods with the largest shares of skipped settings, at most three: "rodas5 (31 of 33)".
 fn most_skipped(study: &Study) -> Vec<String> {
     let counts = schemes(study).into_iter().map(|scheme| {
         let all = study.points.iter().filter(|p| p.setting.scheme() == scheme);
@@ -105,8 +106,8 @@ fn most_skipped(study: &Study) -> Vec<String> {
         .collect()
 }
 
-/// Series whose steps are bounded by stability and not by accuracy: their name, the typical step \[s\], and the rate of the fastest motion
-/// of the scene \[1/s\], which is the limit of stability of the method over that step.
+/// Series whose steps are limited by stability instead of accuracy: the name of each, its typical step \[s\], and the
+/// rate of the fastest motion of the scene \[1/s\], which is the stability limit of the method divided by this step.
 pub fn bounded_by_stability(study: &Study) -> Vec<(String, f64, f64)> {
     let mut found = Vec::new();
     let series = study
@@ -125,7 +126,7 @@ pub fn bounded_by_stability(study: &Study) -> Vec<(String, f64, f64)> {
             let order = f64::from(pair[0].0.setting.formula.order());
             let expected = libm::pow(finer, 1.0 / order);
             let grown = pair[1].1 as f64 / pair[0].1 as f64;
-            // most of the growth that the accuracy would require is missing
+            // the number of steps grows much less than the accuracy would require
             pair[0].1 > MANY_STEPS && grown < 1.0 + 0.25 * (expected - 1.0)
         });
         if let Some(pair) = bounded {
@@ -136,17 +137,17 @@ pub fn bounded_by_stability(study: &Study) -> Vec<(String, f64, f64)> {
     found
 }
 
-/// With fewer steps nothing can be said about stability.
+/// Least number of steps for a judgement about stability.
 const MANY_STEPS: u64 = 200;
 
-/// The cost of a point that has no result.
+/// The cost of a point without a result.
 const NONE: Cost = Cost {
     error: f64::INFINITY,
     time: f64::INFINITY,
 };
 
-/// Error and time of a point; infinite if it has none. A run with exchanged curves has none, because it does not compute this scene, and
-/// neither has one with an error of 100 % or more.
+/// Error and time of a point; infinite without a result, with an error of 100 % or more, and with exchanged curves,
+/// because these belong to another scene.
 pub fn cost(study: &Study, point: &Point) -> Cost {
     let Some(done) = point.done() else {
         return NONE;
@@ -161,9 +162,9 @@ pub fn cost(study: &Study, point: &Point) -> Cost {
     }
 }
 
-/// The costs of points that reach an error, and not by luck: if a finer point of the same series does not reach it, this one does not
-/// count, for a user who does not know the solution cannot tell. A run that failed reports this itself, and says nothing about other
-/// points.
+/// The costs of points whose error is at most `wanted`, and not by luck. A point does not count if a finer point of its
+/// series has a larger error, because a user who does not know the solution could not tell. A finer run that failed
+/// does not matter: it reports this itself.
 fn confirmed(study: &Study, costs: &[Cost], wanted: f64) -> Vec<Cost> {
     let points = &study.points;
     let refuted = |i: usize| {
@@ -183,7 +184,7 @@ fn at_most(study: &Study, point: &Point) -> bool {
         .is_some_and(|done| done.error(study.of, own).at_most)
 }
 
-/// "1 %", "0.01 %", "1e-6"
+/// An error in words: "1 %", "0.01 %", "1e-6"
 pub fn percent(error: f64) -> String {
     let rounded = |number: f64| format!("{number:.1e}").parse().unwrap_or(f64::NAN);
     match error {

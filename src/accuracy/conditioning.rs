@@ -1,10 +1,12 @@
-//! How precisely an output can be known: how much it changes when the state changes by about its rounding errors.
+//! Finds out how precisely an output can be known: how much it changes when the state changes by about its rounding
+//! errors.
 //!
-//! An output that is exactly 0, such as the acceleration of the centre of a free rod, or the moment of a free hinge about its axis, consists
-//! of rounding errors: two runs never agree on it, however sharp they are. Its condition tells it from a wrong output: if the state changes
-//! by a few rounding errors, such an output changes by a large part of its own size, because the terms that cancel in it are rounded
-//! otherwise. Rounding errors are as large as these terms, so they are looked at where the output itself is largest: the moment of a hinge in
-//! an impact is rounded by more than that at rest.
+//! An output that is exactly 0 consists of rounding errors, for example the acceleration of the centre of a free rod,
+//! or the moment of a free hinge about its axis. Two runs never agree on such an output, however sharp they are. Its
+//! condition distinguishes it from a wrong output: a change of the state by a few rounding errors changes it by a large
+//! part of its own size, because the terms that cancel in it are rounded differently. Rounding errors are as large as
+//! these terms, so they are evaluated where the output itself is largest: the moment of a hinge has larger rounding
+//! errors in an impact than at rest.
 
 use super::target::largest;
 use crate::interrupt;
@@ -14,21 +16,22 @@ use bryant_runtime::program::{Job, Reading, Start};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-/// Each entry of the state is changed by this share of itself.
+/// The share by which each entry of the state is changed.
 const CHANGE: f64 = 1e-14;
-/// An entry counts as at least this share of the largest entry of its kind: an entry that is 0 changes by a rounding error of the largest.
+/// Least size of an entry for its change, as a share of the largest entry of its kind: an entry that is 0 changes by a
+/// rounding error of the largest.
 const LEAST: f64 = 1e-2;
-/// An output is known only if it is this many times larger than the changes that these disturbances make.
+/// An output is known only if it is at least this many times larger than its changes.
 const MARGIN: f64 = 100.0;
-/// Number of patterns of changes: the rounding errors of a few states may be 0 by chance.
+/// Number of patterns of changes; with few patterns, changes of an output could be 0 by chance.
 const PATTERNS: usize = 8;
 
-/// States of a run that are looked at, besides the last.
+/// Number of states of a run at which outputs are evaluated, besides the last.
 const PLACES: usize = 16;
 
-/// For each output the size, in its unit, below which it may consist of rounding errors, evaluated at the last state of a run and at the states
-/// where outputs that do not agree between two runs are largest. `job` is what made the run, `errors` say by how much each output disagrees. All
-/// are 0 if the run has no state.
+/// For each output the size, in its unit, below which it may consist of rounding errors; 0 if the run has no state. It
+/// is evaluated at the last state of a run, and at states at which outputs are largest that differ between two runs.
+/// `job` is the job of the run, `errors` are the differences of the outputs.
 pub fn reach(model: &dyn Runs, job: &Job, run: &Recording, errors: &[f64]) -> Vec<f64> {
     let mut reach = vec![0.0; run.table.columns.len().saturating_sub(1)];
     if run.last_state.is_empty() {
@@ -45,7 +48,7 @@ pub fn reach(model: &dyn Runs, job: &Job, run: &Recording, errors: &[f64]) -> Ve
     reach
 }
 
-/// The samples at which the outputs of a run that disagree most are largest, by index.
+/// The indices of the samples at which outputs are largest, for the outputs that differ most.
 fn largest_at(run: &Recording, errors: &[f64]) -> BTreeSet<usize> {
     let mut disagree: Vec<usize> = (0..errors.len()).filter(|i| errors[*i] > 0.0).collect();
     disagree.sort_by(|a, b| errors[*b].total_cmp(&errors[*a]));
@@ -60,7 +63,7 @@ fn largest_at(run: &Recording, errors: &[f64]) -> BTreeSet<usize> {
         .collect()
 }
 
-/// Times and states of a run at these of its samples; as many as there are before it is interrupted.
+/// Times and states of a run at these samples; fewer if the run is interrupted.
 fn states_at(model: &dyn Runs, job: &Job, samples: &BTreeSet<usize>) -> Vec<(f64, Vec<f64>)> {
     let Some(last) = samples.last() else {
         return Vec::new();
@@ -87,7 +90,7 @@ fn states_at(model: &dyn Runs, job: &Job, samples: &BTreeSet<usize>) -> Vec<(f64
     states
 }
 
-/// By how much each output changes at most when a state of the run changes by its rounding errors.
+/// The largest change of each output when a state of the run changes by its rounding errors.
 fn changes(model: &dyn Runs, job: &Job, run: &Recording, t: f64, state: &[f64]) -> Vec<f64> {
     let at = |state: &[f64]| outputs(model, job, t, state);
     let Some(here) = at(state) else {
@@ -95,7 +98,7 @@ fn changes(model: &dyn Runs, job: &Job, run: &Recording, t: f64, state: &[f64]) 
     };
     let [coordinates, velocities] = [run.header.coordinates.len(), run.header.velocities.len()];
     let kinds = [0..coordinates, coordinates..coordinates + velocities];
-    // signs alternate with several periods: equal changes of all entries could cancel
+    // signs alternate with several periods, because equal changes of all entries could cancel
     let patterns = (1..=PATTERNS).map(|period| {
         move |i: usize| [1.0, -1.0][i / period % 2] * period as f64 / PATTERNS as f64
     });
@@ -124,7 +127,7 @@ fn outputs(model: &dyn Runs, job: &Job, t: f64, state: &[f64]) -> Option<Vec<f64
             t,
             state: state.to_vec(),
         }),
-        // only the start of this run is computed, by a method that accepts any length
+        // computes only the start of a run, by a method that accepts any length
         duration: Some(t + 1e-3),
         every: Some(1e-3),
         method: Some(Method::default()),

@@ -1,14 +1,14 @@
-//! Elliptic integrals and functions by duplication and by the arithmetic-geometric mean.
+//! Elliptic integrals by duplication, and elliptic functions by the arithmetic-geometric mean.
 //!
 //! Carlson, Numerical computation of real or complex elliptic integrals, Numerical Algorithms 10 (1995); Abramowitz and
 //! Stegun 16.4 and 17.6 for the descending chain of amplitudes.
 
 /// R_F(x, y, z) = ½ ∫₀^∞ [(t+x)(t+y)(t+z)]^−½ dt; the arguments are not negative, and at most one of them is 0.
 fn carlson(mut x: f64, mut y: f64, mut z: f64) -> f64 {
-    // The series errs by less than d⁶ if the arguments differ from their mean by less than the share d.
+    // the error of the series is below d⁶ if the arguments differ from their mean by less than the share d
     const D: f64 = 2e-3;
     let mut value = f64::NAN;
-    // Differences fall to a quarter in each round: from 2¹⁰²⁴ to D in fewer than 520 rounds, usually in five.
+    // each round reduces differences to a quarter: from 2¹⁰²⁴ to D takes fewer than 520 rounds, usually five
     for _ in 0..520 {
         let mean = (x + y + z) / 3.0;
         let [dx, dy, dz] = [x, y, z].map(|a| 1.0 - a / mean);
@@ -41,7 +41,7 @@ pub fn amplitude(u: f64, modulus: f64) -> f64 {
     let mut ratios = [0.0; ROUNDS];
     let mut rounds = 0;
     let mut c = modulus;
-    // c is about squared in each round.
+    // each round about squares c
     while rounds < ROUNDS && c.abs() > f64::EPSILON * a {
         c = 0.5 * (a - b);
         (a, b) = (0.5 * (a + b), (a * b).sqrt());

@@ -1,4 +1,5 @@
-//! What a measured time depends on besides the model: this program, how it evaluates the equations, the processor.
+//! The conditions, besides the model, that affect measured times: the program, how it evaluates equations, the
+//! processor.
 
 use crate::equations::Engine;
 
@@ -9,7 +10,7 @@ pub struct Environment {
     pub version: String,
     /// Commit that the program was built from, "unknown" if there was no repository.
     pub commit: String,
-    /// How equations are evaluated: "machine code (AVX2)".
+    /// The evaluation of equations: "machine code (AVX2)".
     pub engine: String,
     /// Architecture and operating system: "x86_64-linux".
     pub target: String,

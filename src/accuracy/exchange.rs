@@ -1,16 +1,16 @@
-//! The same scene with its curves exchanged: cubics through the points where it has straight lines, and straight lines
-//! where it has cubics.
+//! Exchanges the curves of a scene: straight lines become cubics through the same points, and cubics become straight
+//! lines.
 
 use bryant_generator::model::{FieldComponent, Interpolate, Model, Reference, Translation};
 
-/// The model with its curves exchanged; `None` if no curve can be exchanged. Curves that prescribe motions stay as they are: their slope
-/// must not jump.
+/// The model with its curves exchanged; `None` if no curve can be exchanged. Curves that prescribe motions are not
+/// exchanged, because their slopes must not jump.
 pub fn exchanged(model: &Model) -> Option<Model> {
     let kept = of_motion(model);
     let mut other = model.clone();
     let mut changed = false;
     for (index, curve) in other.curves.iter_mut().enumerate() {
-        // Between two points a cubic is the same line.
+        // with two points, the cubic is the same line
         if kept.contains(&index) || curve.points.len() < 3 {
             continue;
         }

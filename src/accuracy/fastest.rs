@@ -1,10 +1,10 @@
-//! The fastest motion of a scene, and the force that causes it. It bounds the steps of explicit methods, however little accuracy is asked
-//! for.
+//! Finds the fastest motion of a scene, and the force that causes it. This motion limits the steps of explicit methods,
+//! however small the requested accuracy is.
 //!
-//! ẏ = f(t, y) is linearised at some states of a run. The largest |λ| of ∂f/∂y follows from repeated products with this matrix: the
-//! geometric mean of their growth is |λ|, for an oscillation too. The products tend to the motion x of this eigenvalue. Along x the power
-//! of each effect (force times velocity) is curved: P(y + εx) − 2 P(y) + P(y − εx) is 2 ε² times the change of the force with the velocity.
-//! The effect whose power is curved most causes the motion.
+//! ẏ = f(t, y) is linearised at some states of a run. A vector is repeatedly multiplied by ∂f/∂y: the geometric mean of
+//! its growth is the largest |λ|, also for an oscillation, and the vector tends to the motion x of this eigenvalue.
+//! Along x the power of each effect (force times velocity) is curved: P(y + εx) − 2 P(y) + P(y − εx) is 2 ε² times the
+//! change of the force with the velocity. The effect with the largest such curvature causes the motion.
 
 use super::setting::{Curves, Pace, Setting, time, two_digits};
 use crate::equations::Engine;
@@ -18,26 +18,26 @@ use std::time::Duration;
 pub struct Fastest {
     /// |λ| \[1/s\].
     pub rate: f64,
-    /// Its time \[s\].
+    /// The time at which it occurs \[s\].
     pub t: f64,
     /// The velocity that changes most in this motion.
     pub velocity: String,
-    /// The effect that causes it; `None` if no effect has a power in it.
+    /// The effect that causes it; `None` if the power of no effect is curved.
     pub effect: Option<String>,
 }
 
-/// About this many states of a run are kept; every `EACH`-th and the last few are examined.
+/// About the number of states of a run that are kept; every `EACH`-th and the last `LAST` of them are examined.
 const STATES: f64 = 240.0;
 const EACH: usize = 10;
 const LAST: usize = 3;
-/// Number of products with the linearisation, and how many of the first are ignored.
+/// Number of products with the linearisation, and number of the first ones that are ignored.
 const PRODUCTS: usize = 300;
 const FORGOTTEN: usize = 100;
-/// The largest velocity is changed by this much to see which power is curved \[m/s, rad/s\].
+/// The change of the largest velocity by which the curvature of powers is measured \[m/s, rad/s\].
 const MOVED: f64 = 1e-3;
 
-/// The fastest motion of a run of a job, with these values of all parameters. The run is examined as far as it comes within `patience`
-/// seconds; `None` if nothing moves.
+/// The fastest motion of a run of a job, with these values of all parameters. Only the part of the run that is computed
+/// within `patience` \[s\] is examined. `None` if nothing moves.
 pub fn fastest(engine: &Engine, job: &Job, parameters: &[f64], patience: f64) -> Option<Fastest> {
     let info = engine.info();
     let duration = job.duration.unwrap_or(info.duration);
@@ -55,7 +55,7 @@ pub fn fastest(engine: &Engine, job: &Job, parameters: &[f64], patience: f64) ->
         ..setting.job(job)
     };
     let mut states = Vec::new();
-    // a run that fails or is out of time is examined as far as it came
+    // if the run fails or its time is over, the states so far are examined
     let mut keep = |t: f64, y: &[f64], _: &[f64]| {
         states.push((t, y.to_vec()));
         ControlFlow::Continue(())
@@ -82,14 +82,14 @@ pub fn fastest(engine: &Engine, job: &Job, parameters: &[f64], patience: f64) ->
     })
 }
 
-/// The largest |λ| at a state, and its motion; `None` if there is none.
+/// The largest |λ| at a state, and its motion; `None` if nothing changes, or there is no Jacobian.
 fn motion(model: &dyn Adjustable<f64>, t: f64, y: &[f64]) -> Option<(f64, Vec<f64>)> {
     let n = y.len();
     let (mut matrix, mut by_time) = (vec![0.0; n * n], vec![0.0; n]);
     if !model.jacobian(t, y, &mut matrix, &mut by_time) {
         return None;
     }
-    // every entry is excited, and no two neighbours alike
+    // all entries differ from 0, and from their neighbours
     let mut x: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * (i % 7) as f64).collect();
     let mut growth = 0.0;
     for k in 0..PRODUCTS {
@@ -101,7 +101,7 @@ fn motion(model: &dyn Adjustable<f64>, t: f64, y: &[f64]) -> Option<(f64, Vec<f6
         if !(size > 0.0 && size.is_finite()) {
             return None;
         }
-        // the first vector is not of length 1
+        // the growth of the first vectors is ignored, because they have not converged
         if k >= FORGOTTEN {
             growth += libm::log(size);
         }
@@ -110,7 +110,7 @@ fn motion(model: &dyn Adjustable<f64>, t: f64, y: &[f64]) -> Option<(f64, Vec<f6
     Some((libm::exp(growth / (PRODUCTS - FORGOTTEN) as f64), x))
 }
 
-/// The effect whose power is curved most along a motion.
+/// The effect whose power has the largest curvature along a motion.
 fn effect(model: &dyn Adjustable<f64>, t: f64, y: &[f64], x: &[f64], moved: f64) -> Option<String> {
     let names = model.info().powers;
     let powers = |by: f64| {
@@ -126,7 +126,8 @@ fn effect(model: &dyn Adjustable<f64>, t: f64, y: &[f64], x: &[f64], moved: f64)
 }
 
 impl Fastest {
-    /// "the fastest motion reaches about 15000 1/s, at t = 45 ms, most in "man/neck.omega", by "joint man/neck: friction""
+    /// A sentence: "the fastest motion reaches about 15000 1/s, at t = 45 ms, most in "man/neck.omega", by "joint
+    /// man/neck: friction""
     pub fn text(&self) -> String {
         let by = match &self.effect {
             Some(effect) => format!(", by \"{effect}\""),

@@ -9,8 +9,8 @@ pub struct Cost {
     pub time: f64,
 }
 
-/// Indices of the points on the front: no other point is both as accurate and as fast. The error falls along the list. Of equal points the
-/// first is taken; points that are not finite are left out.
+/// Indices of the points on the front, in the order of decreasing error: each is more accurate than all faster points.
+/// Of equal points, only the first is on the front; points that are not finite are left out.
 pub fn pareto(points: &[Cost]) -> Vec<usize> {
     let usable = |p: &Cost| p.error.is_finite() && p.error >= 0.0 && p.time.is_finite();
     let mut order: Vec<usize> = (0..points.len()).filter(|&i| usable(&points[i])).collect();
@@ -19,7 +19,7 @@ pub fn pareto(points: &[Cost]) -> Vec<usize> {
         a.time.total_cmp(&b.time).then(a.error.total_cmp(&b.error))
     });
     let mut best = f64::INFINITY;
-    // From the fastest on, a point stays if it is more accurate than all faster ones.
+    // in the order of time, a point stays if it is more accurate than all faster ones
     order.retain(|&i| {
         let better = points[i].error < best;
         best = best.min(points[i].error);
@@ -28,14 +28,14 @@ pub fn pareto(points: &[Cost]) -> Vec<usize> {
     order
 }
 
-/// The cheapest point whose error is at most `error`.
+/// The fastest point whose error is at most `error`.
 pub fn cheapest(points: &[Cost], error: f64) -> Option<usize> {
     pareto(points)
         .into_iter()
         .find(|&i| points[i].error <= error)
 }
 
-/// The cost of a digit: log₁₀ time = a + b · digits, digits = −log₁₀ error, by least squares.
+/// The cost of a digit, by least squares: log₁₀ time = a + b · digits with digits = −log₁₀ error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Digits {
     /// Factor on the time for each further digit: 10^b.
@@ -48,7 +48,8 @@ pub struct Digits {
     pub points: usize,
 }
 
-/// The regression over points with positive error; `None` if there are fewer than three, or they span less than one digit.
+/// The regression over points with positive error and time; `None` if there are fewer than three, or their errors span
+/// less than one digit.
 pub fn digits(points: &[Cost]) -> Option<Digits> {
     let usable = points.iter().filter(|p| p.error > 0.0 && p.time > 0.0);
     let pairs: Vec<(f64, f64)> = usable
@@ -59,7 +60,7 @@ pub fn digits(points: &[Cost]) -> Option<Digits> {
         fold(f64::min, f64::INFINITY),
         fold(f64::max, f64::NEG_INFINITY),
     );
-    // If there is no point, the range is NaN, which is not enough either.
+    // false, too, without points, because the range is then not a number
     let enough = pairs.len() >= 3 && most - least >= 1.0;
     enough.then(|| Digits {
         factor: libm::pow(10.0, slope(&pairs)),
@@ -69,7 +70,7 @@ pub fn digits(points: &[Cost]) -> Option<Digits> {
     })
 }
 
-/// Slope b of the line y = a + b x with the least squares of the errors in y.
+/// Slope b of the line y = a + b x with the least sum of squares of the errors in y.
 fn slope(pairs: &[(f64, f64)]) -> f64 {
     let count = pairs.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / count;

@@ -1,7 +1,8 @@
-//! The head injury criterion: HIC = max (t₂ − t₁) [ 1/(t₂ − t₁) ∫ a dt ]^2.5, a in g, t₂ − t₁ at most 15 ms \[SAE J1727\].
+//! The head injury criterion: HIC = max (t₂ − t₁) [ 1/(t₂ − t₁) ∫ a dt ]^2.5, a in g, t₂ − t₁ at most 15 ms \[SAE
+//! J1727\].
 //!
-//! The acceleration is taken as linear between its samples. Windows begin and end on samples; if the longest window does not fit the
-//! samples, its other end lies between two of them.
+//! The acceleration is linear between its samples. Windows begin and end at samples; but if a window of the largest
+//! length begins or ends at a sample, its other end may be between two samples.
 
 /// Standard acceleration of gravity \[m/s²\].
 const G: f64 = 9.806_65;
@@ -9,8 +10,8 @@ const G: f64 = 9.806_65;
 /// The longest window of HIC15 \[s\].
 pub const WINDOW: f64 = 15e-3;
 
-/// HIC of accelerations \[m/s²\] at increasing times \[s\], over windows of at most `window` \[s\]; `None` if there are fewer than two
-/// samples, or one is not finite.
+/// HIC of accelerations \[m/s²\] at increasing times \[s\], over windows of at most `window` \[s\]; `None` if there are
+/// fewer than two samples, or one is not finite.
 pub fn hic(times: &[f64], accelerations: &[f64], window: f64) -> Option<f64> {
     let samples = times.len().min(accelerations.len());
     let finite = |values: &[f64]| values.iter().take(samples).all(|v| v.is_finite());
@@ -26,7 +27,7 @@ pub fn hic(times: &[f64], accelerations: &[f64], window: f64) -> Option<f64> {
             largest = largest.max(length * libm::pow(velocity / (G * length), 2.5));
         }
     };
-    // Slightly more than the window: the times of samples are rounded.
+    // slightly longer than the window, because times of samples are rounded
     let reach = window * (1.0 + 1e-9);
     for (first, &from) in times.iter().enumerate() {
         for (last, &to) in times.iter().enumerate().skip(first + 1) {
@@ -44,11 +45,11 @@ pub fn hic(times: &[f64], accelerations: &[f64], window: f64) -> Option<f64> {
     Some(largest)
 }
 
-/// A signal that is linear between samples, with its integral from the first sample.
+/// A signal that is linear between samples, and its integral from the first sample.
 struct Signal<'a> {
     times: &'a [f64],
     values: &'a [f64],
-    /// Integral up to each sample.
+    /// The integral from the first sample to each sample.
     velocity: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! The cost of accuracy in time.
+//! Studies how much time accuracy costs, and computes runs of a requested or promised accuracy.
 //!
 //! ```text
 //!                ┌─ reference: double-double, or a closed form ─┐
@@ -7,16 +7,16 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`setting`], [`plan`], [`schedule`] | one way to compute a motion; all ways that are compared; their order |
+//! | [`setting`], [`plan`], [`schedule`] | one way to compute a motion; all ways that are compared; the order in which they are run |
 //! | [`mod@reference`], [`closed_form`] | the true motion; `elliptic`: functions of a closed form |
-//! | [`norm`], [`reading`], [`hic`] | errors in the state and in what an engineer reads |
+//! | [`norm`], [`reading`], [`hic`] | errors of the state, and of numbers that engineers read off |
 //! | [`run`], [`trajectory`] | one run of a setting; its samples |
-//! | [`point`], [`study`] | the result of one setting; of all of them |
-//! | [`front`], [`conclusion`] | the settings worth choosing, and the sentence about them |
-//! | [`fastest`] | the motion that bounds the steps of explicit methods |
-//! | [`report`] | table, CSV, JSON, Markdown |
-//! | [`target`] | a run as accurate as wanted |
-//! | [`check`] | a run as accurate as promised, checked by a second one |
+//! | [`point`], [`study`] | the result of one setting; the results of all of them |
+//! | [`front`], [`conclusion`] | the best settings, and a sentence about them |
+//! | [`fastest`] | the motion that limits the steps of explicit methods |
+//! | [`report`] | a study as text, CSV, JSON and Markdown |
+//! | [`target`] | a run of a requested accuracy |
+//! | [`check`] | a run of the promised accuracy, checked by a second run |
 //! | [`cause`] | why two runs do not agree |
 //! | [`exchange`], [`operations`], [`environment`] | cubics in place of lines; the cost of an evaluation; what times depend on |
 

@@ -1,23 +1,25 @@
-//! The error in the state: the largest over all samples and entries, each relative to how far the entry goes.
+//! The error of the state: the largest over all samples and entries, each relative to the extent of the motion of the
+//! entry.
 //!
 //! | entry | its error | what it is relative to |
 //! |---|---|---|
 //! | position, angle | difference | the range that it goes through in the run |
-//! | quaternion, as one | angle of the rotation between the two orientations; the sign of a quaternion says nothing | the largest angle from the orientation at the start |
+//! | quaternion, as one entry | angle of the rotation between the two orientations (q and −q are equal) | the largest angle from the orientation at the start |
 //! | velocity, angular velocity | difference | its largest magnitude |
 //! | state of a force law | difference | its largest magnitude |
 //!
-//! Where an entry starts is as arbitrary as the origin of the frame, so errors of positions and angles are not relative to their magnitude.
-//! An entry that hardly moves is measured by the others of its kind: no scale is below a hundredth of the largest scale of that kind. A
-//! kind that does not move at all is measured in SI units. The memory of force laws is left out: it jumps, and a jump that comes one
-//! rounding error earlier is not an error of the size of the jump. The effect of memory shows in all other entries.
+//! The value of a position or an angle at the start is as arbitrary as the origin of the frame, so its errors are not
+//! relative to its magnitude. The scale of an entry is at least a hundredth of the largest scale of its kind, because
+//! some entries hardly move. If a kind does not move at all, its scale is 1 in SI units. The memory of force laws is
+//! not compared: it jumps, and a jump that comes one rounding error earlier is not an error of the size of the jump.
+//! The effects of memory show in the other entries.
 
 use super::trajectory::Trajectory;
 
-/// A scale is at least this share of the largest scale of its kind.
+/// Least scale of an entry, as a share of the largest scale of its kind.
 const LEAST: f64 = 1e-2;
 
-/// How the states of one model are compared with those of one reference.
+/// Compares the states of runs of a model with those of a reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Norm {
     entries: Vec<Entry>,
@@ -27,9 +29,9 @@ pub struct Norm {
 struct Entry {
     name: String,
     kind: Kind,
-    /// Index of the entry; of a quaternion the first of four.
+    /// Index of the entry; for a quaternion, of the first of its four numbers.
     index: usize,
-    /// What its error is relative to.
+    /// The scale of its error.
     scale: f64,
 }
 
@@ -40,7 +42,7 @@ enum Kind {
     Orientation,
     Velocity,
     AngularVelocity,
-    /// A state of a force law; each is a kind of its own.
+    /// A continuous state of a force law, by its index; each is a kind of its own.
     Auxiliary(usize),
 }
 
@@ -55,7 +57,7 @@ pub struct Names<'a> {
     pub auxiliaries: &'a [String],
 }
 
-/// The largest error, and the entry that has it.
+/// The largest error, and the entry with this error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateError {
     /// Relative error; infinite if a state is not finite.
@@ -65,7 +67,7 @@ pub struct StateError {
 }
 
 impl Norm {
-    /// The norm of a reference.
+    /// The norm for runs that are compared with a reference.
     pub fn of(names: Names<'_>, reference: &Trajectory) -> Norm {
         let component = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
         let mut entries = Vec::new();
@@ -114,7 +116,7 @@ impl Norm {
         Norm { entries }
     }
 
-    /// The error of a run over the samples that both have; infinite if the run has fewer.
+    /// The error of a run over the samples of the reference; infinite if the run has fewer samples.
     pub fn error(&self, reference: &Trajectory, run: &Trajectory) -> StateError {
         let mut worst = StateError {
             error: 0.0,
@@ -151,7 +153,7 @@ impl Entry {
     }
 }
 
-/// How far an entry moves during a run.
+/// The extent of the motion of an entry during a run.
 fn extent(kind: Kind, index: usize, run: &Trajectory) -> f64 {
     let fold = |pick: fn(f64, f64) -> f64, start| run.entry(index).fold(start, pick);
     match kind {
@@ -175,7 +177,8 @@ fn extent(kind: Kind, index: usize, run: &Trajectory) -> f64 {
     }
 }
 
-/// Angle of the rotation between two unit quaternions (w, x, y, z), in 0..=π \[rad\]: 2 atan2(|vec a⁻¹b|, |scalar a⁻¹b|).
+/// Angle of the rotation between two unit quaternions (w, x, y, z), from 0 to π \[rad\]: 2 atan2(|vec a⁻¹b|, |scalar
+/// a⁻¹b|).
 fn angle_between(a: &[f64], b: &[f64], first: usize) -> f64 {
     let (Some(&[aw, ax, ay, az]), Some(&[bw, bx, by, bz])) =
         (a.get(first..first + 4), b.get(first..first + 4))

@@ -1,4 +1,4 @@
-//! The operations of one evaluation, as `bryant check` counts them.
+//! Counts the operations of an evaluation, as `bryant check` does.
 
 use bryant_generator::model::Model;
 use bryant_generator::{dynamics, program};
@@ -7,13 +7,13 @@ use bryant_runtime::Report;
 /// The cost of one evaluation of the derivative.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
-    /// Additions, multiplications, divisions, roots; a sine, a cosine and a call of a law count as one each.
+    /// Additions, multiplications, divisions and roots; a sine, a cosine or a call of a law counts as one.
     pub evaluation: u64,
     /// Sines and cosines among them.
     pub sines: u64,
 }
 
-/// A dual number costs about three times as much as a number: a product becomes three products and a sum.
+/// Operations over dual numbers per operation over numbers: for example, a product becomes three products and a sum.
 const DUAL: u64 = 3;
 
 impl Operations {
@@ -41,8 +41,8 @@ impl Operations {
         }
     }
 
-    /// The operations of a whole run whose state has `entries` entries: a Jacobian takes one evaluation over dual numbers for each entry,
-    /// and one for the time.
+    /// The operations of a run whose state has `entries` entries. A Jacobian takes one evaluation over dual numbers for
+    /// each entry, and one for the time.
     pub fn of_run(&self, report: &Report, entries: usize) -> u64 {
         let duals = DUAL * (entries as u64 + 1) * report.jacobians;
         self.evaluation * (report.evaluations + duals)

@@ -1,15 +1,15 @@
-//! The settings that are run: series, each from coarse to fine.
+//! The settings of a study: series, each from coarse to fine.
 //!
 //! | series | steps, tolerances | scalars | kinks |
 //! |---|---|---|---|
 //! | every formula with fixed steps | half decades | `f64`, and decades in `f32` | located and, by decades, passed |
-//! | every pair with control of its error | half decades | as above, in `f32` not below its rounding | as above |
-//! | the pair that runs have by default, changed for the Rosenbrock method where the scene is stiff | tolerances, half decades | `f64` | as above |
+//! | every formula with an error estimate | half decades of tolerances | as above, in `f32` not below its rounding | as above |
+//! | the default method of runs, which changes to the Rosenbrock method where the scene is stiff | half decades of tolerances | `f64` | as above |
 //! | some, with fast sine and cosine | decades | `fast` | located |
 //! | the same, with curves exchanged | decades | `f64` | located |
 //!
-//! Nothing is run twice that cannot differ: kinks are passed only if the scene comes to a kink, sines are fast only if there are sines, and
-//! curves are exchanged only if there are curves.
+//! Settings that cannot differ are not run twice: kinks are passed only if the scene has kinks, sines are fast only if
+//! there are sines, and curves are exchanged only if there are curves.
 
 use super::setting::{Curves, Pace, Scheme, Setting};
 use bryant_runtime::Formula;
@@ -18,17 +18,17 @@ use bryant_runtime::program::Scalar;
 /// The request of the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    /// Formulas, each once, alone or changed where the scene is stiff.
+    /// Schemes, each once.
     pub schemes: Vec<Scheme>,
     /// Tolerances from the largest to the smallest.
     pub tolerances: Range,
     /// Steps from the longest to the shortest \[s\].
     pub steps: Range,
-    /// Run few points.
+    /// True if only few points are run.
     pub quick: bool,
 }
 
-/// From the larger to the smaller of two positive numbers.
+/// A range from the larger to the smaller of two positive numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     from: f64,
@@ -46,25 +46,25 @@ pub struct Scene {
     pub curves: bool,
 }
 
-/// Settings that differ in their pace only, from coarse to fine.
+/// Settings that differ only in their pace, from coarse to fine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// The setting, except its pace.
     pub of: Setting,
-    /// From coarse to fine.
+    /// The paces, from coarse to fine.
     pub paces: Vec<Pace>,
 }
 
-/// Tolerances below this cannot be resolved in `f32`.
+/// Smallest tolerance that `f32` can resolve.
 const SINGLE: f64 = 1e-7;
 
-/// An invalid range.
+/// The range is invalid; the message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct RangeError(String);
 
 impl Range {
-    /// A range between two numbers, in whichever order.
+    /// A range between two numbers in any order.
     ///
     /// # Errors
     /// A number is not positive and finite.
@@ -78,7 +78,7 @@ impl Range {
         }
     }
 
-    /// Reads "1e-2..1e-8", or one number; `number` reads each of them.
+    /// Reads a range "1e-2..1e-8", or one number; `number` reads a number.
     ///
     /// # Errors
     /// Those of `number`, and those of [`Range::new`].
@@ -96,12 +96,12 @@ impl Range {
         self.from
     }
 
-    /// The range as it is read, its ends written by `number`.
+    /// The range as [`Range::read`] reads it; `number` writes its ends.
     pub fn text(&self, number: impl Fn(f64) -> String) -> String {
         format!("{}..{}", number(self.from), number(self.to))
     }
 
-    /// The ends of the range and the powers of ten between them; with `halves` also three times these.
+    /// The ends of the range and the powers of ten between them; with `halves`, also three times these powers.
     fn ladder(&self, halves: bool) -> Vec<f64> {
         let digits: &[u32] = if halves { &[3, 1] } else { &[1] };
         let (high, low) = (
@@ -111,7 +111,7 @@ impl Range {
         let mut values = vec![self.from];
         for exponent in (low..=high).rev() {
             for digit in digits {
-                // Numbers are parsed from text, so that they are exactly those that people write.
+                // numbers are parsed from text, so that they are exactly those that people write
                 let value: f64 = format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN);
                 let inside = value < self.from * (1.0 - 1e-9) && value > self.to * (1.0 + 1e-9);
                 values.extend(inside.then_some(value));
@@ -123,7 +123,7 @@ impl Range {
         values
     }
 
-    /// The part of the range above a limit.
+    /// The part of the range that is not below a limit; `None` if there is none.
     fn above(&self, limit: f64) -> Option<Range> {
         (self.from >= limit).then(|| Range {
             from: self.from,
@@ -131,8 +131,9 @@ impl Range {
         })
     }
 
-    /// The usual steps for a run of this duration with this time between samples: from the longest step in a table of powers of ten and
-    /// three times these, down to a thousandth of it.
+    /// The default steps for a run of this duration with this time between samples. The largest is the longest step
+    /// 1·10ⁿ or 3·10ⁿ that is not longer than the time between samples and a tenth of the duration; the smallest is a
+    /// thousandth of it.
     pub fn of_steps(every: f64, duration: f64) -> Range {
         let longest = every.min(0.1 * duration);
         let exponent = libm::log10(longest).floor() as i32;
@@ -198,7 +199,8 @@ pub fn series(request: &Request, scene: Scene) -> Vec<Series> {
     all
 }
 
-/// The formulas for which arithmetic and curves are compared: a usual one of each kind, or those that the user asks for.
+/// The formulas for which arithmetic and curves are compared: a usual one of each kind; if the request has none of
+/// these, its formulas.
 fn compared(schemes: &[Scheme]) -> Vec<Formula> {
     let alone = schemes.iter().filter(|scheme| !scheme.switches);
     let formulas: Vec<Formula> = alone.map(|scheme| scheme.formula).collect();
@@ -228,7 +230,7 @@ fn both(request: &Request, of: Setting, halves: bool) -> Vec<Series> {
         let values = tolerances.ladder(halves).into_iter();
         let mut paces: Vec<Pace> = values.map(Pace::Tolerance).collect();
         if request.quick {
-            // Every other pace, and the last.
+            // keep every other pace, and the last one
             let last = paces.len().saturating_sub(1);
             let mut indices = 0..;
             paces.retain(|_| indices.next().is_some_and(|i| i % 2 == 0 || i == last));

@@ -8,7 +8,7 @@ use bryant_runtime::Report;
 /// One setting and its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// How the run was computed.
+    /// The setting of the run.
     pub setting: Setting,
     /// Its result.
     pub status: Status,
@@ -28,7 +28,7 @@ pub enum Status {
 /// A run that reached its end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Done {
-    /// The error in the state, and the entry that has it.
+    /// The error of the state, with its entry.
     pub state: StateError,
     /// Errors of the readings of the study, in its order.
     pub readings: Vec<ReadingError>,
@@ -36,11 +36,12 @@ pub struct Done {
     pub energy: Option<f64>,
     /// The change of momentum that no force explains, relative to the total momentum; `None` if it is not known.
     pub momentum: Option<f64>,
-    /// What the run took.
+    /// The cost of the run.
     pub report: Report,
-    /// Evaluations times the operations of one evaluation; a Jacobian counts as three evaluations for each entry of the state.
+    /// Number of evaluations times the operations of one; a Jacobian counts as three evaluations for each entry of the
+    /// state.
     pub operations: u64,
-    /// The order, estimated from this point and the coarser one before it.
+    /// The order, estimated from this point and the coarser point before it.
     pub order: Option<f64>,
     /// Time of the run.
     pub timing: Timing,
@@ -51,16 +52,16 @@ pub struct Done {
 pub struct Timing {
     /// Median of the repetitions \[s\].
     pub median: f64,
-    /// 95th percentile \[s\]: what 19 of 20 repetitions stay below.
+    /// 95th percentile of the repetitions \[s\].
     pub late: f64,
-    /// Repetitions.
+    /// Number of repetitions.
     pub repetitions: usize,
 }
 
-/// The error that the user asks for: one number for each run.
+/// The kind of error that the user wants to see: one number for each run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// The error in the state.
+    /// The error of the state.
     State,
     /// The largest error of all readings.
     Worst,
@@ -68,26 +69,26 @@ pub enum Measure {
     Reading(usize),
 }
 
-/// An error, as far as it can be known.
+/// An error that cannot be known below that of the reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Known {
-    /// The error, or that of the reference if this is larger.
+    /// The error of the run, or that of the reference if this is larger.
     pub error: f64,
-    /// The true error is below that of the reference: it is at most [`Known::error`].
+    /// True if the error of the run is not larger than that of the reference, so that [`Known::error`] is only a bound.
     pub at_most: bool,
 }
 
 /// The errors of the reference itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Own {
-    /// In the state.
+    /// Error of the state.
     pub state: f64,
-    /// Of each reading.
+    /// Error of each reading.
     pub readings: Vec<f64>,
 }
 
 impl Own {
-    /// The error of the reference in the measure asked for.
+    /// The error of the reference, as this kind of error.
     pub fn of(&self, measure: Measure) -> f64 {
         match measure {
             Measure::State => self.state,
@@ -111,7 +112,7 @@ impl Timing {
     }
 }
 
-/// The quantile of sorted values, linear between them.
+/// The quantile of sorted values, interpolated linearly.
 fn quantile(sorted: &[f64], part: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else {
         return 0.0;
@@ -122,7 +123,7 @@ fn quantile(sorted: &[f64], part: f64) -> f64 {
 }
 
 impl Done {
-    /// The error in the measure asked for, at least that of the reference.
+    /// The error of the run, as this kind of error, at least that of the reference.
     pub fn error(&self, of: Measure, own: &Own) -> Known {
         let known = |error: f64, own: f64| Known {
             error: error.max(own),
@@ -137,7 +138,7 @@ impl Done {
             Measure::Reading(index) => reading(index),
             Measure::Worst => {
                 let all = (0..self.readings.len()).map(reading);
-                // Of equal errors, one that is known exactly counts as the worse.
+                // of equal errors, the one that is known exactly counts as the worse
                 all.reduce(|a, b| {
                     let worse = b.error > a.error || b.error == a.error && a.at_most;
                     if worse { b } else { a }
@@ -149,7 +150,7 @@ impl Done {
 }
 
 impl Measure {
-    /// "the state", "peak lap belt force", "the worst of 12 readings"
+    /// The name of the kind of error: "the state", "peak lap belt force", "the worst of 12 readings"
     pub fn name(self, readings: &[Reading]) -> String {
         match self {
             Measure::State => "the state".to_owned(),
@@ -172,8 +173,9 @@ impl Point {
     }
 }
 
-/// Orders estimated from neighbours of one series, from coarse to fine: log(e₁/e₂)/log(h₁/h₂), where e are the errors in the state and h
-/// the steps taken, or the tolerances. `None` for the first point, and if either error is not known or not above that of the reference.
+/// Orders of the points of one series, from coarse to fine, each estimated with the point before:
+/// log(e₁/e₂)/log(h₁/h₂), with the errors e of the state, and with h the steps taken, or the tolerances. `None` for the
+/// first point, and if one of the errors is not known or not above that of the reference.
 pub fn orders(points: &[&Point], own: &Own) -> Vec<Option<f64>> {
     let known = |point: &Point| {
         let done = point.done()?;
@@ -191,7 +193,7 @@ pub fn orders(points: &[&Point], own: &Own) -> Vec<Option<f64>> {
         .map(|point| {
             let now = known(point);
             let order = before.zip(now).and_then(|((e1, h1), (e2, h2))| {
-                // An error as large as the motion itself says nothing about the order.
+                // an error as large as the motion itself says nothing about the order
                 (h1 > h2 && e1 < 1.0).then(|| libm::log(e1 / e2) / libm::log(h1 / h2))
             });
             before = now;

@@ -1,17 +1,17 @@
-//! The readings of an engineer: the peak of every output and its time, the head injury criterion of every acceleration, each with its
-//! error.
+//! Numbers that engineers read off a run, with their errors: the peak of each output and its time, and the head injury
+//! criterion of each acceleration.
 //!
-//! The peak is the sample of the largest magnitude. Its time is that of the vertex of the parabola through this sample and its two
-//! neighbours. It is looked for near the time of the reference's peak: if two peaks nearly tie, rounding decides which is larger, and a
-//! change from one to the other is not an error in time.
+//! The peak is the sample with the largest magnitude. Its time is that of the vertex of the parabola through this
+//! sample and its two neighbours. In other runs it is searched near the time of the reference's peak: of two peaks that
+//! are almost equal, rounding decides which is larger, and a change from one to the other is not an error of the time.
 
 use super::hic::{WINDOW, hic};
 use super::trajectory::Trajectory;
 
-/// An output, as a header names it.
+/// An output: its name and unit in the header of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Heading.
+    /// Name.
     pub name: String,
     /// SI unit.
     pub unit: String,
@@ -20,17 +20,17 @@ pub struct Column {
 /// A number that is read off a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// "peak lap belt force", "HIC15 of head accelerometer".
+    /// Its name: "peak lap belt force", "HIC15 of head accelerometer".
     pub name: String,
     /// SI unit of the value, "" for HIC.
     pub unit: String,
     /// Index of the output.
     pub column: usize,
-    /// How it is read.
+    /// The kind of reading.
     pub kind: Kind,
-    /// Value of the reference.
+    /// The value in the reference.
     pub value: f64,
-    /// Time of a peak \[s\].
+    /// Time of a peak in the reference \[s\]; `None` for HIC.
     pub time: Option<f64>,
 }
 
@@ -52,13 +52,13 @@ pub struct ReadingError {
     pub time: Option<f64>,
 }
 
-/// Peaks below this share of the largest one in the same unit are noise, and are not read.
+/// Least size of a peak, as a share of the largest peak in the same unit; smaller ones are noise and are not read.
 const NOISE: f64 = 1e-6;
 
-/// Half of the interval in which the peak is looked for, as a share of the run; at least two samples.
+/// Half of the interval in which a peak is searched, as a share of the run; at least two samples.
 const NEAR: f64 = 0.02;
 
-/// All readings of a reference that are not zero.
+/// All readings of a reference whose values are not zero.
 pub fn of(columns: &[Column], reference: &Trajectory) -> Vec<Reading> {
     let series: Vec<Vec<f64>> = (0..columns.len()).map(|i| reference.output(i)).collect();
     let peaks: Vec<Option<usize>> = series.iter().map(|values| peak(values, |_| true)).collect();
@@ -98,7 +98,7 @@ pub fn of(columns: &[Column], reference: &Trajectory) -> Vec<Reading> {
 }
 
 impl Reading {
-    /// The same reading of another reference; its value is NaN if that reference has none.
+    /// The same reading of another reference; its value is NaN if the other reference has no such reading.
     pub fn again(&self, reference: &Trajectory) -> Reading {
         let values = reference.output(self.column);
         let (value, time) = match self.kind {
@@ -118,11 +118,11 @@ impl Reading {
         }
     }
 
-    /// The error of the same reading of a run; infinite if the run has no such reading.
+    /// The error of this reading in a run; infinite if the run has no such reading.
     pub fn error(&self, reference: &Trajectory, run: &Trajectory) -> ReadingError {
         let values = run.output(self.column);
         let relative = |value: f64| match ((value - self.value) / self.value).abs() {
-            // Two zeros are equal.
+            // two zeros are equal
             _ if value == self.value => 0.0,
             error if error.is_nan() => f64::INFINITY,
             error => error,
@@ -139,7 +139,7 @@ impl Reading {
                 value: peak(&values, |_| true)
                     .filter(|_| whole)
                     .map_or(f64::INFINITY, |sample| {
-                        // A peak of the opposite sign is a different peak of the same size.
+                        // a peak with the opposite sign is another peak of the same size
                         relative(values[sample].abs() * self.value.signum())
                     }),
                 time: self.time.and_then(|time| {
@@ -152,7 +152,7 @@ impl Reading {
         }
     }
 
-    /// How far from the time of the reference a peak is looked for \[s\].
+    /// Half of the interval around the time of the reference's peak in which a peak is searched \[s\].
     fn reach(&self, reference: &Trajectory) -> f64 {
         let times = &reference.times;
         let (first, last) = (times.first(), times.last());
@@ -165,7 +165,8 @@ impl Reading {
     }
 }
 
-/// The sample of the largest magnitude among some samples; `None` if one of them is not finite, or there are none.
+/// The index of the sample with the largest magnitude, among some samples; `None` if there are none, or one is not
+/// finite.
 fn peak(values: &[f64], among: impl Fn(usize) -> bool) -> Option<usize> {
     let mut best: Option<usize> = None;
     for (i, value) in values.iter().enumerate().filter(|(i, _)| among(*i)) {
@@ -179,8 +180,9 @@ fn peak(values: &[f64], among: impl Fn(usize) -> bool) -> Option<usize> {
     best
 }
 
-/// Abscissa of the vertex of the parabola through a sample and its neighbours, limited to the interval between them; the abscissa of the
-/// sample itself at the ends, and if the neighbours do not surround a peak.
+/// Abscissa of the vertex of the parabola through a sample and its neighbours, limited to the interval between these.
+/// For the first and the last sample, and if there is no peak between the neighbours, the abscissa of the sample
+/// itself.
 fn vertex(times: &[f64], values: &[f64], sample: usize) -> f64 {
     let inner = sample > 0 && sample + 1 < values.len().min(times.len());
     if !inner {
@@ -193,7 +195,7 @@ fn vertex(times: &[f64], values: &[f64], sample: usize) -> f64 {
     if curvature == 0.0 || !curvature.is_finite() {
         return t1;
     }
-    // The slope is `left` in the middle of the first interval, `right` in that of the second.
+    // the slope is `left` in the middle of the first interval, and `right` in the middle of the second
     let (a, b) = (0.5 * (t0 + t1), 0.5 * (t1 + t2));
     (a - left * (b - a) / curvature).clamp(t0, t2)
 }

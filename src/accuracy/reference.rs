@@ -1,10 +1,11 @@
-//! The reference: a motion computed so sharply that the errors of all other runs can be measured against it.
+//! The reference: a motion that is so accurate that the errors of all other runs can be measured against it.
 //!
-//! It is computed by Dormand–Prince 8(5,3) in double-double arithmetic with kinks located, at tolerances that fall until the allowed time
-//! is used up. The last two solutions are compared: their difference bounds the error of the coarser one and is stated as the error of the
-//! reference. If double-doubles would take longer than allowed, judged by the measured time of an evaluation, the reference is computed in
-//! `f64`; errors below its own are then not known, and the statement says so. If the motion is known in closed form, states are measured
-//! against the closed form. The computed solution, which gives the outputs, is then checked by it.
+//! The reference is computed by Dormand–Prince 8(5,3) in double-double arithmetic with kinks located, at decreasing
+//! tolerances until the allowed time is over. The difference of the last two solutions bounds the error of the coarser
+//! one, and is reported as the error of the reference. If double-doubles would take too long, judged by the measured
+//! time of an evaluation, the reference is computed in `f64`; errors below its own are then not known, and the
+//! statement says so. If the motion is known in closed form, the states of runs are compared with the closed form, and
+//! so is the computed solution, which gives the outputs.
 
 use super::closed_form::ClosedForm;
 use super::norm::{Names, Norm};
@@ -25,25 +26,26 @@ use std::time::{Duration, Instant};
 pub struct Reference {
     /// Names and units of the model.
     pub header: Header,
-    /// The true motion: states in closed form if there is one, outputs of the computed solution.
+    /// The true motion: states by the closed form if there is one, outputs by the computed solution.
     pub trajectory: Trajectory,
-    /// How states are compared with it.
+    /// Compares states with the reference.
     pub norm: Norm,
-    /// The readings of it.
+    /// The readings of the reference.
     pub readings: Vec<Reading>,
-    /// Its own errors.
+    /// The errors of the reference.
     pub own: Own,
     /// A sentence that says how the reference was computed.
     pub statement: String,
     /// The cost of the computed solution.
     pub report: Report,
-    /// Tolerances of the solution and of the one that it is compared with.
+    /// Tolerances of the solution, and of the solution that it was compared with.
     pub tolerances: [f64; 2],
-    /// The name of the closed form, and by how much the computed solution differs from it in the state.
+    /// The name of the closed form, and the difference of the computed solution from it in the state; `None` if there
+    /// is no closed form.
     pub closed: Option<(&'static str, f64)>,
 }
 
-/// Why there is no reference.
+/// Why a reference could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum ReferenceError {
     /// The run failed.
@@ -52,9 +54,9 @@ pub enum ReferenceError {
         .error.message, remedy(.error)
     )]
     Run {
-        /// How it was computed.
+        /// The setting of the run.
         setting: String,
-        /// Why it failed.
+        /// The error of the run.
         error: Box<RunError>,
     },
     /// Sharper solutions do not converge.
@@ -64,16 +66,16 @@ pub enum ReferenceError {
          locates it; a shorter --duration may help", .tolerances[0], .tolerances[1]
     )]
     Apart {
-        /// Of the two.
+        /// Tolerances of the two solutions.
         tolerances: [f64; 2],
-        /// In the state.
+        /// Their difference in the state.
         difference: f64,
         /// The entry with this difference.
         entry: String,
     },
 }
 
-/// The remedy for a reference that failed.
+/// The remedy if the run of the reference failed.
 fn remedy(error: &RunError) -> &'static str {
     match error.kind {
         ErrorKind::Time => {
@@ -85,30 +87,30 @@ fn remedy(error: &RunError) -> &'static str {
     }
 }
 
-/// Tolerances tried in double-double arithmetic, from coarse to fine.
+/// Tolerances in double-double arithmetic, from coarse to fine.
 const TOLERANCES: [f64; 4] = [1e-9, 1e-12, 1e-15, 1e-18];
 
-/// Tolerances tried in `f64`. The first one shows how many evaluations the scene needs.
+/// Tolerances in `f64`, from coarse to fine. The run with the first one shows how many evaluations the scene needs.
 const OF_DOUBLES: [f64; 4] = [1e-6, 1e-9, 1e-11, 1e-13];
 
-/// The order of the method: the number of steps grows with this root of the tolerance.
+/// The order of the method: the number of steps is inversely proportional to this root of the tolerance.
 const ORDER: f64 = 8.0;
 
-/// Number of evaluations that are timed to measure the speed of an arithmetic.
+/// Number of evaluations that are timed to find the speed of an arithmetic.
 const TRIED: u32 = 20;
 
-/// Two solutions that differ by more than this are no reference.
+/// Largest difference of two solutions that make a reference.
 const APART: f64 = 1e-3;
 
-/// Differences below this are rounding errors of the samples.
+/// A smaller difference is due to rounding of the samples.
 const SAMPLE: f64 = 2.0 * f64::EPSILON;
 
 /// Computes the reference of a scene.
 ///
-/// `job` has the settings that are the same in all runs; `patience` is the time that one solution may take \[s\].
+/// `job` has the settings that are the same in all runs; `patience` is the time limit of one solution \[s\].
 ///
 /// # Errors
-/// No reference can be computed, and why.
+/// No reference can be computed; the error says why.
 pub fn compute(
     engine: &Engine,
     job: &Job,
@@ -159,7 +161,7 @@ pub fn compute(
         }
         match (solve(scalar, tolerance), &check) {
             (Ok(sharper), _) => check = Some(std::mem::replace(&mut last, sharper)),
-            // steps became too small, or the time is used up: the solution before is the reference
+            // steps became too small, or the time is over: the solution before is used
             (Err(_), Some(_)) => break,
             (Err(error), None) => return Err(error),
         }
@@ -184,7 +186,7 @@ fn time_of_evaluation<T: Real>(model: &dyn Adjustable<T>) -> f64 {
     start.elapsed().as_secs_f64() / f64::from(TRIED)
 }
 
-/// A run that reached its end.
+/// A run of the reference that reached its end.
 struct Solution {
     scalar: Scalar,
     tolerance: f64,
@@ -194,7 +196,7 @@ struct Solution {
     took: Duration,
 }
 
-/// The setting of the reference.
+/// The setting of a solution.
 fn setting(scalar: Scalar, tolerance: f64) -> Setting {
     Setting {
         formula: Formula::Dop853,
@@ -206,7 +208,7 @@ fn setting(scalar: Scalar, tolerance: f64) -> Setting {
     }
 }
 
-/// The columns of a header.
+/// The outputs of a header.
 pub fn columns(header: &Header) -> Vec<Column> {
     let column = |output: &bryant_runtime::program::OutputHeader| Column {
         name: output.name.clone(),

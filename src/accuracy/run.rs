@@ -1,4 +1,4 @@
-//! One run of a study of accuracy, with all its samples.
+//! Runs one setting of a study and keeps all samples.
 
 use super::trajectory::Trajectory;
 use crate::equations::Engine;
@@ -16,13 +16,13 @@ pub struct Outcome {
     pub header: Header,
     /// Its samples; empty for a run without samples.
     pub trajectory: Trajectory,
-    /// The cost of the run, or why it failed.
+    /// The cost of the run, or its failure.
     pub result: Result<Report, RunError>,
     /// The balance of energy.
     pub energy: Option<Energy>,
-    /// Why it cannot be trusted.
+    /// The reasons why the run cannot be trusted.
     pub doubts: Vec<Finding>,
-    /// Time that the computation took.
+    /// Time of the computation.
     pub took: Duration,
 }
 
@@ -30,7 +30,7 @@ pub struct Outcome {
 pub fn run(engine: &Engine, job: &Job) -> Outcome {
     let header = Header::of(engine.info());
     let mut trajectory = Trajectory::default();
-    // angles of different charts cannot be compared
+    // without charts, because angles in different charts cannot be compared
     let without_charts = WithoutCharts::of(&header);
     let start = Instant::now();
     let ended = engine.run(
@@ -54,7 +54,7 @@ pub fn run(engine: &Engine, job: &Job) -> Outcome {
     }
 }
 
-/// The time that a run may take, from seconds; `None` if a `Duration` cannot hold them.
+/// Converts a time limit from seconds; `None` if it is too long for a `Duration`.
 pub fn limit(seconds: f64) -> Option<Duration> {
     Duration::try_from_secs_f64(seconds).ok()
 }

@@ -1,8 +1,9 @@
-//! The order in which the settings of a study are run, and the time that each may take.
+//! Decides in which order the settings of a study are run, and how long each run may take.
 //!
-//! The study has series: settings that differ in their step or tolerance only, from coarse to fine. A free processor takes the next setting
-//! of one series: first of every series that has no error below 100 % yet, then of the series whose last point is nearest to the front of
-//! accuracy against time; among several, of the one with the fewest points. So a study that ends early has the front, and lacks the points
+//! A study has series of settings that differ only in their step or tolerance, from coarse to fine. A free processor
+//! takes the next setting of a series. Series without an error below 100 % so far come first; then the series whose
+//! last point is nearest to the front of accuracy against time; of several, the one with the fewest points. So a study
+//! that ends early has the front, and lacks points far from it.
 //! far from it.
 
 use super::front::Cost;
@@ -14,27 +15,27 @@ use std::sync::mpsc::channel;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-/// A run is stopped when it takes this many times its predicted time; predictions from a coarser neighbour are rarely worse.
+/// Ratio of the time limit of a run to its predicted time; predictions from a coarser neighbour are rarely worse.
 const PATIENCE: f64 = 5.0;
 
-/// The reason of a setting that was not run because of Ctrl-C.
+/// The reason for a setting that was not run because of Ctrl-C.
 pub const INTERRUPTED: &str = "not reached: interrupted by Ctrl-C";
 
-/// Is added to the rank of a setting that is run again: no cost is as far from the front as this.
+/// Is added to the rank of a setting that is run again; it exceeds the distance of any cost from the front.
 const LATER: f64 = 1e3;
 
-/// A run whose time cannot be predicted may take this share of the limit of a run.
+/// Time limit of a run whose time cannot be predicted, as a share of the limit of any run.
 const FIRST: f64 = 0.25;
 
-/// All settings of a study, and how long they may take.
+/// Runs the settings of a study within limits of time.
 pub struct Schedule<'a> {
     series: &'a [Series],
-    /// How long one run may take \[s\].
+    /// Time limit of one run \[s\].
     limit: f64,
     begin: Instant,
-    /// No run begins later than this after `begin` \[s\].
+    /// Time after `begin` at which the last run may begin \[s\].
     all: f64,
-    /// Number of runs at the same time.
+    /// Number of simultaneous runs.
     workers: usize,
 }
 
@@ -46,14 +47,14 @@ struct Line {
     settings: Vec<Setting>,
     points: Vec<Point>,
     costs: Vec<Cost>,
-    /// One of its settings is being run.
+    /// True while one of its settings is being run.
     busy: bool,
-    /// The time that its next setting may take, if that took longer than predicted before \[s\].
+    /// Time limit of its next setting \[s\], if that setting took longer than predicted and will be run again.
     allowance: Option<f64>,
 }
 
 impl<'a> Schedule<'a> {
-    /// A schedule of these series; one run may take `limit` \[s\], all of them `all` \[s\] from now on.
+    /// A schedule for these series. One run may take `limit` \[s\], and all of them together `all` \[s\] from now on.
     pub fn new(series: &'a [Series], limit: f64, all: f64) -> Self {
         Schedule {
             series,
@@ -64,12 +65,13 @@ impl<'a> Schedule<'a> {
         }
     }
 
-    /// The same with this many runs at a time, instead of one for each processor.
+    /// The schedule with this number of simultaneous runs, instead of one for each processor.
     pub fn on(self, workers: usize) -> Self {
         Schedule { workers, ..self }
     }
 
-    /// Runs the settings and returns their points, series by series, from coarse to fine. `run` gets the time that it may take \[s\].
+    /// Runs the settings and returns their points, series by series, from coarse to fine. `run` gets a setting and its
+    /// time limit \[s\].
     pub fn carry_out(
         &self,
         run: &(dyn Fn(&Setting, f64) -> Ran + Sync),
@@ -96,7 +98,7 @@ impl<'a> Schedule<'a> {
                         let line = &mut lines[index];
                         line.busy = false;
                         if matches!(status, Status::Skipped(_)) && limit < self.limit {
-                            // the prediction was wrong, and there may be time for more
+                            // the prediction was wrong: the setting may be run again, with more time
                             line.allowance = Some(PATIENCE * limit);
                             continue;
                         }
@@ -121,7 +123,8 @@ impl<'a> Schedule<'a> {
         lines.into_iter().flat_map(Line::complete).collect()
     }
 
-    /// The next setting and the time that it may take \[s\]. Settings that would take too long are skipped on the way.
+    /// The next series, its next setting and the time limit for it \[s\]. Settings that would take too long are
+    /// skipped.
     fn next(&self, lines: &Mutex<Vec<Line>>) -> Option<(usize, Setting, f64)> {
         loop {
             let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
@@ -138,7 +141,7 @@ impl<'a> Schedule<'a> {
                 ranks.then(a.points.len().cmp(&b.points.len()))
             });
             let Some((index, _)) = nearest else {
-                // the threads that run now continue their own series
+                // the series that are left are being run by other threads, which continue them
                 return None;
             };
             let limit = self.limit;
@@ -166,12 +169,13 @@ impl<'a> Schedule<'a> {
 }
 
 impl Line {
-    /// Predicted time of a run \[s\], from its coarser neighbour: proportional to the number of fixed steps, or by the order of the method.
+    /// Predicted time of a run \[s\], from its coarser neighbour: proportional to the number of fixed steps, or by the
+    /// order of the method. `None` if it cannot be predicted.
     fn predict(&self, setting: &Setting) -> Option<f64> {
         let (point, cost) = (self.points.last()?, self.costs.last()?);
         if !cost.time.is_finite() {
-            // stopped or failed: after a stop the next setting takes no less time, but a failure of a coarse setting says nothing about a
-            // finer one
+            // the neighbour was stopped or failed: if it was stopped, a finer run takes at least as long; if it failed,
+            // nothing is known about a finer run
             return matches!(point.status, Status::Skipped(_)).then_some(f64::INFINITY);
         }
         let finer = point.setting.pace.value() / setting.pace.value();
@@ -182,22 +186,22 @@ impl Line {
         })
     }
 
-    /// The series with the lowest rank is continued first.
+    /// The rank of the series: the one with the lowest rank is continued first.
     fn rank(&self, all: &[Cost]) -> f64 {
         if let Some(allowance) = self.allowance {
-            // a setting that took longer than predicted waits for all others
+            // a setting that took longer than predicted is run after all others
             return LATER + allowance;
         }
         let begun = self.costs.iter().rev().find(|cost| cost.time.is_finite());
         match begun {
-            // the coarse end of every series, the shortest first
+            // the coarse end of each series, those with the fewest points first
             None => -2.0 + 1e-3 * self.points.len() as f64,
             Some(cost) if cost.error >= 1.0 => -1.0 + 1e-3 * self.points.len() as f64,
             Some(cost) => far(all, *cost),
         }
     }
 
-    /// Skips its next setting.
+    /// Skips its next setting; `why` is the reason.
     fn skip(&mut self, why: String) {
         let setting = self.settings[self.points.len()];
         self.points.push(Point {
@@ -207,7 +211,7 @@ impl Line {
         self.costs.push(NONE);
     }
 
-    /// All its points, including those that were not reached.
+    /// All its points; those that were not reached get a reason.
     fn complete(mut self) -> Vec<Point> {
         let why = match interrupt::asked() {
             true => INTERRUPTED,
@@ -225,7 +229,8 @@ const NONE: Cost = Cost {
     time: f64::INFINITY,
 };
 
-/// The distance of a cost from the front: ln of its time over that of the fastest run that is as accurate; 0 on the front.
+/// The distance of a cost from the front: ln of its time over that of the fastest run with at most the same error; 0 on
+/// the front.
 fn far(all: &[Cost], cost: Cost) -> f64 {
     let as_accurate = all.iter().filter(|other| other.error <= cost.error);
     let fastest = as_accurate.fold(f64::INFINITY, |least, other| least.min(other.time));
@@ -235,7 +240,7 @@ fn far(all: &[Cost], cost: Cost) -> f64 {
     }
 }
 
-/// The distance of one of these costs from their front; 0 on it.
+/// The distance of the cost `index` from the front of all costs; 0 on the front.
 pub fn distance(all: &[Cost], index: usize) -> f64 {
     far(all, all[index])
 }

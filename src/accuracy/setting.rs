@@ -1,60 +1,60 @@
-//! One way to compute a motion: formula, pace, scalar, kinks, curves.
+//! A setting is one way to compute a motion: formula, pace, scalar, kinks, curves.
 
 use bryant_runtime::program::{Job, Scalar};
 use bryant_runtime::{Adaptive, Formula, Method, Report, Tolerances};
 
-/// How a run is computed.
+/// The setting of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// The formula of a step.
     pub formula: Formula,
-    /// Whether runs change to the Rosenbrock method where the scene is stiff.
+    /// True if the run changes to the Rosenbrock method where the scene is stiff.
     pub switches: bool,
-    /// How long steps are.
+    /// The length of steps.
     pub pace: Pace,
     /// The type of its numbers.
     pub scalar: Scalar,
-    /// Whether steps end at kinks of force laws.
+    /// True if steps end at kinks of force laws.
     pub locate: bool,
-    /// Which curves the model has.
+    /// The curves of the model.
     pub curves: Curves,
 }
 
-/// How long steps are.
+/// The length of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
     /// All steps have this length \[s\].
     Step(f64),
-    /// Steps follow from this relative tolerance.
+    /// Steps are chosen by error control with this relative tolerance.
     Tolerance(f64),
 }
 
-/// Which curves the model has.
+/// The curves of the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curves {
-    /// The curves that the model was written with.
+    /// Those that the model was written with.
     Written,
-    /// Cubics for straight lines, and straight lines for cubics.
+    /// Cubics in place of straight lines, and straight lines in place of cubics.
     Exchanged,
 }
 
-/// A formula, or a formula that changes to the Rosenbrock method where the scene is stiff.
+/// A formula, with or without changes to the Rosenbrock method where the scene is stiff.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scheme {
-    /// The formula that it begins with.
+    /// The formula at the beginning of a run.
     pub formula: Formula,
-    /// Whether it changes.
+    /// True if a run changes to the Rosenbrock method where the scene is stiff.
     pub switches: bool,
 }
 
 impl Scheme {
-    /// The one that runs have by default.
+    /// The default scheme of runs.
     pub const DEFAULT: Scheme = Scheme {
         formula: Formula::Dopri5,
         switches: true,
     };
 
-    /// All that are compared: every formula, and the one that runs have by default.
+    /// All schemes that are compared: every formula alone, and the default scheme.
     pub fn all() -> Vec<Scheme> {
         let alone = |formula| Scheme {
             formula,
@@ -64,7 +64,7 @@ impl Scheme {
         formulas.chain([Scheme::DEFAULT]).collect()
     }
 
-    /// Its name in commands and files: "dopri5", "dopri5+rodas5".
+    /// The name in commands and files: "dopri5", "dopri5+rodas5".
     pub fn name(self) -> String {
         let more = match self.switches {
             true => format!("+{}", Formula::Rodas5.name()),
@@ -73,7 +73,7 @@ impl Scheme {
         format!("{}{more}", self.formula.name())
     }
 
-    /// Its name for people.
+    /// The name for people.
     pub fn title(self) -> String {
         let more = match self.switches {
             true => ", changed for Rosenbrock 5(4) where the scene is stiff",
@@ -84,7 +84,7 @@ impl Scheme {
 }
 
 impl Setting {
-    /// Its formula, and whether it changes.
+    /// Its scheme.
     pub fn scheme(&self) -> Scheme {
         Scheme {
             formula: self.formula,
@@ -92,7 +92,7 @@ impl Setting {
         }
     }
 
-    /// The setting as a run by it turned out: a run that had no reason to change its formula is one by its formula alone.
+    /// The setting that the run actually used: without switching if the scene was not stiff.
     pub fn as_run(self, report: &Report) -> Setting {
         Setting {
             switches: self.switches && report.stiff > 0,
@@ -100,7 +100,7 @@ impl Setting {
         }
     }
 
-    /// The setting of a job: what it says about method and kinks, and defaults for the rest.
+    /// The setting of a job; kinks are passed unless the job says otherwise, and the curves are those written.
     pub fn of(job: &Job) -> Self {
         let method = job.method();
         Setting {
@@ -133,7 +133,7 @@ impl Setting {
         }
     }
 
-    /// The job that computes a run of this setting, everything else as in `job`.
+    /// The job of a run with this setting; everything else is as in `job`.
     pub fn job(&self, job: &Job) -> Job {
         Job {
             method: Some(self.method()),
@@ -143,7 +143,7 @@ impl Setting {
         }
     }
 
-    /// Whether it differs from another setting only in the length of its steps or its tolerance.
+    /// True if the setting differs from another one only in the length of steps or the tolerance.
     pub fn same_series(&self, other: &Setting) -> bool {
         let kinds = [self.pace, other.pace].map(|pace| matches!(pace, Pace::Step(_)));
         kinds[0] == kinds[1]
@@ -153,7 +153,7 @@ impl Setting {
             } == *other
     }
 
-    /// "located" or "passed".
+    /// What it does at kinks: "located" or "passed".
     pub fn kinks(&self) -> &'static str {
         match self.locate {
             true => "located",
@@ -161,7 +161,7 @@ impl Setting {
         }
     }
 
-    /// "dop853 at tolerance 3e-4 in f64"; settings that are not the usual ones follow.
+    /// The name of the setting: "dop853 at tolerance 3e-4 in f64"; properties with their usual values are left out.
     pub fn name(&self) -> String {
         let mut name = format!("{} at {}", self.scheme().name(), self.pace.name());
         if self.scalar != Scalar::F64 {
@@ -178,7 +178,7 @@ impl Setting {
 }
 
 impl Pace {
-    /// "tolerance 3e-4", "steps of 0.1 ms"
+    /// The name of the pace: "tolerance 3e-4", "steps of 0.1 ms"
     pub fn name(&self) -> String {
         match self {
             Pace::Step(step) => format!("steps of {}", time(*step)),
@@ -204,7 +204,7 @@ impl Curves {
     }
 }
 
-/// A length of time with the unit in which it has few digits, at most four.
+/// A length of time in the unit in which it is easiest to read, with at most four digits.
 pub fn time(seconds: f64) -> String {
     let (value, unit) = match seconds.abs() {
         s if s >= 1.0 || s == 0.0 => (seconds, "s"),
@@ -216,7 +216,7 @@ pub fn time(seconds: f64) -> String {
     format!("{rounded} {unit}")
 }
 
-/// Rounded to two digits: a time on a busy machine is not more precise.
+/// The value rounded to two digits: times on a busy machine are not more precise.
 pub fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }

@@ -1,11 +1,12 @@
-//! The study: the reference, then every setting once for its error, then again and again for its time.
+//! The study: computes the reference, then runs each setting once for its error, and again repeatedly for its time.
 //!
-//! The whole study keeps within a budget of time. A third of the budget is for the reference, a third for errors, the rest for times; time
-//! that one part does not need goes to the next.
+//! The study has a budget of time: a third for the reference, a third for errors, the rest for times. Time that one
+//! part does not need goes to the next.
 //!
-//! Errors are computed on all processors at once, in the order of `schedule`: first the coarse end of every series, then more points near
-//! the front of accuracy against time. A run that takes longer than its share is stopped. Times are measured one run after the other, in
-//! rounds over the points, those nearest to the front first, so that a disturbance of the machine slows all of them down.
+//! Errors are computed on all processors at once, in the order of `schedule`: first the coarse end of each series, then
+//! more points near the front of accuracy against time. A run that exceeds its time limit is stopped. Times are
+//! measured one run after another, in rounds over the points, those nearest to the front first, so that a disturbance
+//! of the machine slows all of them down.
 
 use super::closed_form::ClosedForm;
 use super::conclusion::bounded_by_stability;
@@ -32,7 +33,7 @@ pub struct Subject<'a> {
     pub model: &'a Model,
     /// Its equations, over every scalar.
     pub engine: &'a Engine,
-    /// The equations of the model with its curves exchanged, if there is such a model.
+    /// The equations of the model with its curves exchanged; `None` if no curve can be exchanged.
     pub exchanged: Option<&'a Engine>,
     /// The settings that are the same in all runs: duration, sampling, parameters.
     pub job: Job,
@@ -43,9 +44,9 @@ pub struct Subject<'a> {
 /// The effort of a study.
 #[derive(Clone, Debug)]
 pub struct Effort {
-    /// What is run.
+    /// The settings that are run.
     pub request: Request,
-    /// Repetitions of a point whose run is short.
+    /// Number of repetitions for points with short runs.
     pub repetitions: usize,
     /// Time for all runs together, without the reference \[s\].
     pub budget: f64,
@@ -68,19 +69,19 @@ pub struct Study {
     pub parameters: Vec<(String, f64, String)>,
     /// The reference that errors are measured against.
     pub reference: Reference,
-    /// The same for the model with its curves exchanged.
+    /// The model with its curves exchanged and its reference.
     pub exchanged: Option<Exchanged>,
-    /// Why the model with its curves exchanged is left out, though there is one.
+    /// The reason why the model with its curves exchanged is left out, although it exists.
     pub not_exchanged: Option<String>,
     /// Operations of one evaluation of the derivative.
     pub operations: Operations,
-    /// The error that the diagram and the sentence show.
+    /// The kind of error in the diagram and the sentence.
     pub of: Measure,
-    /// From series to series, from coarse to fine.
+    /// The points, series by series, each from coarse to fine.
     pub points: Vec<Point>,
-    /// The fastest motion, if stability and not accuracy bounds the steps of a method.
+    /// The fastest motion, if stability limits the steps of a method.
     pub fastest: Option<Fastest>,
-    /// Ctrl-C was pressed before the study was complete.
+    /// True if Ctrl-C was pressed before the study was complete.
     pub interrupted: bool,
     /// Total time of the study \[s\].
     pub took: f64,
@@ -102,40 +103,41 @@ pub struct Exchanged {
 pub enum Stage {
     /// The reference is computed.
     Reference,
-    /// The errors.
+    /// The errors are computed.
     Errors,
-    /// The times.
+    /// The times are measured.
     Times,
 }
 
-/// Why there is no study.
+/// Why a study could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// There is no reference to measure errors against.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
-    /// The error asked for does not exist.
+    /// The requested kind of error does not exist.
     #[error("{0}")]
     Measure(String),
 }
 
-/// The share of the budget for the reference, and for reference and errors together.
+/// The share of the budget for the reference; and for reference and errors together.
 const REFERENCE: f64 = 1.0 / 3.0;
 const ERRORS: f64 = 2.0 / 3.0;
 
-/// The share of the budget that one run may take.
+/// The share of the budget that is the time limit of one run.
 const SHARE: f64 = 1.0 / 20.0;
 
-/// Number of rounds in which all points take part; later rounds have only points with short runs.
+/// Number of rounds with all points; later rounds have only points with short runs.
 const ROUNDS_OF_ALL: usize = 3;
 
-/// A run shorter than this \[s\] is repeated as often as requested: longer runs scatter little.
+/// Length of a run below which it is repeated as often as requested \[s\]; the times of longer runs scatter little.
 const SHORT: f64 = 20e-3;
 
-/// Carries out the study. `progress` is called with the stage and the share of it that is done.
+/// Carries out the study. `of` chooses the kind of error from the readings. `progress` is called with the stage and the
+/// share of it that is done.
 ///
 /// # Errors
-/// There is no reference, or a program does not run.
+/// There is no reference, or the requested kind of error does not exist.
 pub fn study(
     subject: &Subject<'_>,
     environment: Environment,
@@ -216,7 +218,7 @@ pub fn study(
 
 impl Exchanged {
     fn of(written: &Reference, mut own: Reference) -> Exchanged {
-        // The same readings as of the written model, so that errors are in the same columns.
+        // the same readings as for the written model, so that errors are in the same columns
         let again = |reading: &Reading| reading.again(&own.trajectory);
         let readings: Vec<Reading> = written.readings.iter().map(again).collect();
         let errors = own.own.readings.iter().copied().fold(0.0, f64::max);
@@ -238,7 +240,7 @@ impl Exchanged {
 }
 
 impl Study {
-    /// The errors of the reference that belongs to a point's curves.
+    /// The errors of the reference for points with these curves.
     pub fn own(&self, curves: Curves) -> &Own {
         match (&self.exchanged, curves) {
             (Some(exchanged), Curves::Exchanged) => &exchanged.reference.own,
@@ -247,7 +249,7 @@ impl Study {
     }
 }
 
-/// The references and settings that all runs are measured with.
+/// Runs settings and measures their errors and times.
 struct Bench<'a> {
     subject: &'a Subject<'a>,
     reference: &'a Reference,
@@ -272,7 +274,8 @@ impl Bench<'_> {
         }
     }
 
-    /// Runs every setting once, as far as the budget allows; the points are in the order of the series, from coarse to fine.
+    /// Runs each setting once, as far as the budget allows. The points are in the order of the series, each from coarse
+    /// to fine.
     fn errors(&self, all: &[Series], progress: &mut dyn FnMut(Stage, f64)) -> Vec<Point> {
         let end = self.clock.left(ERRORS);
         let schedule = Schedule::new(all, SHARE * self.clock.budget, end);
@@ -294,7 +297,7 @@ impl Bench<'_> {
         points
     }
 
-    /// The error asked for and the time of a run; infinite if there is none.
+    /// The error and the time of a run; infinite if the run has no result.
     fn cost(&self, setting: &Setting, status: &Status) -> Cost {
         match status {
             Status::Done(done) => Cost {
@@ -310,7 +313,7 @@ impl Bench<'_> {
         }
     }
 
-    /// One run, which may take `limit` \[s\].
+    /// Runs a setting with this time limit \[s\].
     fn run(&self, setting: &Setting, limit: f64) -> Status {
         let job = Job {
             time_limit: run::limit(limit),
@@ -319,7 +322,7 @@ impl Bench<'_> {
         let outcome = run::run(self.engine(setting.curves), &job);
         let report = match outcome.result {
             Ok(report) => report,
-            // the limit is that of this study, so the setting is skipped, not failed
+            // the time limit is due to the budget, so the setting counts as skipped instead of failed
             Err(error) if error.kind == ErrorKind::Time => {
                 return Status::Skipped(format!(
                     "stopped after {}, its share of the time (--budget)",
@@ -349,12 +352,12 @@ impl Bench<'_> {
             operations: self.operations.of_run(&report, entries),
             report,
             order: None,
-            // A first value, until the run is timed alone.
+            // a first value, until the run is timed alone
             timing: Timing::of(&[outcome.took.as_secs_f64()]),
         }))
     }
 
-    /// Times the points that are done again, in rounds, those nearest to the front first.
+    /// Measures the times of the points that are done, in rounds, those nearest to the front first.
     fn time(&self, points: &mut [Point], effort: &Effort, progress: &mut dyn FnMut(Stage, f64)) {
         let costs: Vec<Cost> = points
             .iter()
@@ -388,7 +391,7 @@ impl Bench<'_> {
                 if interrupt::asked() {
                     break 'rounds;
                 }
-                // the point keeps the time that was measured with its error
+                // the run failed this time: the earlier measurements remain
                 if outcome.result.is_err() {
                     continue;
                 }
@@ -408,21 +411,21 @@ impl Bench<'_> {
     }
 }
 
-/// The use of the budget.
+/// The budget and the time when it began.
 #[derive(Clone, Copy, Debug)]
 struct Clock {
     start: Instant,
-    /// \[s\]
+    /// The whole budget \[s\].
     budget: f64,
 }
 
 impl Clock {
-    /// The time that is left of the first part of the budget \[s\]; negative if more was used.
+    /// The time that is left of the share `part` of the budget \[s\]; negative if more was used.
     fn rest(&self, part: f64) -> f64 {
         part * self.budget - self.start.elapsed().as_secs_f64()
     }
 
-    /// The same, but at least a hundredth of the whole budget.
+    /// The time that is left of the share `part` of the budget \[s\], but at least a hundredth of the whole budget.
     fn left(&self, part: f64) -> f64 {
         self.rest(part).max(0.01 * self.budget)
     }

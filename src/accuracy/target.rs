@@ -1,14 +1,16 @@
-//! A run as accurate as requested, with an estimate of its error.
+//! Computes a run of a requested accuracy, with an estimate of its error.
 //!
-//! The error refers to the printed numbers: for each output, the largest difference over all samples, relative to the output's largest
-//! magnitude in the run. A run at tolerance τ is compared with one at τ/10, this one with one at τ/100, and so on. The sharpest run is the
-//! result, and its difference from the one before is the estimate of its error. Where the error is proportional to the tolerance, the true
-//! error of the result is a ninth of the estimate; this margin covers kinks and friction, which make the error fall unevenly. A difference
-//! that is small by accident does not count: across a kink of a force the error falls at least like the root of the tolerance. So the
-//! estimate is never less than the estimate before over √10, and there is always one before.
+//! The error is that of the printed numbers: for each output, the largest difference over all samples, relative to the
+//! output's largest magnitude in the run. A run at tolerance τ is compared with one at τ/10, this one with one at
+//! τ/100, and so on. The sharpest run is the result, and its difference from the run before is the estimate of its
+//! error. If the error is proportional to the tolerance, the true error of the result is a ninth of the estimate. This
+//! margin is for kinks and friction, with which errors decrease unevenly. A difference may be small by accident: across
+//! a kink of a force the error decreases at least like the root of the tolerance. So an estimate is never less than the
+//! one before over √10, and there always is one before.
 //!
-//! The choice of the method follows the diagrams of `bryant accuracy` for the bundled models. Tsitouras 5(4) is on the front down to about
-//! 1e-7, Dormand–Prince 8(5,3) with kinks located below. Where the scene is stiff, either changes to the Rosenbrock method.
+//! The method is chosen by the diagrams of `bryant accuracy` for the bundled models: Tsitouras 5(4) is on the front
+//! down to about 1e-7, Dormand–Prince 8(5,3) with kinks located below. Where the scene is stiff, both change to the
+//! Rosenbrock method.
 
 use super::conditioning;
 use super::setting::{Curves, Pace, Setting};
@@ -21,19 +23,20 @@ use bryant_runtime::response::Answer;
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// Smaller tolerances are lost in rounding errors.
+/// Smallest tolerance; rounding errors make smaller ones useless.
 pub(super) const FINEST: f64 = 1e-13;
-/// The first tolerance is at most this.
+/// Largest tolerance of the first run.
 const COARSEST: f64 = 0.1;
-/// An estimate is at least this share of the one before: 1/√10.
+/// Least ratio of an estimate to the one before: 1/√10.
 const LEAST: f64 = 0.316;
-/// For accuracies below this the method of order 8 is cheapest.
+/// Accuracy below which the method of order 8 is cheapest.
 const HIGH: f64 = 1e-7;
-/// Outputs smaller than this share of the largest one with the same unit are noise; their error does not matter.
+/// Size below which an output is noise whose error does not matter, as a share of the largest output with the same
+/// unit.
 const NOISE: f64 = 1e-9;
-/// A signal that has fallen to this share of its size in the first run shrinks with the tolerance.
+/// A signal whose size has fallen to this share of that in the first run counts as decreasing with the tolerance.
 pub(super) const SHRUNK: f64 = 1e-2;
-/// An output that agrees this well is known, even if it is small.
+/// An output whose difference is smaller is known, even if the output is small.
 const NEGLIGIBLE: f64 = 1e-3;
 
 /// A run that is as accurate as requested, or as accurate as possible.
@@ -41,9 +44,9 @@ const NEGLIGIBLE: f64 = 1e-3;
 pub struct Accurate {
     /// The sharpest run.
     pub recording: Recording,
-    /// How it was computed.
+    /// The setting of this run.
     pub setting: Setting,
-    /// Estimated error; `None` if nothing could be compared because too many runs failed.
+    /// Estimated error; `None` if no two runs could be compared, because runs failed.
     pub estimate: Option<Difference>,
     /// Number of runs that were needed.
     pub runs: usize,
@@ -52,21 +55,22 @@ pub struct Accurate {
 /// The difference of two runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// For each output, relative to its largest magnitude; 0 for noise.
+    /// The difference of each output, relative to its largest magnitude; 0 for noise.
     pub outputs: Vec<f64>,
-    /// The largest of these.
+    /// The largest of the differences of outputs.
     pub worst: f64,
     /// Name of the output with the largest difference, "" if there is none.
     pub output: String,
-    /// For each response asked for, relative to itself; empty if either run has none. They are not part of [`Difference::worst`].
+    /// The difference of each requested response, relative to itself; empty if one of the runs has no responses. They
+    /// do not affect [`Difference::worst`].
     pub responses: Vec<f64>,
-    /// The largest of these, without those of signals that are noise or vanish.
+    /// The largest of the differences of responses, without responses of signals that are noise or vanish.
     pub worst_response: f64,
-    /// Outputs below their floors that do not agree.
+    /// Outputs that differ, but are below their floors.
     pub vanishing: Vec<Vanishing>,
 }
 
-/// An output that is known only by a bound, such as one that is exactly 0 and shrinks with the tolerance.
+/// An output of which only a bound is known, such as one that is exactly 0 and decreases with the tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vanishing {
     /// Its name.
@@ -78,14 +82,15 @@ pub struct Vanishing {
 }
 
 impl Difference {
-    /// The difference of the outputs of a run from those of a sharper run. Infinite if one of them has fewer samples.
+    /// The difference of the outputs of a run from those of a sharper run; infinite if one of them has fewer samples.
     pub fn of(coarse: &Table, sharp: &Table) -> Difference {
         Self::beyond(coarse, sharp, &[])
     }
 
-    /// The same with floors: an output that is nowhere larger than its floor is vanishing, and its error does not count.
+    /// The difference of the outputs as [`Difference::of`] computes it, with floors: an output that never exceeds its
+    /// floor is vanishing, and its error does not count.
     pub fn beyond(coarse: &Table, sharp: &Table, floors: &[f64]) -> Difference {
-        // the first column is time
+        // the first column is the time
         let columns: Vec<(&Column, &Column)> =
             coarse.columns.iter().zip(&sharp.columns).skip(1).collect();
         let size = |(a, b): &(&Column, &Column)| largest(&a.values).max(largest(&b.values));
@@ -131,8 +136,9 @@ impl Difference {
         }
     }
 
-    /// Adds the differences of the responses of both runs; `asked` are the responses. A response of a signal that has fallen below a
-    /// hundredth of its size in the `first` run does not count, nor does one of a single output that is nowhere larger than its floor.
+    /// Adds the differences of the responses `asked` of both runs. Some responses do not count: those of signals that
+    /// are noise, those of signals that have fallen below a hundredth of their size in the `first` run, and those of a
+    /// single output that never exceeds its floor.
     pub fn with_responses(
         self,
         asked: &[Asked],
@@ -146,7 +152,7 @@ impl Difference {
             let first = channel.outputs().first().filter(|_| keeps)?;
             Some(sharp.header.outputs.get(*first)?.unit.as_str())
         };
-        // the largest value with each unit, among rows and samples
+        // the largest value for each unit, in rows and in samples
         let columns = sharp.table.columns.iter().skip(1);
         let rows = columns.map(|column| (Some(column.unit.as_str()), largest(&column.values)));
         let samples = asked.iter().zip(&sharp.answers);
@@ -185,7 +191,7 @@ impl Difference {
         }
     }
 
-    /// Raises each error to at least this share of the error in `other`.
+    /// Raises each error to at least the share `share` of the error in `other`.
     fn at_least(mut self, other: Option<&Difference>, share: f64) -> Difference {
         let Some(other) = other else { return self };
         for (error, other) in self.outputs.iter_mut().zip(&other.outputs) {
@@ -203,7 +209,7 @@ impl Difference {
     }
 }
 
-/// The difference of two values; infinite if only one of them is a number.
+/// The difference of two values; infinite if exactly one of them is NaN.
 fn apart(a: f64, b: f64) -> f64 {
     match a == b || (a.is_nan() && b.is_nan()) {
         true => 0.0,
@@ -213,7 +219,7 @@ fn apart(a: f64, b: f64) -> f64 {
     }
 }
 
-/// The largest of some sizes with each unit.
+/// The largest size for each unit.
 fn largest_by_unit<U: Eq + Hash>(sizes: impl Iterator<Item = (U, f64)>) -> HashMap<U, f64> {
     let mut scales = HashMap::new();
     for (unit, size) in sizes {
@@ -228,8 +234,8 @@ pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0f64, |m, x| m.max(x.abs()))
 }
 
-/// Runs a job until the estimated error of its outputs and responses is at most `wanted`; `progress` is called with the share of a run that
-/// is done. If a run fails, the recording holds the reason.
+/// Runs a job until the estimated error of its outputs and responses is at most `wanted`. `progress` is called with the
+/// share of a run that is done. If a run fails, the recording has the reason.
 pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64)) -> Accurate {
     let mut setting = Setting {
         formula: if wanted < HIGH {
@@ -270,7 +276,7 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         };
         let sharper = simulation::run(model, &next.job(job), progress);
         if interrupted(&sharper) {
-            // the run before is complete
+            // the user stopped the sharper run; the run before is complete
             break;
         }
         runs += 1;
@@ -307,16 +313,16 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
     }
 }
 
-/// Whether the user stopped the run.
+/// True if the user stopped the run.
 fn interrupted(recording: &Recording) -> bool {
     matches!(&recording.result, Err(error) if error.kind == ErrorKind::Stopped)
 }
 
-/// Another setting that computes the run, sharper and by another formula, with kinks located.
+/// A setting for a check of a run: sharper, by another formula, with kinks located.
 pub fn second_opinion(setting: &Setting) -> Setting {
     let tolerance = match setting.pace {
         Pace::Tolerance(tolerance) => tolerance,
-        // nobody knows the accuracy of a fixed step
+        // the accuracy of a fixed step is not known
         Pace::Step(_) => 1e-6,
     };
     Setting {
@@ -332,7 +338,7 @@ pub fn second_opinion(setting: &Setting) -> Setting {
     }
 }
 
-/// Rounded to two digits, as a person would write it.
+/// The tolerance rounded to two digits.
 pub(super) fn rounded(tolerance: f64) -> f64 {
     format!("{tolerance:.1e}").parse().unwrap_or(tolerance)
 }

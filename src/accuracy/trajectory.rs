@@ -1,9 +1,9 @@
-//! The samples of a run. A norm compares their states; readings are compared one by one.
+//! The samples of a run, which are compared by a norm (states) or by readings (outputs).
 
 /// Samples of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trajectory {
-    /// \[s\], increasing.
+    /// Times \[s\], increasing.
     pub times: Vec<f64>,
     /// For each sample: coordinates, velocities, and states of force laws; orientations in space are quaternions.
     pub states: Vec<Vec<f64>>,

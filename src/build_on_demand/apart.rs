@@ -1,31 +1,32 @@
-//! Compiles what the engine cannot evaluate as a small library of its own, which this process loads.
+//! Compiles functions of user forces, or a generated model, as a small library, which this process loads.
 //!
 //! ```text
 //! scalars, curves, force laws ─rustc→ libbryant_runtime.rlib (once for each compiler) ┐
 //! functions of the user's, or one generated module ───────────────────────────────────┴─rustc→ library
 //! ```
 //!
-//! Libraries are cached by their text, the compiler and the options. The same text is not compiled again, in another model or by another
-//! build of this program.
+//! Libraries are cached by their text, the compiler and the options. The same text is not compiled again for another
+//! model, or by another build of this program.
 
 use super::library::{LoadError, names};
 use super::{BuildError, Cache, Rustc, Stage, Text, entry_name, rustc, write};
 use bryant_generator::target::rust::Apart;
 use std::path::{Path, PathBuf};
 
-/// The text of a library.
+/// The parts of the text of a library.
 pub(super) struct Source<'a> {
     /// Name of the model.
     pub name: &'a str,
-    /// The generated module.
+    /// The module with the user's functions, or of the generated model.
     pub module: &'a str,
-    /// The exported functions of the library.
+    /// The text of the exported functions.
     pub exports: &'a str,
-    /// The user's texts in it.
+    /// The user's texts in the module.
     pub texts: &'a [Text<'a>],
 }
 
-/// The path of the library, from the cache or newly compiled. `stage` is called before each step that takes time.
+/// The path of the library, which is compiled unless it is in the cache. `stage` is called before each step that takes
+/// time.
 pub(super) fn library(
     rustc: &Rustc,
     source: &Source<'_>,
@@ -62,7 +63,7 @@ pub(super) fn library(
                     crate_type,
                     crate_name,
                     "--cfg=feature=\"std\"",
-                    // without the time loop, which is not used there
+                    // leaves out the time loop, which these libraries do not use
                     "--cfg=bryant_equations",
                 ],
                 &directory.join(runtime),
@@ -88,7 +89,7 @@ pub(super) fn library(
     })
 }
 
-/// Whether a file belongs to the part of the runtime whose root is `equations.rs`.
+/// True if a file belongs to the part of the runtime whose root is `equations.rs`.
 fn belongs(path: &str) -> bool {
     let files = [
         "apart.rs",
@@ -104,7 +105,7 @@ fn belongs(path: &str) -> bool {
     !tests && (files.contains(&path) || folders.iter().any(|folder| path.starts_with(folder)))
 }
 
-/// An error of loading, with the remedy.
+/// The error for a library that cannot be loaded; its remedy names the directory of the library.
 pub(super) fn unusable(path: &Path, source: LoadError) -> BuildError {
     BuildError::Load {
         path: path.parent().unwrap_or(path).to_owned(),
@@ -112,8 +113,8 @@ pub(super) fn unusable(path: &Path, source: LoadError) -> BuildError {
     }
 }
 
-/// The part that every library exports. Output of its functions goes to standard error with a prefix, because standard output is for
-/// results.
+/// The text that begins every library. It redirects printed output to standard error with a prefix, because standard
+/// output is for results.
 fn start() -> String {
     format!(
         "\
@@ -145,7 +146,7 @@ unsafe extern \"C\" fn {}(place: *mut u8, length: usize) -> usize {{
     )
 }
 
-/// The exports of a library of user functions.
+/// The text of the exports of a library of user functions.
 pub(super) fn exports_of_functions(apart: &Apart) -> String {
     let mut text = "//! Functions of a user's, to be loaded; written by bryant.\n".to_owned();
     text += &start();
@@ -179,7 +180,7 @@ extern \"C\" fn {}(function: u32, base: u32, order: u32) -> Option<apart::Call> 
     )
 }
 
-/// The exports of a library of a generated model, with a Jacobian or without.
+/// The text of the exports of a library of a generated model, with a Jacobian or without.
 pub(super) fn exports_of_model(jacobian: bool) -> String {
     let jacobian = match jacobian {
         true => "ByDuals",

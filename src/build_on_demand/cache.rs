@@ -1,7 +1,7 @@
-//! A cache directory of finished entries: an entry is complete, or it does not exist.
+//! A cache directory: an entry in it is complete, or does not exist.
 //!
-//! What is in it is loaded and run. So it must belong to this user or to root, nobody else may write into it, and the file of an entry is
-//! compared with its length and its SHA-256, which stand beside it.
+//! The files in it are loaded and run. So the directory must belong to this user or to root, and nobody else may write
+//! into it. The file of an entry must have the length and the SHA-256 that a file beside it says.
 
 use super::{BuildError, HOME};
 use sha2::{Digest, Sha256};
@@ -10,12 +10,12 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Prefix of the names of directories that are being filled.
+/// Prefix of the names of directories that are still being filled.
 const BUILDING: &str = ".building-";
-/// A directory that is this old is not being filled any more.
+/// A directory that is older is not being filled any more.
 const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
-/// Where compiled models are kept.
+/// The directory of compiled libraries.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cache {
     /// The directory; it need not exist.
@@ -40,7 +40,7 @@ impl Cache {
             _ => home.join(".cache"),
         });
         let root = variable("BRYANT_CACHE")
-            // the XDG specification says that relative paths are ignored
+            // a relative path is ignored, as the XDG specification says
             .or_else(|| {
                 variable("XDG_CACHE_HOME")
                     .filter(|p| p.is_absolute())
@@ -50,7 +50,8 @@ impl Cache {
         root.map(|root| Self { root }).ok_or(BuildError::NoCache)
     }
 
-    /// The file `file` of an entry; if the entry does not exist, `build` fills a directory that becomes the entry.
+    /// The path of `file` in the entry `name`. If the entry does not exist, `build` fills a directory that becomes the
+    /// entry.
     pub fn entry(
         &self,
         name: &str,
@@ -80,14 +81,14 @@ impl Cache {
             sync_directory(&self.root);
             return Ok(wanted);
         };
-        // Another run was faster, or an entry with a missing or damaged file is in the way.
+        // Another process was faster; or an entry with a missing or damaged file is in the way, and is replaced.
         let moved = if self.has(&entry, &wanted)? {
             Ok(())
         } else {
             remove(&entry).and_then(|()| std::fs::rename(&built, &entry))
         };
         if built.exists() {
-            // A directory that cannot be removed does no harm: its name is never looked for.
+            // A directory that remains does no harm, because nothing looks for its name.
             let _ = remove(&built);
         }
         match moved {
@@ -97,10 +98,10 @@ impl Cache {
         }
     }
 
-    /// Whether an entry has its file, undamaged.
+    /// True if an entry has its file, undamaged.
     ///
     /// # Errors
-    /// Others may have written it.
+    /// Other users may have written the entry.
     fn has(&self, entry: &Path, wanted: &Path) -> Result<bool, BuildError> {
         if !wanted.is_file() {
             return Ok(false);
@@ -111,7 +112,7 @@ impl Cache {
         Ok(said.is_ok_and(|said| checksum(wanted).is_ok_and(|is| is == said)))
     }
 
-    /// Removes directories whose building began a day ago or earlier: the process that filled them was ended.
+    /// Removes directories that were begun more than a day ago: the processes that filled them have ended.
     fn remove_abandoned(&self) {
         let Ok(entries) = std::fs::read_dir(&self.root) else {
             return;
@@ -122,13 +123,13 @@ impl Cache {
             let age = age.map(|modified| modified.elapsed().unwrap_or_default());
             if name.to_string_lossy().starts_with(BUILDING) && age.is_ok_and(|age| age > ABANDONED)
             {
-                // a directory that cannot be removed does no harm
+                // a directory that remains does no harm
                 let _ = remove(&entry.path());
             }
         }
     }
 
-    /// Keeps the sources and messages of a failure for a report, in the directory `failed`.
+    /// Keeps the sources and messages of a failed compilation in the directory `failed`, for a report.
     pub fn keep_failure(&self, directory: &Path, messages: &str) -> PathBuf {
         let kept = self.root.join("failed");
         let copied = std::fs::create_dir_all(&kept).and_then(|()| {
@@ -139,7 +140,7 @@ impl Cache {
             }
             std::fs::write(kept.join("messages.txt"), messages)
         });
-        // if even this fails, the message still has the first error of the compiler
+        // if copying fails, the error still contains the first message of the compiler
         let _ = copied;
         kept
     }
@@ -152,17 +153,18 @@ impl Cache {
     }
 }
 
-/// The file with the length and the SHA-256 of another.
+/// The path of the file with the length and the SHA-256 of another file.
 fn seal_of(file: &Path) -> PathBuf {
     let mut name = file.as_os_str().to_owned();
     name.push(".sha256");
     name.into()
 }
 
-/// Writes the checksum of a file beside it, and both to the disk: after a loss of power they are there or do not fit.
+/// Writes the checksum of a file beside it, and flushes both to disk. After a loss of power, either both are complete,
+/// or the checksum does not fit.
 fn seal(directory: &Path, file: &str) -> io::Result<()> {
     let file = directory.join(file);
-    // with some settings of a user his group may write what he creates
+    // some users' settings let their group write new files
     #[cfg(unix)]
     for path in [directory, &file] {
         use std::os::unix::fs::PermissionsExt;
@@ -177,17 +179,17 @@ fn seal(directory: &Path, file: &str) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes a file to the disk.
+/// Flushes a file to disk.
 fn sync(file: &Path) -> io::Result<()> {
-    // Windows flushes only what is open for writing
+    // Windows flushes only files that are open for writing
     let file = std::fs::OpenOptions::new().write(true).open(file)?;
     file.sync_all()
 }
 
-/// Writes the names in a directory to the disk, where the system lets a program do that.
+/// Flushes the names in a directory to disk, if the system can.
 fn sync_directory(directory: &Path) {
     if let Ok(directory) = File::open(directory) {
-        // where directories cannot be flushed, the checksum finds what is missing
+        // if directories cannot be flushed, the checksum detects missing data
         let _ = directory.sync_all();
     }
 }
@@ -214,7 +216,7 @@ fn checksum(file: &Path) -> io::Result<String> {
     Ok(format!("{length} {}\n", hexadecimal.concat()))
 }
 
-/// Creates the directory; nobody else may read it or write into it. Those above it are created as usual.
+/// Creates a directory that nobody else may read or write. Directories above it are created as usual.
 fn create_private(path: &Path) -> io::Result<()> {
     if let Some(above) = path.parent() {
         std::fs::create_dir_all(above)?;
@@ -233,7 +235,8 @@ fn create_private(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Refuses a file or directory, behind all links, that belongs to someone other than this user and root, or that others may write.
+/// Refuses a file or directory that belongs to someone other than this user and root, or that others may write. Links
+/// are followed.
 #[cfg(unix)]
 #[expect(
     unsafe_code,
@@ -245,7 +248,7 @@ fn trusted(path: &Path) -> Result<(), BuildError> {
         path: path.to_owned(),
         source,
     })?;
-    // SAFETY: it has no arguments and cannot fail.
+    // SAFETY: the function has no arguments and cannot fail.
     let user = unsafe { libc::geteuid() };
     match is_safe(about.uid(), about.mode(), user) {
         Ok(()) => Ok(()),
@@ -256,13 +259,13 @@ fn trusted(path: &Path) -> Result<(), BuildError> {
     }
 }
 
-/// Other systems keep caches in directories of the user.
+/// Accepts every path: on other systems, caches are in directories of the user.
 #[cfg(not(unix))]
 fn trusted(_: &Path) -> Result<(), BuildError> {
     Ok(())
 }
 
-/// Whether only `user` and root decide what is in a file.
+/// Checks that only `user` and root can change a file; else returns the reason.
 #[cfg(unix)]
 fn is_safe(owner: u32, mode: u32, user: u32) -> Result<(), &'static str> {
     if owner != user && owner != 0 {

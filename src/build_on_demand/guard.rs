@@ -1,18 +1,19 @@
-//! What a user function may do to the whole program, and what the program says then.
+//! Guards the program against user functions that end it, crash or hang: the program reports what happened, and ends
+//! with an exit code.
 //!
-//! | the function | what happens |
+//! | the user function | what happens |
 //! |---|---|
-//! | calls `exit` | an exit handler of the system says so and ends the program with exit code 3 |
-//! | aborts, overflows its stack, reads memory that is not its own | a signal handler on its own stack says so and ends the program with
-//! exit code 3 |
-//! | does not return | a watching thread says so after ten seconds, or one second after Ctrl-C, and ends the program with exit code 3 |
-//! | prints | the output goes to standard error: standard output is moved out of its reach |
+//! | calls `exit` | an exit handler reports it and ends the program with exit code 3 |
+//! | aborts, overflows its stack, reads memory that is not its own | a signal handler, which has its own stack, reports it and ends the program with exit code 3 |
+//! | does not return | a watching thread reports it after ten seconds, or one second after Ctrl-C, and ends the program with exit code 3 |
+//! | prints | the output goes to standard error, because standard output is for results |
 //!
-//! A flag of each thread says which force it evaluates.
+//! Each thread has a flag that names the user function that it evaluates.
 //!
-//! On Windows a callback at the end of the thread that ends the process, and a handler of exceptions, take the place of exit and signal handlers. A
-//! function that aborts cannot be caught there: the system ends the program at once, with an exit code that is not 0. On systems that are neither
-//! Unix nor Windows there are only the flag and the watching thread.
+//! On Windows, exit and signal handlers are replaced by a callback at the end of the thread that ends the process, and
+//! by a handler of exceptions. Windows cannot catch a function that aborts: the system ends the program at once, with
+//! an exit code that is not 0. On systems that are neither Unix nor Windows there are only the flag and the watching
+//! thread.
 #![expect(
     unsafe_code,
     reason = "handlers of exits and signals are the system's; threads read what others point to"
@@ -24,21 +25,21 @@ use std::sync::atomic::{AtomicPtr, AtomicU64, Ordering};
 use std::sync::{Mutex, Once, PoisonError};
 use std::time::Duration;
 
-/// Exit code if a user function ended the program: the simulation failed on the way.
+/// Exit code if a user function ended the program: that of a simulation that failed.
 pub const EXIT_CODE: i32 = 3;
 
-/// A description of a user function, for people: the user force "drag" (drag.rs).
+/// The name of a user function for people: the user force "drag" (drag.rs).
 #[derive(Debug)]
 pub struct What(String);
 
 impl What {
-    /// The text is kept until the process ends, because signal handlers read it.
+    /// Makes a name, which is kept until the process ends, because signal handlers read it.
     pub fn new(text: String) -> &'static What {
         Box::leak(Box::new(What(text)))
     }
 }
 
-/// The user function that a thread evaluates, for the watching thread.
+/// The calls of user functions on one thread, for the watching thread.
 struct Calls {
     /// Number of calls that have begun.
     count: AtomicU64,
@@ -50,7 +51,7 @@ struct Calls {
 static THREADS: Mutex<Vec<&'static Calls>> = Mutex::new(Vec::new());
 
 thread_local! {
-    /// The function that is being evaluated on this thread.
+    /// The function that this thread evaluates, for exit and signal handlers.
     static INSIDE: Cell<Option<&'static What>> = const { Cell::new(None) };
     static CALLS: &'static Calls = {
         let calls: &'static Calls = Box::leak(Box::new(Calls {
@@ -64,7 +65,7 @@ thread_local! {
     };
 }
 
-/// While this value lives, a user function is being evaluated on this thread.
+/// A guard that lives while a user function is evaluated on this thread.
 pub struct Inside(&'static Calls);
 
 impl Inside {
@@ -90,18 +91,18 @@ impl Drop for Inside {
     }
 }
 
-/// Time between two looks at the threads.
+/// Time between two looks of the watching thread at all calls.
 const LOOK: Duration = Duration::from_millis(250);
-/// A call does not return if this many looks find it: ten seconds, in which a function is otherwise called a million times. Looks are
-/// counted instead of time, so that a halted process is not accused.
+/// Number of looks after which a call is reported as not returning: ten seconds, in which most functions return a
+/// million times. Looks are counted instead of time, so that a process that was halted is not accused.
 const PATIENCE: u32 = 40;
-/// The same after Ctrl-C, which cannot be handled during a call.
+/// The same number after Ctrl-C, which cannot be handled during a call.
 const PATIENCE_WHEN_INTERRUPTED: u32 = 4;
 
 /// Starts the watching thread.
 fn look_on() {
     static ONCE: Once = Once::new();
-    // without this thread, an endless call goes on for ever
+    // if the thread cannot be started, an endless call is not detected
     ONCE.call_once(|| drop(std::thread::Builder::new().spawn(look_for_ever)));
 }
 
@@ -141,7 +142,7 @@ fn look_for_ever() {
 
 /// Ends the program at once.
 fn end() -> ! {
-    // SAFETY: it ends the program at once; exit handlers would wait for the call.
+    // SAFETY: it ends the program at once, without exit handlers, which would wait for the call.
     #[cfg(unix)]
     unsafe {
         libc::_exit(EXIT_CODE)
@@ -152,8 +153,8 @@ fn end() -> ! {
     std::process::exit(EXIT_CODE)
 }
 
-/// Ensures that no user function ends the program without a message. It is to be called before the first [`Inside`]; calling it more often
-/// does no harm.
+/// Starts watching user functions, so that none ends the program without a message. Must be called before the first
+/// [`Inside`]; further calls do nothing.
 pub fn watch() {
     look_on();
     #[cfg(unix)]
@@ -162,8 +163,8 @@ pub fn watch() {
     windows::watch();
 }
 
-/// Standard output for results only: from now on, all other writes to standard output go to standard error. If that is not possible,
-/// standard output stays as it was.
+/// Returns standard output for results. From then on, all other writes to standard output go to standard error. If this
+/// is not possible, standard output stays as it is.
 pub fn stdout_for_results() -> Box<dyn Output> {
     #[cfg(unix)]
     if let Some(file) = unix::moved_stdout() {
@@ -178,7 +179,7 @@ pub fn stdout_for_results() -> Box<dyn Output> {
 
 /// A place where results are written.
 pub trait Output: std::io::Write + std::io::IsTerminal {
-    /// Width of a line in characters, if it is a terminal.
+    /// Width of a line in characters; `None` if the output is not a terminal.
     fn width(&self) -> Option<usize>;
 }
 
@@ -197,7 +198,7 @@ impl Output for std::fs::File {
     }
 }
 
-/// What is said when a function ends the program.
+/// The messages when a function ends the program.
 #[cfg(any(unix, windows))]
 mod words {
     pub const HELP: &str = "\n  help: correct the function\n";
@@ -230,16 +231,17 @@ mod unix {
         (SIGFPE, DIVISION),
     ];
 
-    /// The handlers of these signals before: they are called if the fault is not in a user function.
+    /// The earlier handlers of these signals, which are called if a fault is not in a user function.
     static BEFORE: OnceLock<[sigaction; 5]> = OnceLock::new();
-    /// If two threads fail at once, only the first one reports.
+    /// True once a thread reports; if two threads fail at once, only the first one reports.
     static TOLD: AtomicBool = AtomicBool::new(false);
 
     pub fn watch() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {
-            // SAFETY: the handlers live as long as the program and use only what a signal handler may use: a constant flag of the thread,
-            // `write`, `_exit`, `sigaction` and `raise`. A structure of zeros has no flags.
+            // SAFETY: the handlers live as long as the program and use only what is allowed in a signal handler: a
+            // constant flag of the thread, `write`, `_exit`, `sigaction` and `raise`. A structure of zeros has no
+            // flags.
             unsafe {
                 libc::atexit(exiting);
                 let none: sigaction = std::mem::zeroed();
@@ -259,7 +261,8 @@ mod unix {
         });
     }
 
-    /// Reports what happened to the user function on this thread, and ends the program. It returns if there is none.
+    /// Reports what the user function on this thread did, and ends the program. Returns if the thread is not in a user
+    /// function.
     fn tell(what: &str, help: &str) {
         let Some(inside) = INSIDE.get() else {
             return;
@@ -267,7 +270,7 @@ mod unix {
         if TOLD.swap(true, Ordering::Relaxed) {
             // another thread is reporting, and ends the program
             loop {
-                // SAFETY: it only waits for a signal.
+                // SAFETY: the call only waits for a signal.
                 unsafe { libc::pause() };
             }
         }
@@ -288,8 +291,8 @@ mod unix {
             return;
         };
         tell(SIGNALS[index].1, HELP);
-        // SAFETY: the system returned the handler before. After this function returns, the fault happens again, and a signal that was sent
-        // is sent again.
+        // SAFETY: `before` is the handler that the system returned earlier. It handles the fault, which happens again
+        // when this function returns; a signal that was sent by a process is raised again here.
         unsafe {
             sigaction(signal, &before[index], std::ptr::null_mut());
             if (*about).si_code <= 0 {
@@ -299,7 +302,7 @@ mod unix {
     }
 
     pub fn moved_stdout() -> Option<File> {
-        // SAFETY: the descriptor is new and has no other owner.
+        // SAFETY: the new descriptor has no other owner.
         unsafe {
             let kept = libc::fcntl(1, libc::F_DUPFD_CLOEXEC, 3);
             if kept < 0 {
@@ -343,43 +346,45 @@ mod windows {
         (EXCEPTION_INT_DIVIDE_BY_ZERO, DIVISION),
         (EXCEPTION_INT_OVERFLOW, DIVISION),
     ];
-    /// What a handler returns so that the system goes on looking for handlers.
+    /// Result of an exception handler: the system shall try the next handler.
     const CONTINUE_SEARCH: i32 = 0;
 
-    /// If two threads fail at once, only the first one reports.
+    /// True once a thread reports; if two threads fail at once, only the first one reports.
     static TOLD: AtomicBool = AtomicBool::new(false);
 
-    /// The place of each thread whose callback the system calls when the thread ends, or the process by it; none before [`watch`].
+    /// Index of the local storage whose callback the system calls when a thread, or the process in it, ends; none
+    /// before [`watch`].
     static PLACE: AtomicU32 = AtomicU32::new(FLS_OUT_OF_INDEXES);
 
     pub fn watch() {
         static ONCE: Once = Once::new();
         // SAFETY: handler and callback live as long as the program.
         ONCE.call_once(|| unsafe {
-            // the first of all handlers: that of the standard library leaves little of a stack that is full
+            // called first of all handlers, because that of the standard library leaves too little of a full stack
             AddVectoredExceptionHandler(1, Some(failed));
             PLACE.store(FlsAlloc(Some(ending)), Ordering::Relaxed);
         });
     }
 
-    /// The same for `exit` on this thread.
+    /// Makes the system call the callback when this thread calls `exit`.
     pub fn watch_thread() {
         let place = PLACE.load(Ordering::Relaxed);
         if place != FLS_OUT_OF_INDEXES {
             let any = std::ptr::from_ref(&PLACE).cast();
-            // SAFETY: the callback is called where there is any value, and does not use it.
+            // SAFETY: any value that is not null makes the system call the callback, which does not use it.
             unsafe { FlsSetValue(place, any) };
         }
     }
 
     /// Ends the program at once.
     pub fn end() -> ! {
-        // SAFETY: it ends this process, without calling what waits for its end.
+        // SAFETY: it ends this process at once, without exit handlers.
         unsafe { TerminateProcess(GetCurrentProcess(), EXIT_CODE as u32) };
         std::process::abort()
     }
 
-    /// Reports what happened to the user function on this thread, and ends the program. It returns if there is none.
+    /// Reports what the user function on this thread did, and ends the program. Returns if the thread is not in a user
+    /// function.
     fn tell(what: &str, help: &str) {
         let Some(inside) = INSIDE.try_with(Cell::get).ok().flatten() else {
             return;
@@ -410,7 +415,8 @@ mod windows {
         tell(EXITED, "");
     }
 
-    /// A terminal stays as it is: the library writes characters to it, and a file would write bytes in another encoding.
+    /// Moves standard output as on Unix, but not if it is a terminal: the library writes characters to terminals, and a
+    /// file would write bytes in another encoding.
     pub fn moved_stdout() -> Option<File> {
         let stdout = std::io::stdout();
         if stdout.is_terminal() || crate::process::stdout_was_closed() {
@@ -418,7 +424,7 @@ mod windows {
         }
         let kept = stdout.as_handle().try_clone_to_owned().ok()?;
         let other = std::io::stderr().as_raw_handle();
-        // SAFETY: it only sets which handle the process takes for standard output; that of standard error stays open.
+        // SAFETY: it only sets the process's handle of standard output; that of standard error stays open.
         (unsafe { SetStdHandle(STD_OUTPUT_HANDLE, other) } != 0).then(|| File::from(kept))
     }
 }

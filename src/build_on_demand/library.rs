@@ -1,7 +1,8 @@
-//! A library that was compiled on demand and loaded into this process. Addresses from it are called only in this file.
+//! A library that was compiled on demand and loaded into this process. Only this file calls functions by their
+//! addresses in it.
 //!
-//! [`apart`](super::apart) writes the exports of a library, and `bryant_runtime::apart` has both sides of each call. A library stays loaded
-//! until the process ends, because its functions may be called from anywhere.
+//! [`apart`](super::apart) writes the exports of a library; `bryant_runtime::apart` has the caller's and the callee's
+//! side of each call. A library stays loaded until the process ends, because anything may still call its functions.
 #![expect(
     unsafe_code,
     reason = "what is loaded is called by its address; the compiler does not see that it fits"
@@ -16,11 +17,11 @@ use std::path::Path;
 
 /// Names of the exports of a library.
 pub mod names {
-    /// `extern "C" fn() -> u32`: returns [`VERSION`](super::VERSION); from then on panics are recorded.
+    /// `extern "C" fn() -> u32`: starts to record panics, and returns [`VERSION`](super::VERSION)
     pub const START: &str = "bryant_start";
-    /// `extern "C" fn(function: u32, base: u32, order: u32) -> Option<Call>`
+    /// `extern "C" fn(function: u32, base: u32, order: u32) -> Option<Call>`: finds a user function
     pub const FUNCTION: &str = "bryant_function";
-    /// `unsafe extern "C" fn(place: *mut u8, length: usize) -> usize`
+    /// `unsafe extern "C" fn(place: *mut u8, length: usize) -> usize`: writes the last panic
     pub const SAID: &str = "bryant_said";
     /// [`Make`](super::Make)
     pub const MAKE: &str = "bryant_make";
@@ -37,10 +38,10 @@ type Said = unsafe extern "C" fn(place: *mut u8, length: usize) -> usize;
 /// Why a library cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    /// The system cannot load it, or it lacks a function.
+    /// The system cannot load the library, or the library lacks an export.
     #[error("{0}")]
     System(#[from] libloading::Error),
-    /// It was written by another version.
+    /// Another version of the program wrote the library.
     #[error("it was written by another version of this program")]
     Version,
 }
@@ -48,7 +49,7 @@ pub enum LoadError {
 /// The message and the place of a panic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Panic {
-    /// The file; empty if it is not known.
+    /// The source file; empty if it is not known.
     pub file: String,
     /// The line, counted from 1.
     pub line: usize,
@@ -67,11 +68,12 @@ struct Loaded {
 
 impl Loaded {
     fn open(path: &Path) -> Result<Self, LoadError> {
-        // SAFETY: the library was compiled from text that this program wrote around user functions, and does nothing when it is loaded.
-        // `Cache` compared it with its checksum, and only this user and root may write there.
+        // SAFETY: this program wrote the text of the library around the user's functions, and the library does nothing
+        // while it is loaded. `Cache` has compared it with its checksum, and only this user and root may write there.
         let library = unsafe { libloading::Library::new(path)? };
         let library: &'static _ = Box::leak(Box::new(library));
-        // SAFETY: libraries that this program wrote export these names with these types; the version protects against all others.
+        // SAFETY: libraries that this program wrote export these names with these types; the version excludes other
+        // libraries.
         let start = unsafe { *library.get::<Start>(names::START)? };
         if start() != VERSION {
             return Err(LoadError::Version);
@@ -107,7 +109,7 @@ pub struct Functions {
     find: Find,
 }
 
-/// A user function over one scalar.
+/// A user function, compiled over one scalar.
 #[derive(Clone, Copy, Debug)]
 pub struct Function {
     call: Call,
@@ -116,7 +118,7 @@ pub struct Function {
 }
 
 impl Functions {
-    /// Loads a library.
+    /// Loads a library of user functions.
     pub fn open(path: &Path) -> Result<Self, LoadError> {
         let loaded = Loaded::open(path)?;
         // SAFETY: as in `Loaded::open`.
@@ -124,8 +126,8 @@ impl Functions {
         Ok(Self { loaded, find })
     }
 
-    /// A function by its index, with as many arguments and results as its text says, over a scalar; `None` if the library does not have it
-    /// or the processor cannot run it.
+    /// A user function over a scalar, by its index; it must have these numbers of arguments and results. `None` if the
+    /// library does not have it, or the processor cannot run it.
     pub fn function(
         &self,
         index: usize,
@@ -139,8 +141,8 @@ impl Functions {
         })
     }
 
-    /// Calls a function of this library with the words of one lane; an error if it panics. The results stay unchanged if there are not as
-    /// many words as the function takes.
+    /// Calls a function of this library with the words of one lane; an error if the function panics. Does nothing if
+    /// the numbers of words are not those of the function.
     #[inline]
     pub fn call(
         &self,
@@ -161,7 +163,7 @@ impl Functions {
     }
 }
 
-/// A generated model.
+/// A library of a generated model.
 #[derive(Debug)]
 pub struct Compiled {
     loaded: Loaded,
@@ -171,7 +173,7 @@ pub struct Compiled {
 }
 
 impl Compiled {
-    /// Loads a library.
+    /// Loads a library of a generated model.
     pub fn open(path: &Path) -> Result<Self, LoadError> {
         let loaded = Loaded::open(path)?;
         // SAFETY: as in `Loaded::open`.
@@ -205,7 +207,7 @@ pub struct CompiledModel<'a> {
 unsafe impl Send for CompiledModel<'_> {}
 
 impl CompiledModel<'_> {
-    /// Evaluates one method; false if the model has no such result. Slices must have the lengths of the model.
+    /// Evaluates one method; false if the model does not have it. Slices must have the lengths of the model.
     pub fn evaluate(
         &self,
         what: What,
@@ -224,8 +226,8 @@ impl CompiledModel<'_> {
 
     fn status(&self, what: What, t: f64, y: &[f64], results: &mut [f64]) -> Result<bool, Panic> {
         let (evaluate, what) = (self.of.evaluate, what as u32);
-        // SAFETY: the model was made by this library; only `set_parameters` changes it, and it is not used by anyone else meanwhile; the
-        // slices have their lengths, and generated functions check that these suffice.
+        // SAFETY: this library made the model; only `set_parameters` changes it, and nobody else uses it meanwhile. The
+        // slices have the given lengths, and the generated functions check that these suffice.
         let status = unsafe {
             evaluate(
                 self.model,

@@ -1,13 +1,13 @@
-//! The compiler's messages about text of the user, shown in the user's file and at the user's line.
+//! The compiler's messages about text of the user, shown at the lines of the user's file.
 //!
-//! The text of a user force is copied unchanged into the generated module, so that a line of the module is a line of the file, shifted by a
-//! constant number of lines.
+//! The text of a user force is copied unchanged into the generated module. So a line of the module is a line of the
+//! file, shifted by a constant number of lines.
 
 use super::Text;
 use bryant_generator::diagnostic::{Diagnostic, Diagnostics};
 use serde_json::Value;
 
-/// The messages of the compiler; a line that is not a message is a message of its own.
+/// The messages of the compiler. A line of output that is not a message counts as one.
 pub struct Messages {
     messages: Vec<Value>,
     /// The messages for people.
@@ -35,7 +35,7 @@ impl Messages {
         Self { messages, text }
     }
 
-    /// The first error, or the first line if there is no error.
+    /// The first error; if there is none, the first line.
     pub fn first_error(&self) -> String {
         let error = self.errors().find_map(|m| m["message"].as_str());
         let first = error.or_else(|| self.text.lines().find(|line| !line.trim().is_empty()));
@@ -49,7 +49,7 @@ impl Messages {
         self.messages.iter().filter(|m| m["level"] == "error")
     }
 
-    /// The errors in the user's texts, which are parts of `module`; `None` if there is none in them.
+    /// The errors in the user's texts, which are parts of `module`; `None` if no error is there.
     pub fn in_texts(&self, module: &str, texts: &[Text<'_>]) -> Option<Diagnostics> {
         let blocks: Vec<Block<'_>> = texts
             .iter()
@@ -67,7 +67,7 @@ impl Messages {
     }
 }
 
-/// A text and its place in the module.
+/// A copy of a text in the module.
 struct Block<'a> {
     text: &'a Text<'a>,
     /// Number of lines of the module above it.
@@ -76,7 +76,7 @@ struct Block<'a> {
 }
 
 impl<'a> Block<'a> {
-    /// Every place of the text: each force with other ports has its own copy.
+    /// All copies of a text: each force with other ports has its own copy.
     fn of(module: &str, text: &'a Text<'a>) -> Vec<Self> {
         let wanted = text.text.trim_end();
         let found = module.match_indices(wanted);
@@ -93,7 +93,7 @@ impl<'a> Block<'a> {
 }
 
 impl Block<'_> {
-    /// Whether a line of the module belongs to the text.
+    /// True if a line of the module belongs to the copy.
     fn holds(&self, line: usize) -> bool {
         (1..=self.lines).contains(&line.saturating_sub(self.above))
     }
@@ -110,7 +110,7 @@ pub fn place_in_texts<'a>(
     Some((block.text, line - block.above))
 }
 
-/// An error as a problem of the user's file, if its main place, or else any other of its places, is in that file.
+/// An error as a problem of the user's file, if one of its places is there; the main place is preferred.
 fn problem(error: &Value, blocks: &[Block<'_>]) -> Option<Diagnostic> {
     let empty = Vec::new();
     let spans = error["spans"].as_array().unwrap_or(&empty);

@@ -6,9 +6,10 @@
 //! module of the user's functions, or of a model ──────────┘
 //! ```
 //!
-//! Plain rustc is called, without cargo or a network. Results stay in a cache. Its key has everything that decides the result: the text of
-//! the model, this program, the compiler, the processor. An entry is built in a directory beside its place and then moved there, so that
-//! two runs at once do not disturb each other and an interrupted one leaves nothing behind.
+//! Plain rustc is called, without cargo or a network. Results stay in a cache. The key of an entry covers everything
+//! that affects it: the text of the model, this program, the compiler, the processor. An entry is built in another
+//! directory and then moved to its place, so that two runs at once do not disturb each other, and an interrupted one
+//! leaves no incomplete entry.
 
 mod apart;
 mod cache;
@@ -28,7 +29,7 @@ pub use user_forces::{UserFailure, UserForces};
 use bryant_generator::diagnostic::Diagnostics;
 use std::path::{Path, PathBuf};
 
-/// The variable with the directory that has the system's directory for caches.
+/// The environment variable for the directory above the system's directory for caches.
 const HOME: &str = match cfg!(windows) {
     true => "LOCALAPPDATA",
     false => "HOME",
@@ -43,12 +44,12 @@ pub enum BuildError {
          help: install Rust (https://rustup.rs), or name the compiler by RUSTC=/path/to/rustc"
     )]
     NoCompiler {
-        /// The command tried.
+        /// The command that was tried.
         command: String,
         /// Why it did not start.
         source: std::io::Error,
     },
-    /// The compiler does not answer as a compiler does.
+    /// The compiler does not answer its usual questions.
     #[error(
         "`{command} {arguments}` failed: {message}\n  help: name a working compiler by RUSTC=/path/to/rustc"
     )]
@@ -72,13 +73,13 @@ pub enum BuildError {
          (Debian and Ubuntu: apt install gcc; Fedora: dnf install gcc; macOS: xcode-select --install; Windows: the Build Tools for Visual Studio, with C++)"
     )]
     NoLinker {
-        /// What the compiler said.
+        /// The message of the compiler.
         message: String,
     },
     /// A user function does not compile.
     #[error("{0}")]
     User(Diagnostics),
-    /// The generated source does not compile.
+    /// The generated source does not compile, which is an error of this program.
     #[error(
         "the source written for this model does not compile, which is a fault of bryant, not of the model: {message}\n  \
          help: the source and all messages are kept in {}; please report them", .kept.display()
@@ -96,10 +97,10 @@ pub enum BuildError {
     Cache {
         /// The file or directory.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         source: std::io::Error,
     },
-    /// Others may have put something into the cache.
+    /// Other users may have written into the cache.
     #[error(
         "{} is not used: {reason}, and what is in a cache is run with your rights\n  \
          help: make it yours alone (chown -R, chmod -R go-w), or name another directory by BRYANT_CACHE; it is created where it does not exist", .path.display()
@@ -107,7 +108,7 @@ pub enum BuildError {
     Untrusted {
         /// The file or directory.
         path: PathBuf,
-        /// Who may have done so.
+        /// How others may have written.
         reason: &'static str,
     },
     /// A compiled library cannot be loaded.
@@ -117,10 +118,10 @@ pub enum BuildError {
     Load {
         /// Its directory in the cache.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         source: LoadError,
     },
-    /// There is no place for a cache.
+    /// No directory for a cache is known.
     #[error(
         "there is no place for compiled models: neither BRYANT_CACHE nor XDG_CACHE_HOME nor {} is set\n  \
              help: name a writable directory by BRYANT_CACHE",
@@ -129,7 +130,7 @@ pub enum BuildError {
     NoCache,
 }
 
-/// The unit to compile.
+/// A module to compile.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit<'a> {
     /// Name of the model.
@@ -149,7 +150,7 @@ pub struct Text<'a> {
     pub text: &'a str,
 }
 
-/// The work before a model can run, for a progress indication.
+/// The steps before a model can run, for a progress indication.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// The runtime is compiled, once for all models.

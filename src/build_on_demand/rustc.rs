@@ -1,4 +1,4 @@
-//! The Rust compiler: how it is found and called, and what its failures mean.
+//! Finds and calls the Rust compiler, and explains its failures.
 
 use super::message::Messages;
 use super::{BuildError, Cache, Text};
@@ -11,17 +11,18 @@ use std::process::{Command, Output};
 #[derive(Clone, Debug)]
 pub struct Rustc {
     command: OsString,
-    /// Version, commit, host; and the features of this machine's processor.
+    /// Version, commit and host of the compiler, and features of this machine's processor.
     identity: String,
     processor: Processor,
 }
 
-/// The processors whose instructions are used.
+/// The processors that compiled code can run on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Processor {
-    /// The processor of this machine; this is mostly the reason to compile here.
+    /// Only processors like that of this machine, with all of its instructions; this speed is mostly the reason to
+    /// compile here.
     This,
-    /// The common instructions of all processors of this kind; code that can use others checks for them when it runs.
+    /// All processors of this architecture; code for other instructions checks for them when it runs.
     Any,
 }
 
@@ -50,7 +51,7 @@ impl Rustc {
         let command = std::env::var_os("RUSTC").filter(|v| !v.is_empty());
         let command = command.unwrap_or_else(|| "rustc".into());
         let version = ask(&command, &["-vV"])?;
-        // A cache on a shared disk may serve machines with different processors.
+        // the features are part of the key, because machines with different processors may share a cache
         let processor = ask(&command, &["--print=cfg", "-Ctarget-cpu=native"])?;
         Ok(Self {
             command,
@@ -59,8 +60,8 @@ impl Rustc {
         })
     }
 
-    /// The same for code that shall also run on other machines, or give the same bits there; the features of the processor are then not
-    /// known.
+    /// Finds the compiler for code that also runs on other machines, or has the same bits there. The features of the
+    /// processor are then not known.
     pub fn find_portable() -> Result<Self, BuildError> {
         let command = std::env::var_os("RUSTC").filter(|v| !v.is_empty());
         let command = command.unwrap_or_else(|| "rustc".into());
@@ -71,7 +72,7 @@ impl Rustc {
         })
     }
 
-    /// The same compiler for code that shall also run on other machines.
+    /// The same compiler, but for code that also runs on other machines.
     pub fn portable(self) -> Self {
         let processor = Processor::Any;
         Self { processor, ..self }
@@ -93,7 +94,8 @@ impl Rustc {
         features
     }
 
-    /// Key of a result that depends only on this compiler and the text with this `digest`, not on the build of this program.
+    /// Key of a result that depends only on this compiler and on the text with this `digest`; other builds of this
+    /// program have the same key.
     pub fn key_of_text(&self, digest: &str) -> String {
         let parts = [
             digest,
@@ -116,7 +118,7 @@ impl Rustc {
         self::digest(parts.into_iter().chain(OPTIONS))[..24].to_owned()
     }
 
-    /// Compiles one file with its modules; errors in the user's texts are reported in the user's files.
+    /// Compiles one file with its modules. Errors in the user's texts are reported at the lines of the user's files.
     pub fn compile(
         &self,
         file: &Path,
@@ -134,7 +136,7 @@ impl Rustc {
             .arg("-o")
             .arg(to)
             .arg(file);
-        // Settings of a cargo run or of a wrapper must not change the result.
+        // settings of cargo or of a wrapper must not change the result
         command.env_remove("RUSTFLAGS").env_remove("RUSTC_WRAPPER");
         let output = command.output().map_err(|source| BuildError::NoCompiler {
             command: self.command.to_string_lossy().into_owned(),
@@ -159,7 +161,8 @@ impl Rustc {
     }
 }
 
-/// SHA-256 of several texts, each with its length, so that no text can be mistaken for part of another.
+/// SHA-256 of several texts. The length of each is included, so that lists that are divided differently have different
+/// digests.
 pub fn digest<'a>(parts: impl IntoIterator<Item = &'a str>) -> String {
     let mut hasher = Sha256::new();
     for part in parts {
@@ -173,7 +176,8 @@ pub fn digest<'a>(parts: impl IntoIterator<Item = &'a str>) -> String {
         .collect()
 }
 
-/// A text that tells apart two builds of this program with the same version: one of them may write other equations.
+/// A text that differs between builds of this program with the same version, because they may write different
+/// equations.
 fn program_identity() -> String {
     let file = std::env::current_exe().and_then(std::fs::metadata);
     let Ok(file) = file else {

@@ -1,4 +1,4 @@
-//! A model whose generated Rust was compiled by rustc: to compare engines with.
+//! A model whose generated Rust was compiled by rustc, for comparison with the engine.
 
 use super::apart::{Source, exports_of_model, library, unusable};
 use super::guard::{self, Inside, What as Named};
@@ -13,16 +13,16 @@ use std::sync::OnceLock;
 pub struct RustcModel {
     library: Compiled,
     info: &'static Info,
-    /// Description of its user forces.
+    /// The name of its user forces for messages.
     what: &'static Named,
     name: String,
     failure: OnceLock<String>,
 }
 
 impl RustcModel {
-    /// Compiles a model for this machine's processor, unless the cache has it, and loads it. `source` writes the generated module; `info`
-    /// belongs to the same model. With a Jacobian, which the Rosenbrock method needs, compilation takes three times as long. `stage` is
-    /// called before each step that takes time.
+    /// Compiles a model for this machine's processor, unless it is in the cache, and loads it. `source` writes the
+    /// generated module; `info` belongs to the same model. A Jacobian is needed by Rosenbrock methods, and makes
+    /// compilation three times as long. `stage` is called before each step that takes time.
     pub fn of(
         unit: Unit<'_>,
         info: &'static Info,
@@ -62,7 +62,7 @@ impl RustcModel {
         })
     }
 
-    /// The first failure, if there was one: all values computed since are NaN.
+    /// The first failure, if there was one; all values that were computed later are NaN.
     pub fn failure(&self) -> Option<&str> {
         self.failure.get().map(String::as_str)
     }
@@ -85,7 +85,7 @@ struct At<'a> {
 }
 
 impl At<'_> {
-    /// Fills the results; false if the model has no such result.
+    /// Writes the results of a method; false if the model does not have it.
     fn fill(&self, what: What, t: f64, y: &[f64], results: &mut [f64]) -> bool {
         let _inside = Inside::of(self.of.what);
         match self.model.evaluate(what, t, y, results) {
@@ -98,7 +98,7 @@ impl At<'_> {
         }
     }
 
-    /// An array of results; `None` if the model has no such result.
+    /// The results of a method as an array; `None` if the model does not have it.
     fn some<const N: usize>(&self, what: What, t: f64, y: &[f64]) -> Option<[f64; N]> {
         let mut results = [f64::NAN; N];
         self.fill(what, t, y, &mut results).then_some(results)
@@ -132,7 +132,7 @@ impl Dynamics<f64> for At<'_> {
     }
 
     fn jacobian(&self, t: f64, y: &[f64], by_state: &mut [f64], by_time: &mut [f64]) -> bool {
-        // Columns of memory stay as they are, so the present values go along.
+        // columns of memory are not written, so the present values are passed
         let mut results = [&*by_state, &*by_time].concat();
         let told = self.fill(What::Jacobian, t, y, &mut results);
         let (of_state, of_time) = results.split_at(by_state.len());

@@ -1,4 +1,4 @@
-//! The functions of a model's user forces: compiled as a library and called in this process.
+//! The functions of a model's user forces: compiled as a library that this process loads and calls.
 
 use super::apart::{Source, exports_of_functions, library, unusable};
 use super::guard::{self, Inside, What};
@@ -16,9 +16,9 @@ use std::sync::OnceLock;
 #[derive(Debug)]
 pub struct UserForces {
     library: Functions,
-    /// One entry for each force of the model; `None` for forces of other kinds.
+    /// For each force of the model its function; `None` for forces of other kinds.
     forces: Vec<Option<Force>>,
-    /// The compiled text, which contains the user's texts; panics are shown there.
+    /// The compiled module, which contains the user's texts; the places of panics refer to it.
     module: String,
     texts: Vec<(String, String)>,
     failure: OnceLock<UserFailure>,
@@ -30,7 +30,7 @@ struct Force {
     what: &'static What,
     /// The file, as shown to the user.
     file: String,
-    /// The functions by base and order.
+    /// The compiled functions by base and order of the scalar.
     functions: [[Option<Function>; 2]; Base::ALL.len()],
 }
 
@@ -45,8 +45,9 @@ pub struct UserFailure {
 }
 
 impl UserForces {
-    /// Compiles the functions of a model, unless the cache has them, and loads them; `None` if the model has none. `sources` are the names,
-    /// as shown to the user, and the texts of their files. `stage` is called before each step that takes time.
+    /// Compiles the functions of a model, unless they are in the cache, and loads them; `None` if the model has none.
+    /// `sources` are the names, as shown to the user, and the texts of their files. `stage` is called before each step
+    /// that takes time.
     pub fn of(
         model: &Model,
         sources: Vec<(String, String)>,
@@ -78,7 +79,7 @@ impl UserForces {
         }))
     }
 
-    /// The first failure, if there was one: all values computed since are NaN.
+    /// The first failure, if there was one; all values that were computed later are NaN.
     pub fn failure(&self) -> Option<&UserFailure> {
         self.failure.get()
     }
@@ -160,7 +161,7 @@ impl UserFunctions for UserForces {
             let function = force.functions[form.base as usize].get(form.order as usize);
             Some((force, (*function?)?))
         });
-        // a function exists for every scalar that runs are made over
+        // a function is missing only for scalars that no run uses
         let Some((force, function)) = function else {
             results.fill(f64::NAN);
             return;

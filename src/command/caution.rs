@@ -1,4 +1,4 @@
-//! Warnings about likely problems in the runs of a valid model.
+//! Warnings about valid models: likely problems in their runs.
 
 pub mod singular;
 pub mod start;
@@ -10,7 +10,7 @@ use bryant_generator::model::{
 use start::Start;
 use std::f64::consts::FRAC_PI_2;
 
-/// The middle one of three relative angles is critical within this distance of ±90°: 10° \[rad\].
+/// The middle one of three relative angles is critical within this distance from ±90°: 10° \[rad\].
 const NEAR: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// The warnings, each a sentence with a remedy.
@@ -28,7 +28,7 @@ pub fn cautions(scene: &Scene) -> Vec<String> {
     all
 }
 
-/// Says which meshes are not shown, because they have no file, or are on a vehicle that nothing uses.
+/// Warnings about meshes that are not shown, because they have no file or are on a vehicle that nothing uses.
 pub fn meshes(scene: &Scene) -> Vec<String> {
     let caution = |shown: &Shown| {
         let Shown::Mesh(written) = shown else {
@@ -52,7 +52,7 @@ pub fn meshes(scene: &Scene) -> Vec<String> {
     scene.written.shown.iter().filter_map(caution).collect()
 }
 
-/// Says of curves whose files have too many points how far the points that were left out are from the curve.
+/// Notes about curves whose files have too many points: the deviation of the points that were left out.
 pub fn thinned(model: &Model) -> Vec<String> {
     let each = model.curves.iter().filter_map(|curve| {
         let thinned = curve.thinned?;
@@ -71,7 +71,7 @@ pub fn thinned(model: &Model) -> Vec<String> {
     each.collect()
 }
 
-/// Warns of laws about the three relative angles of a ball joint if the middle angle may come near ±90°.
+/// Warnings about laws of the three relative angles of a ball joint whose middle angle may come near ±90°.
 fn middle_angles(model: &Model) -> Vec<String> {
     if model.dimension == Dimension::Plane {
         return Vec::new();
@@ -93,7 +93,7 @@ fn middle_angles(model: &Model) -> Vec<String> {
             }
             let axes = [first, middle, last].map(|axis| ["x", "y", "z"][axis]);
             let [first, axis, last] = axes;
-            // a law of any force ends the rotation of this joint if it always acts about this axis
+            // the rotation may be ended by this law, or by another law of the joint that always acts
             let always = joints().filter(|(other, its)| {
                 its.child == law.child && other.active == Active::default()
             });
@@ -114,7 +114,7 @@ fn middle_angles(model: &Model) -> Vec<String> {
         .collect()
 }
 
-/// Warns of bushings with laws about x or z if nothing elastic ends the rotation about y.
+/// Warnings about bushings with laws about x or z, if no elastic law ends the rotation about y.
 fn bushings(model: &Model) -> Vec<String> {
     if model.dimension == Dimension::Plane {
         return Vec::new();
@@ -138,8 +138,8 @@ fn bushings(model: &Model) -> Vec<String> {
     all
 }
 
-/// How far from 0 the middle angle may go \[rad\]; `None` if that is not within 10° of ±90°, infinite if nothing ends the rotation. If
-/// there is no stop, an elastic torque is assumed to end it.
+/// The largest distance of the middle angle from 0 \[rad\], infinite if nothing ends the rotation; `None` if it stays
+/// within ±80°. Without a stop, an elastic torque is assumed to end the rotation.
 fn middle_angle(law: &JointTorque, defaults: &[f64]) -> Option<f64> {
     let stop = law.stop.as_ref();
     let open = if law.elastic.is_some() {
@@ -154,6 +154,6 @@ fn middle_angle(law: &JointTorque, defaults: &[f64]) -> Option<f64> {
         from.map_or(open, |from| -from.value(defaults)),
     ];
     let far = ends[0].max(ends[1]);
-    // an angle that is 80° but for rounding counts as 80°
+    // 80° counts as 80° in spite of rounding
     (far > FRAC_PI_2 - NEAR + 1e-9).then_some(far)
 }

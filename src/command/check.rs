@@ -1,4 +1,4 @@
-//! `bryant check`: what was understood of a model, or everything that is wrong with it.
+//! `bryant check`: prints what a model contains, or all problems in it.
 
 use super::Error;
 use super::caution::cautions;
@@ -83,7 +83,7 @@ impl Arguments {
     }
 }
 
-/// A sentence that says which criteria of the model cannot be computed, if there are any.
+/// A sentence that names the criteria that cannot be computed; `None` if there are none.
 fn unjudged(limits: &Limits, all: &[Judged]) -> Option<String> {
     let missing = all.iter().filter_map(|one| match &one.response {
         Err(Missing::Place(place)) => Some(format!("{} ({place})", one.criterion.name)),
@@ -99,7 +99,7 @@ fn unjudged(limits: &Limits, all: &[Judged]) -> Option<String> {
     })
 }
 
-/// What `--skeleton` prints.
+/// The Rust text that `--skeleton` prints.
 fn skeleton(model: &Model, force: &str) -> Result<String, Error> {
     rust::skeleton(model, force).ok_or_else(|| {
         let all = model.forces.iter();
@@ -137,7 +137,7 @@ fn system_degrees_of_freedom(model: &Model, system: &System) -> usize {
     reference + joints.sum::<usize>()
 }
 
-/// The operations of the generated methods. The method of the outputs calls that of the accelerations if it needs them.
+/// The operations of the generated methods. Those of the outputs include the accelerations if outputs need them.
 struct Costs {
     route: Route,
     accelerations: Count,
@@ -270,7 +270,7 @@ fn defaults(model: &Model) -> Vec<f64> {
     model.parameters.iter().map(|p| p.default).collect()
 }
 
-/// The joints that the degrees of freedom of an element follow.
+/// The elements whose joints the degrees of freedom of an element follow, as text.
 fn following(system: &System, element: usize) -> String {
     let degrees_of_freedom = system.elements[element].joint.freedoms().iter();
     let leaders = degrees_of_freedom.filter_map(|freedom| freedom.follows.as_ref());
@@ -279,7 +279,7 @@ fn following(system: &System, element: usize) -> String {
     named.collect()
 }
 
-/// Two spaces for each generation.
+/// The indentation of an element: two spaces for each ancestor.
 fn indent(system: &System, mut element: usize) -> String {
     let mut depth = 0;
     while let Some(parent) = system.elements[element].parent {
@@ -320,7 +320,7 @@ fn operations(count: &Count) -> String {
     text
 }
 
-/// A number as people write it.
+/// A number with at most ten digits.
 fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     format!("{}", rounded + 0.0)

@@ -76,7 +76,7 @@ pub(super) fn filter_standard() -> impl TypedValueParser<Value = Standard> {
     })
 }
 
-/// Two names with `=` between.
+/// Two names, separated by `=`.
 pub(super) fn pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((run, measured)) if !run.trim().is_empty() && !measured.trim().is_empty() => {
@@ -86,12 +86,12 @@ pub(super) fn pair(text: &str) -> Result<(String, String), String> {
     }
 }
 
-/// A channel that is rated.
+/// The rating of a channel.
 struct Rated {
     run: String,
     measured: String,
     rating: Rating,
-    /// Begin and end \[s\].
+    /// Begin and end of the rating \[s\].
     interval: [f64; 2],
 }
 
@@ -134,7 +134,7 @@ impl Arguments {
         }
     }
 
-    /// The channels that are compared.
+    /// The pairs of channels that are compared: those of the user, or all with the same name.
     fn pairs<'r>(
         &self,
         run: &'r Recording,
@@ -175,7 +175,7 @@ impl Arguments {
         }
     }
 
-    /// The rating of a channel; `None` for a channel that the user has not named and that never changes.
+    /// The rating of a pair of channels; `None` if the user did not name the pair and the channels do not change.
     fn rated(&self, run: &Channel, measured: &Channel) -> Result<Option<Rated>, Error> {
         let wrong = |message: String| Error::Input(format!("channel \"{}\": {message}", run.name));
         let factor = unit::factor(&run.unit, &measured.unit).ok_or_else(|| {
@@ -193,7 +193,7 @@ impl Arguments {
         let begin = self.from.unwrap_or(ours.first.max(theirs.first));
         let end = self.to.unwrap_or(ours.last().min(theirs.last()));
         let there = [ours.first.max(theirs.first), ours.last().min(theirs.last())];
-        // a difference by rounding does not shorten the interval
+        // a smaller difference is due to rounding
         let rounding = 1e-3 / RATE;
         if begin < there[0] - rounding || end > there[1] + rounding || begin >= end {
             return Err(wrong(format!(
@@ -214,7 +214,7 @@ impl Arguments {
         }))
     }
 
-    /// A signal, filtered if this is requested, with samples that are close enough.
+    /// The signal for the rating: its samples are close enough, and it is filtered if requested.
     fn prepared(&self, name: &str, signal: &Signal, path: &Path) -> Result<Signal, String> {
         let coarse = signal.interval * RATE > 1.0 + 1e-6;
         if coarse && !self.resample {
@@ -230,7 +230,7 @@ impl Arguments {
         };
         match class_of_code(name) {
             Some(before) if before == class => return Ok(signal.clone()),
-            // frequencies that a filter has removed cannot be restored for a wider filter
+            // frequencies that an earlier filter removed cannot be restored for a wider filter
             Some(before) if before.frequency() < class.frequency() => {
                 return Err(format!(
                     "the channel {name} of {} is filtered by {before} already, and {class} is wanted\n  help: give --filter {before}",
@@ -268,7 +268,7 @@ pub(super) fn channel<'r>(
     found.map_err(|error| no_channel(error, recording, path, name))
 }
 
-/// The message for a name that stands for no channel of a recording, or for several.
+/// The error for a name that no channel, or several channels, of a recording have.
 fn no_channel(error: NoChannel, recording: &Recording, path: &Path, name: &str) -> Error {
     if let NoChannel::Several(count) = error {
         return Error::Input(format!(
@@ -291,7 +291,7 @@ fn no_channel(error: NoChannel, recording: &Recording, path: &Path, name: &str) 
     ))
 }
 
-/// What casts doubt on the data of a channel, in a sentence.
+/// A sentence about the status that casts doubt on a channel's data; `None` if there is no doubt.
 pub(super) fn doubt(channel: &Channel, path: &Path) -> Option<String> {
     let doubt = channel.doubt.as_ref()?;
     Some(format!(

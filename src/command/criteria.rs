@@ -103,7 +103,7 @@ impl Arguments {
     }
 }
 
-/// Test object and position: two characters.
+/// Reads test object and position of an occupant: two characters.
 pub(super) fn occupant(text: &str) -> Result<String, String> {
     let text = text.trim();
     match text.len() == 2 && text.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
@@ -112,14 +112,14 @@ pub(super) fn occupant(text: &str) -> Result<String, String> {
     }
 }
 
-/// Places by their usual names: `head_x` becomes `head-x`.
+/// Converts names of places to their usual form: `head_x` becomes `head-x`.
 pub(super) fn places(given: &[(String, String)]) -> Vec<(String, String)> {
     let each = given.iter();
     each.map(|(place, of)| (place.replace('_', "-"), of.clone()))
         .collect()
 }
 
-/// Fails if a channel cannot be used, because a criterion would then be wrong.
+/// Fails if a channel is unusable for a criterion, because the criterion would be wrong.
 fn usable(verdict: &Verdict) -> Result<(), Error> {
     let wrong = verdict.rows.iter().find_map(|row| match &row.value {
         Err(Missing::Unusable(why)) => Some((row.criterion.name, why)),
@@ -129,7 +129,7 @@ fn usable(verdict: &Verdict) -> Result<(), Error> {
         Some((name, why)) => Err(Error::Input(format!(
             "{name}: {why}{}",
             match why.contains("--place") {
-                // it says what helps
+                // this reason already has its remedy
                 true => "",
                 false =>
                     "\n  help: give a recording that the criterion can be computed from, such as of `bryant run --every '0.1 ms'`",

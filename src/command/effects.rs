@@ -1,4 +1,4 @@
-//! `bryant effects`: which effects of a scene are in, which are out and why, and the cost of each.
+//! `bryant effects`: lists which effects of a scene are in and out, why, and what each costs.
 
 mod table;
 
@@ -71,7 +71,7 @@ pub struct Arguments {
     json: bool,
 }
 
-/// A variant of the scene that is generated.
+/// A variant of the scene whose equations are derived, and the method whose cost counts.
 struct Derivation {
     variant: Variant,
     method: Method,
@@ -113,7 +113,7 @@ impl Arguments {
             .zip(&derivation_of)
             .map(|(entry, derivation)| (row(entry, *derivation, &costs), *derivation))
             .collect();
-        // the costliest first; effects that are out cost nothing and follow in the order of the scene
+        // costliest effects first; effects that are out cost nothing and keep the order of the scene
         rows.sort_by_key(|(row, _)| std::cmp::Reverse(cost(row)));
         let mut total = Total {
             scene: (scene.accelerations.clone(), None),
@@ -173,12 +173,13 @@ impl Arguments {
     }
 }
 
-/// Indices among the derivations: the scene itself, its outputs, and the scene with nothing left out.
+/// Indices of the first derivations: the scene itself, its outputs, and the scene with all effects in.
 const SCENE: usize = 0;
 const OUTPUTS: usize = 1;
 const GENERAL: usize = 2;
 
-/// The variants that are generated, and for each effect the index of its variant; `None` for an effect that is out or cannot be left out.
+/// The variants to derive, and for each effect the index of its variant; `None` for an effect that is out or cannot be
+/// left out.
 fn derivations(
     model: &Model,
     written: &Model,
@@ -223,13 +224,13 @@ fn row<'a>(entry: &'a Entry, derivation: Option<usize>, costs: &[Option<Cost>]) 
     }
 }
 
-/// The cost by which effects are sorted.
+/// The cost by which effects are sorted: operations, and calls weighted by [`CALL`].
 fn cost(row: &Row<'_>) -> i64 {
     row.operations
         .map_or(i64::MIN, |d| d.operations + CALL * d.calls)
 }
 
-/// The index of the scene that an effect is compared with.
+/// The index of the derivation that an effect is compared with.
 fn base(method: Method) -> usize {
     match method {
         Method::Accelerations => SCENE,
@@ -237,16 +238,16 @@ fn base(method: Method) -> usize {
     }
 }
 
-/// Number of effects that are timed in turn with each other and the scene; their rows then appear together.
+/// Number of effects that are timed together, in turn with the scene; their rows appear together.
 const GROUP: usize = 8;
 
-/// The variants that are timed.
+/// Times the variants.
 struct Bench<'a> {
     lists: &'a mut [Option<Lists>],
     users: Option<Arc<UserForces>>,
-    /// The scene and its outputs.
+    /// The engines of the scene and of its outputs.
     bases: [Engine; 2],
-    /// Number of effects that were timed, with the scene with nothing left out.
+    /// Number of effects that were timed so far.
     timed: usize,
 }
 
@@ -265,8 +266,8 @@ impl<'a> Bench<'a> {
         })
     }
 
-    /// Times a group of effects together with the scene. The first group also times the scene a second time, and the scene with nothing
-    /// left out.
+    /// Times a group of effects together with the scene. The first group also times the scene once more, and the scene
+    /// with all effects in.
     fn time(
         &mut self,
         group: &mut [(Row<'_>, Option<usize>)],
@@ -314,7 +315,8 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// Time needed to time one effect \[s\], from the time of the scene, including its share of the scene that is timed with it.
+/// Estimate of the time needed to time one effect \[s\], with its share of timing the scene; from timing the scene
+/// once.
 fn time_of_one(scene: &Derivation, users: Option<Arc<UserForces>>) -> Result<f64, Error> {
     let (_, lists) = effect::counted(&scene.variant);
     let begin = Instant::now();
@@ -324,7 +326,7 @@ fn time_of_one(scene: &Derivation, users: Option<Arc<UserForces>>) -> Result<f64
     Ok(begin.elapsed().as_secs_f64() * (1.0 + bases / GROUP as f64))
 }
 
-/// The engine of a derivation, which may be taken once; `None` if its equations were not derived.
+/// The engine of a derivation, which can be taken only once; `None` if its equations were not derived.
 fn engine(
     lists: &mut [Option<Lists>],
     index: usize,
@@ -336,7 +338,7 @@ fn engine(
     engine.transpose().map_err(Error::system)
 }
 
-/// The sentence that says what an interruption left out.
+/// A sentence about what an interruption left out; `None` if nothing.
 fn missing(rows: &[(Row<'_>, Option<usize>)], timed: bool) -> Option<String> {
     let derivations = || rows.iter().filter(|(_, derivation)| derivation.is_some());
     let all = derivations().count();
@@ -357,7 +359,7 @@ fn missing(rows: &[(Row<'_>, Option<usize>)], timed: bool) -> Option<String> {
     }
 }
 
-/// For sorting, a sine, a cosine or a call counts as this many operations.
+/// Number of operations that a sine, a cosine or a call counts as when effects are sorted.
 const CALL: i64 = 20;
 
 /// The method whose cost an effect changes.
@@ -384,7 +386,8 @@ fn derivation(model: &Model, entry: &Entry) -> Option<Derivation> {
     })
 }
 
-/// The costs of the variants that were derived before an interruption, and their lists where they are to be timed.
+/// The costs of the variants, and their lists if they are to be timed; `None` for variants that were not derived before
+/// an interruption.
 fn generate(
     derivations: &[Derivation],
     timed: bool,

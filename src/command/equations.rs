@@ -1,4 +1,4 @@
-//! `bryant equations`: S, r_s and r_k as text, as source code, or as numbers at one state.
+//! `bryant equations`: prints S, r_s and r_k as text, as source code, or as numbers at one state.
 
 use super::Error;
 use super::gradient::table::number;
@@ -100,7 +100,7 @@ enum CoordinatesName {
 impl Arguments {
     /// Derives the equations and prints them.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
-        // the state is read before the work begins, so that an error is found early
+        // the state is read first, so that an error in it is found before the long work
         let state = self.at.as_deref().map(read_state).transpose()?;
         let found = find(&self.model)?;
         let set = parse_parameters(&self.set, &found.scene)?;
@@ -139,7 +139,7 @@ impl Arguments {
         let users = users_of(&found, &model, terminal)?;
         let functions = users.as_deref().map(|users| users as &dyn UserFunctions);
         let values = evaluation::at(&model, &equations, &parameters, &state, functions);
-        // the message of a function that panicked says more than the missing number
+        // if a user function panicked, its message says more than a missing number
         if let Some(failure) = users.as_deref().and_then(UserForces::failure) {
             return Err(Error::User(failure.problems.clone()));
         }
@@ -151,7 +151,7 @@ impl Arguments {
         }
     }
 
-    /// Prints header and source, or writes them as files.
+    /// Prints header and source in C, or writes them as files.
     fn print_c(
         &self,
         made: &Source,
@@ -206,7 +206,7 @@ fn read_state(path: &Path) -> Result<State, Error> {
     })
 }
 
-/// The equations for people: first the meaning of the symbols, then S, r_s and r_k.
+/// The equations for people: the meaning of the symbols, then S, r_s and r_k.
 fn listing(model: &Model, equations: &Equations, parameters: &[f64], as_latex: bool) -> String {
     let notation = Notation::new(model, equations);
     let symbol = |symbol| {
@@ -240,7 +240,7 @@ fn listing(model: &Model, equations: &Equations, parameters: &[f64], as_latex: b
     result
 }
 
-/// The upper triangle of S without zeros, r_s and r_k.
+/// The entries of the upper triangle of S that are not 0, and those of r_s and r_k, with their names.
 fn roots(equations: &Equations, as_latex: bool) -> Vec<(String, NodeId)> {
     let mut roots = Vec::new();
     for (i, row) in equations.mass_matrix.iter().enumerate() {
@@ -343,7 +343,7 @@ fn heading(
     lines
 }
 
-/// A curve by its points (SI); of a long curve, the first and the last.
+/// A curve by its points (SI); a long curve by the first and last of them.
 fn describe(curve: &Curve) -> String {
     let point = |[x, y]: &[f64; 2]| format!("({x}, {y})");
     let points = &curve.points;
@@ -365,10 +365,10 @@ fn describe(curve: &Curve) -> String {
     format!("curve {}: {text}{between}; {beyond}", curve.name)
 }
 
-/// At most this many points of a curve are listed.
+/// Largest number of points of a curve that are listed.
 const POINTS_SHOWN: usize = 12;
 
-/// S as a grid; the vectors as columns beside their velocities.
+/// The values as text: S as a grid; the vectors as columns beside the names of the velocities.
 fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
     let mut text = format!("t = {} s\n\n", state.t);
     let width = |names: &[String]| {

@@ -1,4 +1,4 @@
-//! What is known about the error of a run, for people and as JSON.
+//! Reports what is known about the error of a run, for people and as JSON.
 
 use super::Error;
 use crate::accuracy::cause::Cause;
@@ -9,35 +9,35 @@ use crate::accuracy::target::{Accurate, Difference};
 use bryant_runtime::program::{ErrorKind, Header, RunError};
 use serde_json::{Value, json};
 
-/// A list names at most this many outputs.
+/// Largest number of outputs in a list.
 const NAMED: usize = 8;
-/// Differences below this share are rounding errors: runs in double precision cannot know more.
+/// A smaller difference is a rounding error, because runs in double precision cannot resolve more.
 const ROUNDING: f64 = 1e-12;
 
 /// What is known about the error of a run.
 pub struct ErrorReport {
     outputs: Vec<String>,
-    /// How the run was computed, if the program chose that.
+    /// The setting of the run, if the program chose it.
     setting: Option<Setting>,
-    /// The requested error.
+    /// The error that the user allows.
     wanted: Option<f64>,
-    /// Number of runs for the choice.
+    /// Number of runs that were made to choose the setting.
     runs: usize,
     estimate: Option<Difference>,
-    /// How far the first of several runs was from its check.
+    /// The difference of the first of several runs from its check.
     first: Option<Difference>,
     /// The setting of the second run, and its verdict.
     check: Option<(Setting, Verdict)>,
-    /// The run cannot be trusted if it differs from the second run by more than this.
+    /// The run cannot be trusted if it differs from the second run by more than this share.
     limit: f64,
-    /// Whether there was not enough time for sharper runs.
+    /// True if there was not enough time for sharper runs.
     out_of_time: bool,
-    /// Why sharper runs did not agree.
+    /// The reason why sharper runs did not agree.
     cause: Option<Cause>,
 }
 
 impl ErrorReport {
-    /// For a run about which nothing is known yet; `chosen` says that the user chose its method.
+    /// A report about a run of unknown error; `chosen` is true if the user chose the method of the run.
     pub fn new(header: &Header, chosen: bool) -> Self {
         ErrorReport {
             outputs: header.outputs.iter().map(|o| o.name.clone()).collect(),
@@ -53,7 +53,7 @@ impl ErrorReport {
         }
     }
 
-    /// For a run that should be as accurate as `wanted`.
+    /// A report about a run with a requested error of `wanted`.
     pub fn of_accurate(accurate: &Accurate, wanted: f64) -> Self {
         ErrorReport {
             setting: Some(accurate.setting),
@@ -65,7 +65,7 @@ impl ErrorReport {
         }
     }
 
-    /// For a run that was checked by default.
+    /// A report about a run with the default check.
     pub fn of_checked(checked: &Checked) -> Self {
         ErrorReport {
             setting: checked.first.is_some().then_some(checked.setting),
@@ -79,12 +79,12 @@ impl ErrorReport {
         }
     }
 
-    /// The setting that the program chose, if it chose one.
+    /// The setting, if the program chose it.
     pub fn setting(&self) -> Option<Setting> {
         self.setting
     }
 
-    /// The same with the verdict of a second run.
+    /// The report with the verdict of a second run.
     pub fn verified(self, opinion: Setting, verdict: Verdict) -> Self {
         ErrorReport {
             check: Some((opinion, verdict)),
@@ -92,8 +92,8 @@ impl ErrorReport {
         }
     }
 
-    /// The difference of each requested response from the run that this one was compared with, relative to itself; `None` if there is no
-    /// such run.
+    /// The relative difference of each requested response from the run that this run was compared with; `None` if it
+    /// was not compared.
     pub fn responses(&self) -> Option<&[f64]> {
         let checked = match &self.check {
             Some((_, Verdict::Apart(difference))) => Some(difference),
@@ -103,7 +103,7 @@ impl ErrorReport {
         (!difference.responses.is_empty()).then_some(&difference.responses[..])
     }
 
-    /// How far the outputs can be trusted, in one line; more is in [`lines`](Self::lines).
+    /// One line that says how far the outputs can be trusted; [`lines`](Self::lines) says more.
     pub fn summary(&self) -> String {
         let within = |difference: &Difference, who: String| {
             format!(
@@ -128,7 +128,7 @@ impl ErrorReport {
         }
     }
 
-    /// For people, a line each.
+    /// The report for people, line by line.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         if self.wanted.is_some()
@@ -146,7 +146,7 @@ impl ErrorReport {
             lines.extend(self.estimate.iter().flat_map(vanishing));
         }
         if let (Some(first), Some(setting)) = (&self.first, &self.setting) {
-            // the reason why it was repeated sharper
+            // the difference that was the reason for sharper runs
             let away = match first.worst <= PROMISED && first.worst_response > PROMISED {
                 true => format!("{} of a response", percent(first.worst_response)),
                 false => worst(first),
@@ -183,7 +183,7 @@ impl ErrorReport {
         lines
     }
 
-    /// A line that says that responses are not as accurate as the run should be.
+    /// A line that says that responses are less accurate than they should be; `None` if they are accurate.
     fn by_response(&self) -> Option<String> {
         let estimated = self.estimate.as_ref().map(|e| e.worst_response);
         let checked = match &self.check {
@@ -201,7 +201,8 @@ impl ErrorReport {
         })
     }
 
-    /// The outputs that differ most, if there are several.
+    /// The outputs that differ most, a line each, then a line for all others; empty if no output differs noticeably, or
+    /// if there is only one.
     fn by_output(&self, difference: &Difference) -> Vec<String> {
         let mut apart: Vec<(&String, f64)> = self
             .outputs
@@ -225,7 +226,7 @@ impl ErrorReport {
         }
     }
 
-    /// Fails if the run is not as accurate as requested or promised.
+    /// Fails if the run is less accurate than requested or promised.
     pub fn check(&self) -> Result<(), Error> {
         let error = |message| {
             Err(Error::Run(RunError {
@@ -275,7 +276,7 @@ impl ErrorReport {
         }
     }
 
-    /// What to do where sharper runs do not agree, by the cause that was measured.
+    /// What the user can do if sharper runs do not agree, by the cause that was measured.
     fn explained(&self) -> String {
         match &self.cause {
             Some(Cause::Rounding { coordinate, size }) => format!(
@@ -341,7 +342,7 @@ fn length(metres: f64) -> String {
     }
 }
 
-/// A difference, and the output that has it.
+/// A difference, with the output that differs most.
 fn worst(difference: &Difference) -> String {
     match difference.output.as_str() {
         _ if difference.worst < ROUNDING => share(difference.worst),
@@ -350,7 +351,7 @@ fn worst(difference: &Difference) -> String {
     }
 }
 
-/// The outputs of which only a bound is known, a line each.
+/// The outputs for which only a bound is known, a line each.
 fn vanishing(difference: &Difference) -> Vec<String> {
     let lines = difference.vanishing.iter().map(|vanishing| {
         format!(
@@ -361,7 +362,7 @@ fn vanishing(difference: &Difference) -> Vec<String> {
     lines.collect()
 }
 
-/// A share of the largest value of an output, rounded up, in per cent.
+/// An error as a share of the largest value of an output, rounded up, in per cent.
 fn at_most(share: f64) -> String {
     if share < ROUNDING {
         return "rounding".to_owned();
@@ -381,7 +382,7 @@ fn at_most(share: f64) -> String {
     }
 }
 
-/// A share; one that is below the precision of runs of doubles is printed as a bound.
+/// An error as a share; if it is below the precision of doubles, as a bound.
 fn share(error: f64) -> String {
     match error < ROUNDING {
         true => format!("less than {} (rounding)", percent(ROUNDING)),

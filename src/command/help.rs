@@ -1,14 +1,14 @@
-//! Texts of help in lines that fit the terminal. In the source they are broken where lines of code are; here each paragraph and each entry of a list is
-//! put together again, and broken once.
+//! Fits help texts to the width of the terminal. The source breaks them at the width of code; here the lines of each
+//! paragraph and of each entry of a list are joined, and broken again.
 
 use bryant_picture::text::wrap;
 
-/// Lines of help are no longer than this, however wide the terminal is: as clap does with the rest.
+/// Longest line of help, also on wider terminals; clap has the same limit.
 const WIDEST: usize = 100;
-/// Characters that a line of a list has at least.
+/// Least width of the text in an entry of a list.
 const NARROW: usize = 20;
 
-/// The command line with all texts below the options fitted to the terminal.
+/// The command line, with the texts below the options fitted to the terminal.
 pub fn fitted(command: clap::Command) -> clap::Command {
     let width = terminal_size::terminal_size().map_or(WIDEST, |(width, _)| width.0.into());
     of_width(command, width.min(WIDEST))
@@ -25,17 +25,17 @@ fn of_width(command: clap::Command, width: usize) -> clap::Command {
     command.mut_subcommands(|subcommand| of_width(subcommand, width))
 }
 
-/// A piece of a text of help.
+/// A piece of a help text.
 enum Piece<'t> {
-    /// Words, from the margin on.
+    /// Text that begins at the margin.
     Paragraph(String),
-    /// What stands before the second column, and the words in it.
+    /// The first column of an entry, and the text of its second column.
     Entry(&'t str, String),
-    /// A line as it is: an example, or an empty line.
+    /// A line that is not changed: an example, or an empty line.
     Line(&'t str),
 }
 
-/// A text in lines of at most `width` characters, but for lines of examples.
+/// Breaks a text into lines of at most `width` characters; lines of examples may be longer.
 fn fit(text: &str, width: usize) -> String {
     let mut lines: Vec<String> = Vec::new();
     for piece in pieces(text) {
@@ -75,7 +75,7 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
         pieces.push(match (indent, second_column(line)) {
             (0, _) if line.is_empty() => Piece::Line(line),
             (0, _) => Piece::Paragraph(line.to_owned()),
-            // the remark beside an example is short, and does not go on
+            // a short remark beside an example, which does not continue in the next line
             (_, Some(at)) => Piece::Entry(&line[..at], line[at..].to_owned()),
             (_, None) => Piece::Line(line),
         });
@@ -83,7 +83,7 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
     pieces
 }
 
-/// Where the second column of an indented line begins: behind the first run of spaces inside it.
+/// The byte at which the second column of an indented line begins: after the first run of spaces within the line.
 fn second_column(line: &str) -> Option<usize> {
     let begin = line.len() - line.trim_start().len();
     let gap = begin + line[begin..].find("  ")?;

@@ -169,7 +169,7 @@ impl Arguments {
     }
 }
 
-/// The posture with another angle, given as "thighs=-80 deg".
+/// The posture with another angle, which is given as "thighs=-80 deg".
 fn with(posture: Posture, given: &str) -> Result<Posture, Error> {
     let (name, angle) = given.split_once('=').ok_or_else(|| {
         Error::Input(format!(

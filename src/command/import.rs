@@ -1,4 +1,4 @@
-//! `bryant import`: a URDF file as a model.
+//! `bryant import`: writes a URDF file as a model.
 
 use super::Error;
 use super::outputs::{Outputs, Replacing};
@@ -92,7 +92,7 @@ impl Arguments {
             repair_inertias: self.repair_inertias,
         };
         let imported = ModelText::of_urdf(name, text, &options).map_err(Error::Model)?;
-        // the written model can be run: a body that no model can have is found here
+        // reads the model once, so that a body that no model can have is found here
         model::read_str(&imported.name, &imported.text, &read_file)
             .map_err(|found| Error::Model(imported.in_file(found)))?;
         match &self.out {

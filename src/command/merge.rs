@@ -1,4 +1,4 @@
-//! `bryant merge`: the tables, the summary and the pictures of a study whose shards are all done.
+//! `bryant merge`: writes the tables, the summary and the pictures of a study whose shards are all done.
 
 use super::Error;
 use super::outputs;
@@ -62,15 +62,15 @@ impl Arguments {
     }
 }
 
-/// The settings for the presentation of results.
+/// How results are presented.
 pub(super) struct Finish {
-    /// Number of shards that the study was run in.
+    /// Number of shards in which the study was run, if it is known.
     pub shards: Option<u64>,
     /// Format of the pictures.
     pub pictures: Format,
-    /// Whether the summary is printed as JSON.
+    /// True if the summary is printed as JSON.
     pub json: bool,
-    /// The file of a page, if one is to be written, and its additional texts.
+    /// The file of the report and its additional texts, if a report is to be written.
     pub page: Option<(PathBuf, About)>,
 }
 
@@ -124,7 +124,7 @@ pub(super) fn finish(
     }
 }
 
-/// The error for runs that were given up because their computation took too long.
+/// The error for runs that exceeded their time limit.
 pub(super) fn given_up(count: u64, named: &[u64]) -> Error {
     let runs: Vec<String> = named.iter().map(u64::to_string).collect();
     let more = if count > named.len() as u64 {
@@ -149,7 +149,7 @@ pub(super) fn given_up(count: u64, named: &[u64]) -> Error {
     })
 }
 
-/// Missing blocks are an error of the input: their shards have to be run first.
+/// Converts an error. Missing blocks are an error of the input, because the user must first run their shards.
 fn results_error(error: ResultsError) -> Error {
     match error {
         ResultsError::Missing { .. } => Error::input(error),

@@ -1,4 +1,4 @@
-//! The command line: one file per subcommand, one place for errors and exit codes.
+//! The command line: one file for each subcommand; errors and exit codes.
 
 mod accuracy;
 mod caution;
@@ -108,13 +108,13 @@ enum Error {
     Model(Diagnostics),
     /// A user function failed in a run.
     User(Diagnostics),
-    /// An option, a state or a name is wrong; the message has the remedy.
+    /// An option, a state or a name is wrong; the message includes the remedy.
     Input(String),
     /// The simulation failed.
     Run(RunError),
-    /// Something outside of the model failed.
+    /// An error of the system, such as a file that cannot be written.
     System(String),
-    /// The user pressed Ctrl-C; the message says what is missing.
+    /// The user pressed Ctrl-C; the message says which results are missing.
     Interrupted(String),
     /// The reader of standard output is gone, as in `bryant models | head -1`.
     Closed,
@@ -131,7 +131,7 @@ impl Error {
         Error::System(error.to_string())
     }
 
-    /// A simulation that cannot be used, with the reason.
+    /// The error for a simulation whose results cannot be used.
     fn failed(message: String) -> Self {
         Error::Run(RunError {
             kind: ErrorKind::Run,
@@ -203,12 +203,12 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Prints help, the version, or what is wrong with the command line.
+/// Prints help, the version, or an error in the command line.
 fn print_help(text: &clap::Error) -> ExitCode {
     let printed = text.print().and_then(|()| std::io::stdout().flush());
     let mut terminal = Terminal::new();
     let result = match printed {
-        // errors go to standard error; if even that fails, nobody can be told
+        // errors go to standard error; if printing them fails, nothing can be done
         _ if text.use_stderr() => return ExitCode::from(2),
         Ok(()) => terminal.write(|_| Ok(())),
         Err(error) => Err(terminal::unwritten(error)),

@@ -1,4 +1,4 @@
-//! MODEL: the name of a bundled model, or the path of a YAML or URDF file.
+//! The argument MODEL: the name of a bundled model, or the path of a YAML or URDF file.
 
 use super::Error;
 use super::terminal::Terminal;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub struct Found {
     /// The model.
     pub model: Model,
-    /// The places of its items in the text.
+    /// The description that was read: the model, its files, and the places of its items in the text.
     pub scene: Scene,
     /// The files that it was read from; empty for a bundled model.
     pub files: Vec<PathBuf>,
@@ -44,7 +44,8 @@ impl Found {
         }
     }
 
-    /// Shows outputs in units of this system, but for those with a unit of their own; as the model says if there is none.
+    /// Shows outputs in units of this system, except those with a unit of their own. `None` keeps the system of the
+    /// model.
     pub fn show_in(&mut self, system: Option<UnitSystem>) {
         self.model.units.system = system.unwrap_or(self.model.units.system);
     }
@@ -56,7 +57,8 @@ impl Found {
         }
     }
 
-    /// Names, as shown to the user, and texts of the functions of user forces; an error if a function is in a crate that is not available.
+    /// The functions of user forces: the name of each file, as shown to the user, and its text. An error if a function
+    /// is in a crate that is not available.
     pub fn user_sources(&self) -> Result<Vec<(String, String)>, Error> {
         let mut sources = Vec::new();
         let model = self
@@ -84,7 +86,7 @@ impl Found {
     }
 }
 
-/// Reads a model whose Rust files need not be there.
+/// Reads a model; its Rust files may be missing.
 pub fn find_without_sources(argument: &str) -> Result<Model, Error> {
     if let Some(bundled) = bundled::find(argument) {
         return bundled::model(bundled).map_err(Error::Model);
@@ -103,7 +105,7 @@ fn path_of(argument: &str) -> Result<&Path, Error> {
     Ok(path)
 }
 
-/// The bundled model whose name a file that is not there would have.
+/// The bundled model that has the name of a missing file.
 fn meant(path: &Path) -> Option<&'static str> {
     let name = path.file_stem()?.to_str()?;
     let bundled = bundled::find(name).filter(|_| !path.exists())?;
@@ -147,7 +149,7 @@ fn unknown(name: &str) -> String {
     )
 }
 
-/// The candidate that is most similar to a word, if one is similar at all.
+/// The candidate that is most similar to a word; `None` if no candidate is similar.
 pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     let distance = |c: &str| strsim::damerau_levenshtein(&word.to_lowercase(), &c.to_lowercase());
     let allowed = word.chars().count().div_ceil(3).max(1);

@@ -60,7 +60,7 @@ impl Arguments {
     }
 }
 
-/// Writes every file of a model, unless one of them already exists.
+/// Writes all files of a model, or none if one of them exists.
 fn copy(bundled: &Bundled, directory: &Path, terminal: &mut Terminal) -> Result<(), Error> {
     let scene = bundled::scene(bundled).map_err(Error::Model)?;
     let files = scene.read.iter().filter_map(|path| {
@@ -118,7 +118,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// A line for each model; titles are broken to fit into `width`, if it is given, and hang in their column.
+/// A line for each model. If `width` is given, long titles are broken, and continue in their column.
 fn table(rows: &[Row<'_>], width: Option<usize>) -> String {
     let heading = "model";
     let names = rows.iter().map(|row| row.name.chars().count());

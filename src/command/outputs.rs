@@ -1,5 +1,5 @@
-//! The places that a command writes to: no two results go to one place, none to a file that the command reads, and none to a file that this
-//! program did not write, unless this is asked for.
+//! Checks the places that a command writes to: no two results go to one place, no result to a file that the command
+//! reads, and none to a file that this program did not write, unless the user forces this.
 
 use super::Error;
 use crate::files;
@@ -25,14 +25,14 @@ pub struct Replacing {
     pub force: bool,
 }
 
-/// The file that accepts everything and keeps nothing.
+/// The file that discards everything that is written to it.
 const NOWHERE: &str = match cfg!(windows) {
     true => "NUL",
     false => "/dev/null",
 };
 
 impl Outputs {
-    /// No places taken yet, for a command that reads these files.
+    /// Begins with no places taken, for a command that reads the files `read`.
     pub fn of<'a>(read: impl IntoIterator<Item = &'a PathBuf>, replacing: Replacing) -> Self {
         Outputs {
             taken: Vec::new(),
@@ -41,10 +41,11 @@ impl Outputs {
         }
     }
 
-    /// Reserves the place of a result, which an option names or has by default; to be called before anything is computed.
+    /// Reserves the place of a result, which is the value of `option` or its default. Must be called before results are
+    /// computed.
     ///
     /// # Errors
-    /// Another result goes to this place, the command reads this file, or it is one that this program did not write.
+    /// Another result goes to this place, the command reads this file, or this program did not write the file.
     pub fn take(&mut self, option: &str, path: &Path, kind: Kind) -> Result<(), Error> {
         let place = match is_standard(path) {
             true => PathBuf::from("-"),
@@ -105,7 +106,7 @@ impl Outputs {
     }
 }
 
-/// Refuses a name that no file has on Windows.
+/// Refuses a name that Windows does not allow for files.
 fn exists_on_windows(option: &str, path: &Path) -> Result<(), Error> {
     for part in path.components() {
         let Component::Normal(name) = part else {
@@ -122,21 +123,22 @@ fn exists_on_windows(option: &str, path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether a path stands for standard output.
+/// True if a path stands for standard output.
 pub fn is_standard(path: &Path) -> bool {
-    // other names are standard error here: standard output is moved out of reach of user forces
+    // other names of standard output lead to standard error here, because standard output was moved out of reach of
+    // user forces
     ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"]
         .iter()
         .any(|name| path == Path::new(name))
 }
 
-/// The format of pictures, by name.
+/// Reads the format of pictures.
 pub fn format() -> impl TypedValueParser<Value = Format> {
     PossibleValuesParser::new(Format::ALL.map(Format::ending))
         .map(|name| Format::named(&name).unwrap_or_default())
 }
 
-/// The file of a picture; its ending gives the format.
+/// Reads the path of a picture; its extension determines the format.
 pub fn picture(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match is_standard(&path) || Format::of(&path).is_some() {

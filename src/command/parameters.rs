@@ -5,7 +5,7 @@ use super::model_argument::nearest;
 use crate::quantity;
 use bryant_generator::model::{Model, Parameter, Scene};
 
-/// Parameters by name, in SI units, each once and within its bounds.
+/// Reads parameters: their names and values in SI units; each at most once, and within its bounds.
 pub fn parse_parameters(words: &[String], scene: &Scene) -> Result<Vec<(String, f64)>, Error> {
     let mut set: Vec<(String, f64)> = Vec::new();
     for word in words {
@@ -20,7 +20,7 @@ pub fn parse_parameters(words: &[String], scene: &Scene) -> Result<Vec<(String, 
     Ok(set)
 }
 
-/// The values of all parameters of a model (SI), in its order: the given values, and the defaults of the others.
+/// The values of all parameters of a model (SI), in its order: those in `set`, else the defaults.
 pub fn values_of(model: &Model, set: &[(String, f64)]) -> Vec<f64> {
     let value = |name: &str| set.iter().find(|(n, _)| n == name).map(|(_, value)| *value);
     model
@@ -30,7 +30,7 @@ pub fn values_of(model: &Model, set: &[(String, f64)]) -> Vec<f64> {
         .collect()
 }
 
-/// `name=value` as a parameter of the model, in SI units.
+/// Reads `name=value` as a parameter of the model, in SI units.
 fn parameter(word: &str, scene: &Scene) -> Result<(String, f64), Error> {
     let model = &scene.model;
     let Some((name, value)) = word.split_once('=') else {
@@ -72,7 +72,7 @@ fn parameter(word: &str, scene: &Scene) -> Result<(String, f64), Error> {
     }
 }
 
-/// The bounds that a value of a parameter violates, if it does.
+/// The bounds that a value of a parameter violates, as text; `None` if it violates none.
 fn out_of_bounds(parameter: &Parameter, value: f64) -> Option<String> {
     let (min, max) = (parameter.min, parameter.max);
     if min.is_none_or(|min| value >= min) && max.is_none_or(|max| value <= max) {

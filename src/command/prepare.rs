@@ -25,7 +25,7 @@ impl Deref for Prepared {
 }
 
 impl Prepared {
-    /// An error if a user function failed in one of the runs since.
+    /// Fails if a user function has failed in a run.
     pub fn check(&self) -> Result<(), Error> {
         let failure = self.users.as_ref().and_then(|users| users.failure());
         match failure {
@@ -35,12 +35,12 @@ impl Prepared {
     }
 }
 
-/// The equations of a model. Only functions of user forces are compiled.
+/// Prepares the equations of a model. Only functions of user forces are compiled.
 pub fn prepare(found: &Found, terminal: &Terminal) -> Result<Prepared, Error> {
     prepare_model(found, &found.model, terminal)
 }
 
-/// The same for a model that differs from the found one only in numbers, curves and effects.
+/// Prepares the equations of `model`, which may differ from the model of `found` in numbers, curves and effects.
 pub fn prepare_model(found: &Found, model: &Model, terminal: &Terminal) -> Result<Prepared, Error> {
     let users = users_of(found, model, terminal)?;
     let progress = Progress::deriving(terminal, &model.name);
@@ -52,7 +52,8 @@ pub fn prepare_model(found: &Found, model: &Model, terminal: &Terminal) -> Resul
     })
 }
 
-/// The functions of a model's user forces, compiled unless the cache has them; `None` if the model has none.
+/// The functions of a model's user forces, which are compiled if they are not in the cache; `None` if the model has
+/// none.
 pub fn users_of(
     found: &Found,
     model: &Model,
@@ -88,8 +89,8 @@ pub fn users_of(
     }
 }
 
-/// The generated Rust of the found model, compiled as a whole by rustc, for comparison with the engine. With a Jacobian, which rodas5
-/// needs, compilation takes three times as long.
+/// The model of `found`, generated as Rust and compiled as a whole by rustc, for comparison with the engine. A Jacobian
+/// is needed by rodas5 and makes compilation three times as long.
 pub fn by_rustc(
     found: &Found,
     engine: &Engine,

@@ -1,7 +1,7 @@
-//! The progress of a long task: a bar on a terminal, otherwise a line every ten seconds.
+//! Shows the progress of a long task: a bar on a terminal, otherwise a line every ten seconds.
 //!
-//! Progress is counted in simulated time or in items. Bar and lines show the same: the task, the part that is done, the total, and about
-//! how much time is left at the present rate. Commands that take less than ten seconds print no line.
+//! Progress is counted in simulated time or in items. Bar and lines show the task, the amount that is done, the total,
+//! and about how much time is left at the present rate. Commands that take less than ten seconds print no line.
 
 use super::terminal::Terminal;
 use crate::accuracy::setting::time;
@@ -11,25 +11,25 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Tasks shorter than this show no bar.
+/// Time after which a task gets a bar.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// Time between two lines if there is no terminal; `BRYANT_PROGRESS` names another, in seconds.
+/// Time between two lines if there is no terminal, unless `BRYANT_PROGRESS` gives another, in seconds.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
-/// A rate is shown only after it was observed for this long.
+/// Time after which the rate is known well enough to estimate the remaining time.
 const WATCHED: Duration = Duration::from_secs(1);
-/// The bar updates its time this often.
+/// Time between updates of the bar.
 const TICK: Duration = Duration::from_millis(250);
 
-/// The quantity that is counted.
+/// The total of a task.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Whole {
     /// Simulated time, with its total \[s\].
     Time(f64),
     /// Items, with their total number: (216, "effects").
     Count(u64, &'static str),
-    /// A share of the whole.
+    /// The amount is a share of the whole.
     Share,
-    /// Nothing is counted, because the total time is not known.
+    /// The total is not known.
     Unknown,
 }
 
@@ -43,14 +43,14 @@ struct Shared {
     state: Mutex<State>,
     /// Signals the end of the task.
     over: Condvar,
-    /// When the command began.
+    /// The time when the command began.
     command: Instant,
 }
 
 struct State {
     what: String,
     whole: Whole,
-    /// When counting began, the amount that was done then, and the amount that is done now.
+    /// The time when counting began, the amount at this time, and the present amount.
     since: Instant,
     from: f64,
     done: f64,
@@ -61,7 +61,7 @@ struct State {
 }
 
 impl Progress {
-    /// Begins a task at zero, such as "running occupant".
+    /// Begins a task, such as "running occupant", with the amount 0.
     pub fn new(terminal: &Terminal, what: String, whole: Whole) -> Self {
         let shared = Arc::new(Shared {
             state: Mutex::new(State {
@@ -85,19 +85,19 @@ impl Progress {
         });
         Progress {
             shared,
-            // if no thread can be started, nothing is shown
+            // if the thread cannot be started, no progress is shown
             thread: thread.ok(),
         }
     }
 
-    /// The progress of deriving the equations of a model, which takes moments.
+    /// The progress of deriving the equations of a model, which takes only moments.
     pub fn deriving(terminal: &Terminal, model: &str) -> Self {
         let what = format!("deriving the equations of {model}");
         Progress::new(terminal, what, Whole::Unknown)
     }
 
-    /// Sets the amount that is done: seconds of simulated time, items, or the share of the whole. A smaller amount than before means that
-    /// the task began again.
+    /// Sets the amount that is done: simulated time \[s\], items, or the share of the whole. If it decreases, the task
+    /// has begun again.
     pub fn set(&self, done: f64) {
         let mut state = self.shared.lock();
         if done < state.done {
@@ -106,35 +106,35 @@ impl Progress {
         state.done = done;
     }
 
-    /// Begins another task at zero.
+    /// Begins another task, with the amount 0.
     pub fn next(&self, what: String, whole: Whole) {
         self.next_from(what, whole, 0.0);
     }
 
-    /// The same with an amount that is already done at its beginning.
+    /// Begins another task, part of which is already done.
     pub fn next_from(&self, what: String, whole: Whole, done: f64) {
         let mut state = self.shared.lock();
         (state.what, state.whole, state.later) = (what, whole, 0.0);
         (state.since, state.from, state.done) = (Instant::now(), done, done);
     }
 
-    /// Sets the estimated time of the tasks that follow this one \[s\].
+    /// Sets the estimated time of the tasks after this one \[s\].
     pub fn later(&self, seconds: f64) {
         self.shared.lock().later = seconds;
     }
 
-    /// Prints a line beside the bar.
+    /// Prints a line without disturbing the bar.
     pub fn say(&self, text: &str) {
         self.shared.say(text);
     }
 
-    /// A function for others that prints lines beside the bar.
+    /// A function that prints lines without disturbing the bar.
     pub fn teller(&self) -> impl Fn(&str) + Sync + use<> {
         let shared = Arc::clone(&self.shared);
         move |text| shared.say(text)
     }
 
-    /// Prints results beside the bar.
+    /// Calls `print`, which may print results without disturbing the bar.
     pub fn beside<R>(&self, print: impl FnOnce() -> R) -> R {
         let state = self.shared.lock();
         match &state.bar {
@@ -171,7 +171,7 @@ impl Shared {
         }
     }
 
-    /// Waits for this time or until the end; returns the state unless the task is over.
+    /// Waits for this time, or until the task is over; returns `None` if it is over.
     fn wait(&self, length: Duration) -> Option<MutexGuard<'_, State>> {
         let end = Instant::now() + length;
         let mut state = self.lock();
@@ -188,7 +188,7 @@ impl Shared {
         }
     }
 
-    /// Prints a line every ten seconds of the command.
+    /// Prints a line at regular times, counted from the beginning of the command.
     fn print_lines(&self) {
         let asked = std::env::var("BRYANT_PROGRESS").ok();
         let asked = asked.and_then(|seconds| seconds.parse().ok());
@@ -209,7 +209,7 @@ impl Shared {
         }
         let bar = ProgressBar::new(1000);
         bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
-        // an invalid template would be a mistake in this file; the default bar is then used
+        // the templates are valid; if one were not, the default bar would be used
         let style = |template| {
             let style = ProgressStyle::with_template(template);
             style.unwrap_or_else(|_| ProgressStyle::default_bar())
@@ -245,7 +245,7 @@ impl State {
         (self.done / self.all().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
     }
 
-    /// "running occupant: 12 of 120 ms simulated, about 40 s left"
+    /// The line about the task: "running occupant: 12 of 120 ms simulated, about 40 s left"
     fn line(&self) -> String {
         let amount = match self.whole {
             Whole::Time(all) => {
@@ -262,7 +262,7 @@ impl State {
         format!("{}: {amount}{left}", self.what)
     }
 
-    /// Estimated remaining time \[s\] at the rate since the beginning; `None` if it is not known.
+    /// Estimated remaining time \[s\], at the rate of the time `watched`; `None` if the rate is not known.
     fn left(&self, watched: Duration) -> Option<f64> {
         let rate = (self.done - self.from) / watched.as_secs_f64();
         let known = watched >= WATCHED && rate > 0.0;

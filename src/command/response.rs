@@ -1,6 +1,7 @@
-//! Responses that are requested on the command line: numbers that are read off a run.
+//! Responses that are requested on the command line: numbers that are computed from a run.
 //!
-//! `HIC15 of head accelerometer`, `3 ms clip of chest acceleration`: WHAT of OUTPUT, as a study heads its columns.
+//! They are written as the headings of columns of a study, WHAT of OUTPUT: `HIC15 of head accelerometer`, `3 ms clip of
+//! chest acceleration`.
 
 use super::Error;
 use super::model_argument::nearest;
@@ -18,7 +19,7 @@ pub struct Requested {
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
-    /// The length of its window, if it has one \[s\].
+    /// The length of its time window \[s\], if it has one.
     pub window: Option<f64>,
     /// The response as a request to the runtime.
     pub asked: Asked,
@@ -26,13 +27,14 @@ pub struct Requested {
     pub caution: Option<String>,
 }
 
-/// A run has at most this many samples, as in a study: they are kept until its end.
+/// Largest number of samples of a run, as in a study, because they are kept until its end.
 const MOST_SAMPLES: f64 = 1e6;
 
-/// The number of intervals between samples in a run of this `duration`; a sample of a response takes `bytes`.
+/// The number of intervals between samples in a run of this duration \[s\]. `bytes` is the size of a sample of one
+/// response.
 ///
 /// # Errors
-/// There are more samples than can be kept until the end; there is no sample within the run, or within the window of a response.
+/// There are more samples than can be kept, or fewer than the run, the window of a response or a filter needs.
 pub fn intervals(
     every: f64,
     duration: f64,
@@ -85,7 +87,7 @@ pub fn too_coarse(class: Class, every: f64) -> Error {
     ))
 }
 
-/// The time between samples if the user gives none \[s\]: `usual`, or less if filters need it.
+/// The time between samples by default \[s\]: `usual`, or less if filters need less.
 pub fn sampling(usual: f64, responses: &[Requested]) -> f64 {
     let filters = responses.iter().filter_map(Requested::filter);
     filters.map(Class::longest_interval).fold(usual, f64::min)
@@ -95,7 +97,7 @@ pub fn sampling(usual: f64, responses: &[Requested]) -> f64 {
 const TIMED: [&str; 3] = ["value", "clip", "contiguous clip"];
 
 impl Requested {
-    /// Its filter, if it has one.
+    /// The class of its filter, if it has one.
     pub fn filter(&self) -> Option<Class> {
         self.asked.channel.filter.map(|filter| filter.class)
     }
@@ -114,12 +116,13 @@ impl Requested {
         }
     }
 
-    /// Reads WHAT of OUTPUT, for a run from one time to another \[s\]: `3 ms clip of chest`, or `clip 3 ms of chest`. Underscores stand for
-    /// spaces, and some words of an output's name suffice. A filter follows a comma: `peak of chest x, CFC180`. The name of an injury
-    /// criterion alone is that criterion of a model with `criteria`. `option` is the name of the option in messages.
+    /// Reads WHAT of OUTPUT, for a run that lasts from `start` to `end` \[s\]: `3 ms clip of chest`, or `clip 3 ms of
+    /// chest`. Underscores stand for spaces, and an output may be named by some of its words. A filter follows a comma:
+    /// `peak of chest x, CFC180`. The name of an injury criterion alone is that criterion of a model with `criteria`.
+    /// `option` is the name of the option in messages.
     ///
     /// # Errors
-    /// There is no such response or output, or a time is outside of the run.
+    /// There is no such response or output, or a time is outside the run.
     pub fn read(
         option: &str,
         text: &str,
@@ -178,19 +181,20 @@ impl Requested {
     }
 }
 
-/// Why a response cannot be read, and what to write instead.
+/// Why a request for a response cannot be read, with a remedy.
 struct Fault {
     message: String,
     help: String,
 }
 
-/// The response that a text begins with: its title, as in a study, its kind, and the name of the output that follows.
+/// Reads the beginning of a request. Returns the title of the response, as in a study, its kind, and the text after it,
+/// which names the output.
 fn titled(words: &str, [start, end]: [f64; 2]) -> Result<(String, What, &str), Fault> {
     let (time_before, rest) = time_before(words).unwrap_or(("", words));
     let Some((name, what, rest)) = kind(rest) else {
         let said = words.split(" of ").next().unwrap_or(words);
         let names = NAMES.map(|(name, _)| name);
-        // the words in front, as in `max crush` and `maximum of crush`
+        // the first word is enough for a suggestion, as in `max crush` and `maximum of crush`
         let first = said.split_whitespace().next().unwrap_or(said);
         let near = response::meant(said)
             .or_else(|| nearest(said, &names))
@@ -257,7 +261,7 @@ fn titled(words: &str, [start, end]: [f64; 2]) -> Result<(String, What, &str), F
     }
 }
 
-/// The kind of response that a text begins with (the longest name that fits), and the rest of the text.
+/// The kind of response at the beginning of a text (the longest name that fits), and the rest of the text.
 fn kind(text: &str) -> Option<(&'static str, What, &str)> {
     let begins = |name: &str| {
         let rest = text.get(name.len()..);
@@ -270,7 +274,7 @@ fn kind(text: &str) -> Option<(&'static str, What, &str)> {
     Some((name, *what, text[name.len()..].trim()))
 }
 
-/// A time in front of a kind that needs one, and what follows it: `3 ms clip of chest`.
+/// A time in front of a kind that needs one, and the rest of the text, for example of `3 ms clip of chest`.
 fn time_before(text: &str) -> Option<(&str, &str)> {
     let spaces = text.match_indices(' ').map(|(at, _)| at);
     let mut ways = spaces.map(|at| (text[..at].trim(), text[at..].trim()));
@@ -280,10 +284,10 @@ fn time_before(text: &str) -> Option<(&str, &str)> {
     })
 }
 
-/// The output with this name, or the only output whose name has all of these words.
+/// The index of the output with this name; if there is none, of the only output whose name has all of these words.
 fn output(text: &str, facts: &ModelFacts) -> Result<usize, String> {
     let names: Vec<&str> = facts.outputs.iter().map(|o| o.name.as_str()).collect();
-    // underscores stand for spaces, also in names
+    // underscores and spaces are the same, also in names of outputs
     let spaced = |name: &str| name.replace('_', " ").trim().to_owned();
     if let Some(index) = names.iter().position(|name| spaced(name) == text) {
         return Ok(index);

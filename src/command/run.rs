@@ -1,4 +1,4 @@
-//! `bryant run`: the motion of a model as a table, a file and a picture.
+//! `bryant run`: runs a model, and writes the motion as a table, files and pictures.
 
 mod animation;
 mod beside;
@@ -286,7 +286,7 @@ pub struct Arguments {
     replacing: Replacing,
 }
 
-/// A regulation and a dummy from `REGULATION, DUMMY`.
+/// Reads a regulation and a dummy from `REGULATION, DUMMY`.
 fn standard_and_dummy(text: &str) -> Result<(String, String), String> {
     match text.split_once(',') {
         Some((standard, dummy)) => Ok((standard.trim().to_owned(), dummy.trim().to_owned())),
@@ -298,18 +298,18 @@ fn standard_and_dummy(text: &str) -> Result<(String, String), String> {
 const BUILT_IN: &str = "built-in";
 const RUSTC: &str = "rustc";
 
-/// A table has at most this many rows, as in a model: all of them are kept until the end.
+/// Largest number of rows of a table, as in a model, because all of them are kept until the end.
 const MOST_ROWS: f64 = 1e6;
 
-/// So many times the model's duration is perhaps in the wrong unit.
+/// A duration that is this many times that of the model is perhaps in the wrong unit.
 const UNUSUAL: f64 = 100.0;
 
-/// Time that the computation of a run may take if the user gives none \[s\].
+/// Time limit of a run if the user gives none \[s\].
 pub(super) const TIME_LIMIT: f64 = 300.0;
-/// Time that the search for the cause of a slow run may take \[s\].
+/// Time limit of the search for the cause of a slow run \[s\].
 const LOOKING: f64 = 10.0;
 
-/// Fixed step if the user gives none \[s\]: the customary step of crash simulations.
+/// Length of fixed steps if the user gives none \[s\]: the usual step of crash simulations.
 const CUSTOMARY_STEP: f64 = 1e-4;
 
 impl Arguments {
@@ -373,7 +373,7 @@ impl Arguments {
             responses: &responses,
             verdict: responses.verdict(&recording),
         };
-        // Files come first: a user who closes the pipe after ten lines still has them.
+        // Files are written before results are printed: a user who closes the pipe after ten lines still gets them.
         let written = done.write(&files, terminal)?;
         let printed = done.print(&files, &written, terminal);
         let printed = printed.and_then(|()| terminal.flush());
@@ -395,7 +395,7 @@ impl Arguments {
         terminal.end(printed, outcome)
     }
 
-    /// The state of `--start`, with what is to be said of it.
+    /// Reads the state of `--start`, with remarks about it.
     fn read_start(
         &self,
         path: &Path,
@@ -411,7 +411,8 @@ impl Arguments {
         state_file::read(path, engine.info(), &own, end).map_err(Error::Input)
     }
 
-    /// Looks for what made a run slow, or for a joint in a singular position.
+    /// Looks for the cause of a failure or of a slow run; after a run that reached its end, adds doubts and notes about
+    /// singular joints and belts.
     fn look_for_cause(&self, engine: &Engine, model: &Model, job: &Job, recording: &mut Recording) {
         match &recording.result {
             Ok(_) => {
@@ -435,7 +436,7 @@ impl Arguments {
         }
     }
 
-    /// Prints what the run took, how its error was found, and its balance of energy if that is asked for.
+    /// Prints the cost of the run, how its error was found, and the balance of energy if it is requested.
     fn tell_cost(&self, recording: &Recording, errors: &ErrorReport, terminal: &mut Terminal) {
         if recording.result.is_err() || self.quiet {
             return;
@@ -449,7 +450,7 @@ impl Arguments {
         }
     }
 
-    /// An error if the run cannot be trusted or did not reach its end.
+    /// Fails if the run cannot be trusted or did not reach its end.
     fn conclude(
         &self,
         recording: &Recording,
@@ -478,7 +479,7 @@ impl Arguments {
         }
     }
 
-    /// The note about a duration that was perhaps meant in milliseconds.
+    /// A note about a duration that was perhaps meant in milliseconds; `None` if it was not.
     fn long(&self, model: &Model) -> Option<String> {
         let times = self.duration? / model.run.duration;
         (times >= UNUSUAL).then(|| {
@@ -522,12 +523,12 @@ impl Arguments {
         })
     }
 
-    /// Whether a method with a Jacobian is requested, or may be chosen.
+    /// True if a method with a Jacobian is requested, or may be chosen.
     fn may_be_stiff(&self) -> bool {
         self.accuracy.is_some() || self.method.as_deref() == Some(Formula::Rodas5.name())
     }
 
-    /// The integrator and its steps, if the user says anything about them.
+    /// The integrator and its steps; `None` if the user says nothing about them.
     fn integrator(&self) -> Result<Option<Method>, Error> {
         let named = self.method.as_deref().and_then(Formula::named);
         Ok(match (named, self.step, self.tolerance) {
@@ -552,7 +553,7 @@ impl Arguments {
         })
     }
 
-    /// The run, and the knowledge about its error.
+    /// Runs the job, and finds out about the error of the run.
     fn record(
         &self,
         engine: &dyn Runs,
@@ -622,18 +623,18 @@ impl Arguments {
     }
 }
 
-/// A run that is over, with all that its results are made of.
+/// A run that is over, and everything that its results are made from.
 struct Done<'a> {
     arguments: &'a Arguments,
     found: &'a Found,
     job: &'a Job,
     shown: Shown<'a>,
     recording: &'a Recording,
-    /// Its table, in the units in which it is shown.
+    /// Its table, in the units that are shown.
     table: Table,
     errors: &'a ErrorReport,
     responses: &'a Responses,
-    /// `None` if no criteria are requested, `Some(None)` if they are not judged.
+    /// `None` if no criteria are requested; `Some(None)` if the run does not allow a verdict.
     verdict: Option<Option<crate::criteria::Verdict>>,
 }
 
@@ -673,7 +674,7 @@ impl Done<'_> {
         Ok(written)
     }
 
-    /// Prints the table, and what is to be known of the criteria besides; or all results as JSON.
+    /// Prints the table and remarks about criteria; or all results as JSON.
     fn print(
         &self,
         files: &Files,
@@ -713,7 +714,8 @@ impl Done<'_> {
         }
     }
 
-    /// Prints the result on one screen: beside the results where a file is printed, and not with JSON, which has it.
+    /// Prints the result on one screen; on standard error if a file is printed. With JSON it prints nothing, because
+    /// JSON includes the result.
     fn print_result(&self, files: &Files, terminal: &mut Terminal) -> Result<(), Error> {
         if self.arguments.json {
             return Ok(());
@@ -728,20 +730,20 @@ impl Done<'_> {
     }
 }
 
-/// A verdict for programs; null if the criteria are not judged.
+/// A verdict as JSON; null if there is none.
 fn judged_json(verdict: &Option<crate::criteria::Verdict>) -> serde_json::Value {
     verdict
         .as_ref()
         .map_or(serde_json::Value::Null, crate::criteria::Verdict::json)
 }
 
-/// The views of a picture, by name.
+/// Reads the view of a picture.
 fn view() -> impl TypedValueParser<Value = View> {
     PossibleValuesParser::new(View::ALL.map(View::name))
         .map(|name| View::named(&name).unwrap_or_default())
 }
 
-/// The share of a balance that may be missing: a number like an accuracy, or off.
+/// Reads the largest share of a balance that may be missing: a number like an accuracy, or off.
 fn energy_limit(text: &str) -> Result<f64, String> {
     match text {
         "off" => Ok(f64::INFINITY),
@@ -749,7 +751,7 @@ fn energy_limit(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A length of time, or off.
+/// Reads a length of time, or off.
 pub(super) fn time_limit(text: &str) -> Result<f64, String> {
     match text {
         "off" => Ok(f64::INFINITY),
@@ -757,13 +759,13 @@ pub(super) fn time_limit(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The integrators that estimate their error, by name.
+/// The names of the integrators that estimate their error.
 fn with_tolerances() -> String {
     let estimating = Formula::ALL.into_iter().filter(|f| f.estimates_error());
     estimating.map(Formula::name).collect::<Vec<_>>().join(", ")
 }
 
-/// Names a joint in a singular position as the cause of a failure, if there is one.
+/// If a joint is in a singular position, names it as the cause of a failure.
 fn look_for_singular_joint(model: &Model, job: &Job, recording: &mut Recording) {
     let given = job.start.as_ref().map(|start| &start.state);
     let last = Some(&recording.last_state).filter(|state| !state.is_empty());
@@ -780,7 +782,8 @@ fn look_for_singular_joint(model: &Model, job: &Job, recording: &mut Recording) 
     }
 }
 
-/// Adds a finding for a run that starts in a singular position of a joint: rounding errors alone decide how it leaves this position.
+/// Adds a doubt to a run that starts in a singular position of a joint, because rounding errors alone decide how it
+/// leaves this position.
 fn doubt_singular_start(model: &Model, job: &Job, recording: &mut Recording) {
     let coordinates = &recording.header.coordinates;
     let value = |name: &str| {

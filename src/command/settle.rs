@@ -1,4 +1,4 @@
-//! `bryant settle`: a state of rest to start from.
+//! `bryant settle`: finds a state of rest as a start of runs.
 
 mod carrying;
 mod written;
@@ -84,7 +84,7 @@ fn share(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A length, or off.
+/// Reads a length, or off.
 fn distance(text: &str) -> Result<f64, String> {
     match text {
         "off" => Ok(f64::INFINITY),
@@ -96,7 +96,7 @@ fn distance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A body that went this many times as far as it may before it rests will not come back.
+/// A body that has gone this many times the allowed distance before it rests will not return.
 const LOST: f64 = 2.0;
 
 impl Arguments {
@@ -130,7 +130,7 @@ impl Arguments {
             acceleration: self.residual * G,
             evaluations: self.evaluations,
         };
-        // the largest force of each law on the way
+        // the largest force of each contact, belt, spring and bushing during the search
         let mut carried: Vec<(String, f64)> = Vec::new();
         let settled = settle(
             &*model,
@@ -186,7 +186,7 @@ impl Arguments {
         for line in text(&settled, worst, farthest, &rests).lines() {
             match &self.out {
                 Some(path) if !is_standard(path) => terminal.print(&format!("{line}\n"))?,
-                // the state goes to standard output, so the line goes to standard error
+                // standard output has the state, so this line goes to standard error
                 _ => terminal.note(line),
             }
         }
@@ -220,10 +220,11 @@ impl Arguments {
     }
 }
 
-/// A run from the state is examined for this time \[s\].
+/// Length of the run that checks a state of rest \[s\].
 const LOOKED: f64 = 1e-4;
 
-/// Fails if a run that starts there cannot be trusted, because something is wrong with the position, such as a curve that is exceeded.
+/// Fails if a run that starts at this state cannot be trusted, because something is wrong there, such as a curve that
+/// is exceeded.
 fn doubt(engine: &Prepared, set: &[(String, f64)], settled: &Settled) -> Result<(), Error> {
     let job = Job {
         duration: Some(LOOKED),
@@ -256,13 +257,13 @@ fn doubt(engine: &Prepared, set: &[(String, f64)], settled: &Settled) -> Result<
     }
 }
 
-/// Where the search ended.
+/// The position at the end of the search.
 struct Place<'a> {
-    /// How far the centre of gravity that went farthest is from its start \[m\], and its element.
+    /// The largest distance of a centre of gravity from its start \[m\], and its element.
     farthest: (f64, &'a str),
-    /// How far it may be \[m\].
+    /// The largest distance that is allowed \[m\].
     allowed: f64,
-    /// What is likely to be the reason.
+    /// The likely reasons if the model has no state of rest.
     reasons: Vec<String>,
 }
 
@@ -274,7 +275,7 @@ impl Place<'_> {
     }
 }
 
-/// The reason why there is no state of rest, if there is none.
+/// Fails if the search found no state of rest, and says why.
 fn refuse(settled: &Settled, worst: &str, place: &Place<'_>) -> Result<(), Error> {
     let g = settled.acceleration / G;
     let (far, element) = place.farthest;
@@ -332,14 +333,15 @@ fn text(
     text
 }
 
-/// The model with outputs for the quantities of interest.
+/// The model with additional outputs, which the search and its result need.
 struct Watched {
     model: Model,
-    /// Contacts, belts, springs and bushings by name, and the index of the first of three outputs of each.
+    /// Names of contacts, belts, springs and bushings, each with the index of the first of its three outputs.
     forces: Vec<(String, usize)>,
-    /// Elements by name, and the index of the outputs of the first: its acceleration and how far it is from its start.
+    /// The index of the first output for elements, and the names of the elements. Each has two outputs: its
+    /// acceleration, and its distance from the start.
     elements: (usize, Vec<String>),
-    /// Whether each of them is the root of a system that is free.
+    /// For each element true if it is the root of a free system.
     roots: Vec<bool>,
 }
 
@@ -349,7 +351,7 @@ impl Watched {
         let mut watched = with_forces(model);
         let mut forces = Vec::new();
         for (index, output) in watched.outputs.iter().enumerate().skip(own) {
-            // y and z stand behind x
+            // the components y and z follow x
             let is_first = |projection: &Projection| projection.component == Component::X;
             match &output.quantity {
                 Quantity::ForceOn {
@@ -420,7 +422,7 @@ impl Watched {
         let (first, names) = &self.elements;
         let mut worst = (0.0, names.first().map_or("", String::as_str));
         for (value, name) in outputs[*first..].iter().step_by(2).zip(names) {
-            // NaN is not rest
+            // NaN counts as infinite
             if value.is_nan() || *value > worst.0 {
                 worst = (
                     if value.is_nan() {
@@ -435,8 +437,8 @@ impl Watched {
         worst
     }
 
-    /// How far the centre of gravity that went farthest is from its start \[m\], and the name of its element; of the roots of free systems alone,
-    /// because arms hang down and legs stretch, or of all elements.
+    /// The largest distance of a centre of gravity from its start \[m\], and the name of its element: of all elements,
+    /// or only `of_roots` of free systems, because arms and legs move farther.
     fn distance(&self, outputs: &[f64], of_roots: bool) -> (f64, &str) {
         let (first, names) = &self.elements;
         let mut farthest = (0.0, names.first().map_or("", String::as_str));
@@ -449,7 +451,7 @@ impl Watched {
         farthest
     }
 
-    /// Contacts, belts, springs and bushings that carry load, with their forces \[N\].
+    /// Names of the contacts, belts, springs and bushings that carry load, with their forces \[N\].
     fn rests_on(&self, outputs: &[f64]) -> Vec<(String, f64)> {
         let force = |first: usize| {
             outputs[first..first + 3]

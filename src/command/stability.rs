@@ -1,4 +1,4 @@
-//! `bryant stability`: the hard cases, and how far from their bounds they stay.
+//! `bryant stability`: runs the hard cases, and says how far they stay from their bounds.
 
 use super::Error;
 use super::outputs::{Outputs, Replacing, is_standard};
@@ -79,7 +79,7 @@ impl Arguments {
         if let Some(path) = &self.markdown {
             outputs.take("--markdown", path, Kind::Markdown)?;
             for case in cases.iter().filter(|_| !is_standard(path)) {
-                // groups have several cases
+                // a group has one page for all of its cases
                 let page = folder_of(path).join(markdown::file(case.group));
                 if !pages.contains(&page) {
                     outputs.take("--markdown", &page, Kind::Markdown)?;
@@ -97,7 +97,7 @@ impl Arguments {
         drop(progress);
 
         let missing = cases.len() - outcomes.len();
-        // a page with some of the cases would look like a page with all of them
+        // no pages are written if cases are missing, because they would look complete
         let page = self.markdown.as_ref().filter(|_| missing == 0);
         let command = match self.full {
             true => "bryant stability --full --markdown FILE.md",
@@ -135,7 +135,8 @@ impl Arguments {
     }
 }
 
-/// The folder of the groups' pages: that of the summary's name without its ending, or with one if it has none.
+/// The folder of the groups' pages: the name of the summary without its extension; with the extension `groups` if it
+/// has none.
 fn folder_of(path: &Path) -> PathBuf {
     path.with_extension(match path.extension() {
         Some(_) => "",
@@ -143,7 +144,7 @@ fn folder_of(path: &Path) -> PathBuf {
     })
 }
 
-/// Writes the summary, and the page of each group beside it.
+/// Writes the summary, and the page of each group.
 fn write_pages(path: &Path, outcomes: &[stability::Outcome], command: &str) -> Result<(), Error> {
     let folder = folder_of(path);
     let name = |path: &Path| {

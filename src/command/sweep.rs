@@ -1,4 +1,4 @@
-//! `bryant sweep`: runs one model many times as a study says, in lanes and on all processors.
+//! `bryant sweep`: runs one model many times according to a study, in lanes and on all processors.
 
 use super::Error;
 use super::merge;
@@ -105,7 +105,7 @@ pub struct Arguments {
     replacing: Replacing,
 }
 
-/// Number of rows that --plan shows.
+/// Number of rows that `--plan` shows.
 const SHOWN: u64 = 8;
 
 impl Arguments {
@@ -197,7 +197,7 @@ impl Arguments {
     }
 }
 
-/// The criteria of a model.
+/// The criteria of a model, for a report.
 fn criteria(facts: &ModelFacts) -> Result<Vec<Judged>, Error> {
     let Some(asked) = &facts.criteria else {
         return Ok(Vec::new());
@@ -212,7 +212,7 @@ fn criteria(facts: &ModelFacts) -> Result<Vec<Judged>, Error> {
     Ok(judged.collect())
 }
 
-/// Runs the missing rows; returns a line about it.
+/// Runs the missing rows; returns a line about this.
 fn run_all(
     study: &Study,
     engine: &dyn Engine,
@@ -258,7 +258,8 @@ fn run_all(
     ))
 }
 
-/// A folder of another study or of something else is an error of the input; failures to read or write are errors of the system.
+/// Converts an error. A folder of another study, or of something else, is an error of the input; a failure to read or
+/// write is an error of the system.
 pub(super) fn folder_error(error: FolderError) -> Error {
     match error {
         FolderError::Other { .. } | FolderError::Foreign(_) => Error::input(error),
@@ -266,7 +267,8 @@ pub(super) fn folder_error(error: FolderError) -> Error {
     }
 }
 
-/// An invalid study is an error of the input; failures to read or write are errors of the system.
+/// Converts an error. Missing results or files are errors of the input; a failure to read or write is an error of the
+/// system.
 pub(super) fn kept_error(error: KeptError) -> Error {
     match error {
         KeptError::NoResults(_) | KeptError::Lost(_) | KeptError::Outside(_) => Error::input(error),
@@ -274,7 +276,7 @@ pub(super) fn kept_error(error: KeptError) -> Error {
     }
 }
 
-/// The arithmetic of the results: results of different arithmetic must not be mixed.
+/// The arithmetic of the results in words; results of different arithmetic must not be mixed.
 fn arithmetic(precision: Precision, width: Width, estimate: bool) -> String {
     let rounding = match (precision, width.fuses()) {
         (Precision::Double, true) => "f64, fused",
@@ -299,12 +301,12 @@ pub(super) fn read(path: &Path) -> Result<(StudyFile, String), Error> {
     Ok((file, text))
 }
 
-/// The model of a study: a bundled one, or a file relative to the study file.
+/// Reads the model of a study: a bundled one, or a file relative to the study file.
 fn model_of(file: &StudyFile, directory: &Path) -> Result<Found, Error> {
     model_argument::find(&model_path(file, directory))
 }
 
-/// The model of a study as an argument of a command.
+/// The model of a study as the argument of a command.
 fn model_path(file: &StudyFile, directory: &Path) -> String {
     let beside = directory.join(&file.model);
     match beside.is_file() {
@@ -313,7 +315,7 @@ fn model_path(file: &StudyFile, directory: &Path) -> String {
     }
 }
 
-/// `studies/seat.yaml` → `seat-results`
+/// The default folder of a study: `studies/seat.yaml` → `seat-results`
 fn of_study(study: &Path) -> PathBuf {
     let stem = study.file_stem().unwrap_or_default().to_string_lossy();
     PathBuf::from(format!("{stem}-results"))
@@ -327,10 +329,10 @@ fn lanes(text: &str) -> Result<Width, String> {
     }
 }
 
-/// Environment variables that tell a task of a job array its index.
+/// Environment variables with the index of a task in a job array.
 const TASKS: [&str; 3] = ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "JOB_COMPLETION_INDEX"];
 
-/// The requested shard, or the shard of this task.
+/// The requested shard; if only the number of shards is given, the one of this task of a job array.
 fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Result<Shard, Error> {
     let number = |name: &str| -> Result<Option<u64>, Error> {
         let Some(text) = variable(name) else {
@@ -354,7 +356,7 @@ fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Resu
     };
     let of = |index, count| Shard::new(index, count).map_err(Error::input);
     match asked.map(|text| (text, text.parse::<u64>())) {
-        // N alone: the index comes from the job array
+        // only N is given: the index is that of the task in its job array
         Some((_, Ok(count))) => match task()? {
             Some(("SLURM_ARRAY_TASK_ID", index)) => {
                 let first = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
@@ -381,7 +383,7 @@ fn shard(asked: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> Resu
     }
 }
 
-/// Prints what would be run.
+/// Prints what a study would run.
 fn plan(study: &Study, found: &Found, terminal: &mut Terminal) -> Result<(), Error> {
     let sampler = Sampler::new(study).map_err(Error::input)?;
     let duration = study.run.duration.unwrap_or(found.model.run.duration);

@@ -1,4 +1,4 @@
-//! Standard output and standard error: whether they are terminals, their width, their colours. There is no panic when nobody reads.
+//! Standard output and standard error: width, colours, and writing without a panic when nobody reads.
 
 use super::Error;
 use crate::build_on_demand::guard::{self, Output};
@@ -7,25 +7,26 @@ use bryant_picture::text::wrap;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::time::Instant;
 
-/// Characters that a line has at least: narrower terminals break it themselves.
+/// Least width of lines in characters; narrower terminals break the lines themselves.
 const NARROWEST: usize = 40;
-/// Characters by which the rest of a broken line is further in.
+/// Number of characters by which the continuation of a broken line is indented.
 const HANGING: usize = 2;
 
-/// Where results and messages go.
+/// Prints results and messages.
 pub struct Terminal {
     output: BufWriter<Box<dyn Output>>,
-    /// Whether standard output is closed: printed text is then lost.
+    /// True if standard output is closed, so that printed text is lost.
     closed: bool,
-    /// Whether the user has been told that something could not be printed.
+    /// True once the user has been told that something could not be printed.
     told: bool,
     begin: Instant,
 }
 
 impl Terminal {
-    /// The terminal of this process. From now on, output of user functions goes to standard error, so that it does not mix with results.
+    /// The terminal of this process. From now on, output of user functions goes to standard error, because standard
+    /// output is for results.
     pub fn new() -> Self {
-        // asked before standard output is moved
+        // must be asked before standard output is moved
         let closed = process::stdout_was_closed();
         Self {
             output: BufWriter::new(guard::stdout_for_results()),
@@ -51,7 +52,7 @@ impl Terminal {
         self.print("\n")
     }
 
-    /// Lets a function write to standard output.
+    /// Calls a function that writes to standard output.
     pub fn write(
         &mut self,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -64,7 +65,7 @@ impl Terminal {
         written
     }
 
-    /// Sends the printed text off. A failure is reported only once.
+    /// Flushes the printed text. A failure is reported only once.
     pub fn flush(&mut self) -> Result<(), Error> {
         if self.told {
             return Ok(());
@@ -74,8 +75,9 @@ impl Terminal {
         sent
     }
 
-    /// The end of a command: `printed` tells whether its results could be printed, `outcome` how it ended. The outcome counts more: a user
-    /// who stops reading, as in `bryant run MODEL | head -1`, is told as well that a run cannot be trusted.
+    /// The result of a command, from whether its results could be printed and from its outcome. The outcome has
+    /// precedence: a user who stops reading, as in `bryant run MODEL | head -1`, is still told that a run cannot be
+    /// trusted.
     pub fn end(&self, printed: Result<(), Error>, outcome: Result<(), Error>) -> Result<(), Error> {
         if let (Err(lost), Err(_)) = (&printed, &outcome) {
             lost.report(self);
@@ -83,9 +85,9 @@ impl Terminal {
         outcome.and(printed)
     }
 
-    /// Prints a line beside the results about what was done.
+    /// Prints a line of information on standard error.
     pub fn note(&mut self, text: &str) {
-        // if both go to one terminal, the text appears in the order of the calls
+        // keeps the order of texts if both outputs go to one terminal
         let _ = self.output.flush();
         let text = match message_width() {
             Some(width) => fitted(text, width),
@@ -94,7 +96,7 @@ impl Terminal {
         let _ = writeln!(io::stderr(), "{text}");
     }
 
-    /// An error with its remedy.
+    /// Prints an error with its remedy.
     pub fn error(&self, message: &str) {
         let (red, cyan, reset) = if self.colour() {
             ("\x1b[1;31m", "\x1b[1;36m", "\x1b[0m")
@@ -110,14 +112,14 @@ impl Terminal {
         let _ = writeln!(io::stderr(), "{text}");
     }
 
-    /// Whether messages are coloured.
+    /// True if messages are coloured.
     pub fn colour(&self) -> bool {
         let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|t| t == "dumb");
         io::stderr().is_terminal() && !refused && !dumb && process::shows_colours()
     }
 
-    /// Characters per line of standard output; `None` where it is no terminal.
+    /// Width of standard output in characters; `None` if it is not a terminal.
     pub fn width(&self) -> Option<usize> {
         let output = self.output.get_ref();
         if !output.is_terminal() {
@@ -132,7 +134,7 @@ impl Terminal {
     }
 }
 
-/// Characters per line of standard error; `None` where it is no terminal.
+/// Width of standard error in characters; `None` if it is not a terminal.
 fn message_width() -> Option<usize> {
     if !io::stderr().is_terminal() {
         return None;
@@ -141,8 +143,8 @@ fn message_width() -> Option<usize> {
     Some(usize::from(width.0).max(NARROWEST))
 }
 
-/// The text with lines of at most `width` characters. A line that is too long is broken between words; what follows hangs below its beginning, two
-/// characters further in. Lines that fit stay as they are.
+/// Breaks lines that have more than `width` characters between words; the rest of such a line is indented by two more
+/// characters than its beginning. Other lines are not changed.
 fn fitted(text: &str, width: usize) -> String {
     let mut lines = Vec::new();
     for line in text.lines() {
@@ -162,7 +164,7 @@ fn fitted(text: &str, width: usize) -> String {
     lines.join("\n")
 }
 
-/// The error of output that could not be printed; no error if nobody reads any more.
+/// The error for output that could not be printed. A reader that is gone is not an error for the user.
 pub fn unwritten(error: io::Error) -> Error {
     match error.kind() {
         io::ErrorKind::BrokenPipe => Error::Closed,

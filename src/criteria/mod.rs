@@ -1,4 +1,4 @@
-//! Injury criteria of a run or of a recording beside the limits of a regulation: a verdict.
+//! Judges a run or a recording by injury criteria: their values beside the limits of a regulation.
 //!
 //! | file | what |
 //! |---|---|
@@ -20,9 +20,9 @@ use std::fmt::Write as _;
 pub struct Verdict {
     /// The limits.
     pub limits: Limits,
-    /// Test object and position of the occupant; `None` if no channel code says it.
+    /// Test object and position of the occupant; `None` if no channel code names an occupant.
     pub occupant: Option<String>,
-    /// Channels of the occupant whose files cast doubt on them, with the reasons.
+    /// Channels of the occupant that are not used, because their files cast doubt on them, with the reasons.
     pub left_out: Vec<String>,
     /// The criteria, in their order.
     pub rows: Vec<Row>,
@@ -34,16 +34,17 @@ pub struct Row {
     pub criterion: &'static Criterion,
     /// Its limit, in the criterion's unit; `None` if it has no limit.
     pub limit: Option<f64>,
-    /// Its value, in the criterion's unit; or why there is none.
+    /// Its value, in the criterion's unit; or the reason why there is none.
     pub value: Result<f64, Missing>,
     /// A remark on the value, such as the mode of Nij.
     pub detail: String,
-    /// The channels or outputs that it was read off, by their places.
+    /// The channels or outputs that it was computed from, each with its place.
     pub channels: Vec<(String, String)>,
 }
 
 impl Verdict {
-    /// All of it for people: each criterion with its value, its limit, whether it is met, its filter and remarks; then the channels that were used.
+    /// The whole verdict for people: each criterion with its value, its limit, whether it is met, its filter and
+    /// remarks; then the channels that were used.
     pub fn text(&self) -> String {
         let mut text = format!("{} ({})", self.heading(), self.limits.source);
         text.push_str("\n\ncriterion              value     limit  unit  verdict         filter\n");
@@ -56,7 +57,7 @@ impl Verdict {
         text
     }
 
-    /// In short: each criterion with its value, its limit and whether it is met.
+    /// The verdict in short: each criterion with its value, its limit and whether it is met.
     pub fn summary(&self) -> String {
         let mut text = self.heading();
         text.push('\n');
@@ -66,7 +67,7 @@ impl Verdict {
         text
     }
 
-    /// What is to be known besides: filters, remarks, the channels that were used, what was not judged.
+    /// The rest of the verdict: filters, remarks, the channels that were used, and criteria that were not judged.
     pub fn remarks(&self) -> String {
         let mut text = format!("criteria: {}\n", self.limits.source);
         for (row, _) in self.judged() {
@@ -139,7 +140,8 @@ impl Verdict {
         }
     }
 
-    /// A channel whose code says another dummy than the limits, and the dummy that it says.
+    /// A channel whose code names another dummy than the limits, and the code of that dummy; `None` if there is no such
+    /// channel.
     fn other_dummy(&self) -> Option<(&str, &str)> {
         let own = self.limits.code.as_deref()?;
         let mut all = self.rows.iter().flat_map(|row| &row.channels);
@@ -149,7 +151,7 @@ impl Verdict {
         })
     }
 
-    /// For programs.
+    /// The verdict as JSON.
     pub fn json(&self) -> Value {
         let criteria = self.rows.iter().map(|row| {
             let missing = match &row.value {
@@ -180,7 +182,7 @@ impl Verdict {
     }
 }
 
-/// A criterion with its value, its limit and whether it is met.
+/// The line of a criterion: its value, its limit and whether it is met.
 fn of_row(row: &Row, value: f64) -> String {
     let criterion = row.criterion;
     let verdict = row.limit.map(|limit| verdict_of(value, limit));
@@ -195,13 +197,13 @@ fn of_row(row: &Row, value: f64) -> String {
     line.trim_end().to_owned()
 }
 
-/// The filter of a criterion in a table.
+/// The name of the filter of a criterion, for a table.
 pub fn filter(criterion: &Criterion, limits: &Limits) -> String {
     let class = criterion.class(limits).map(|class| class.to_string());
     class.unwrap_or_else(|| "none".to_owned())
 }
 
-/// Four digits.
+/// A number with about four digits.
 fn number(value: f64) -> String {
     match value.abs() {
         size if size >= 1000.0 => format!("{value:.0}"),
@@ -219,8 +221,8 @@ fn verdict_of(value: f64, limit: f64) -> String {
     }
 }
 
-/// The mode of Nij at its maximum, with its time. The filtered signals are the shear force, the axial force and the moment of the neck's
-/// load cell; their samples are `interval` \[s\] apart, and the first is at `first` \[s\].
+/// The mode of Nij at its maximum, with its time. The filtered signals are the shear force, the axial force and the
+/// moment of the neck's load cell; their samples are `interval` \[s\] apart, and the first is at `first` \[s\].
 pub fn mode([fx, fz, my]: [&[f64]; 3], critical: &Neck, [first, interval]: [f64; 2]) -> String {
     let mut worst = (0.0, String::new());
     for (index, ((fx, fz), my)) in fx.iter().zip(fz).zip(my).enumerate() {

@@ -1,4 +1,4 @@
-//! The criteria of a recording: a test, or a table of a run.
+//! The criteria of a recording: a test, or the table of a run.
 
 use super::{Row, Verdict, mode};
 use crate::sweep::response_of;
@@ -11,19 +11,19 @@ use bryant_study::criteria::choice::{self, Asked, Candidate, Choice, Found, choo
 use bryant_study::criteria::limits::Limits;
 use bryant_study::criteria::{CRITERIA, Criterion, Formed, Missing, PLACES};
 
-/// The places that a recording has channels for.
+/// The channels of a recording at the places of a dummy.
 pub struct Recorded<'a> {
     recording: &'a Recording,
     choice: Choice,
-    /// The motion is planar: quantities across the plane are 0.
+    /// True if the motion is planar: quantities across the plane are 0.
     planar: bool,
     /// The standard whose coefficients the filters have.
     standard: Standard,
 }
 
 impl<'a> Recorded<'a> {
-    /// The places of a recording: their channels are found by the names that the user gives, else by their codes, all of one `occupant`.
-    /// `planar` says that nothing moves along y.
+    /// Finds the channels at the places: those that the user names, else those with the channel code of the place, all
+    /// of one `occupant`. If `planar`, nothing moves along y.
     ///
     /// # Errors
     /// There is no such place or no such channel, or there are channels of several occupants.
@@ -81,7 +81,8 @@ impl<'a> Recorded<'a> {
         })
     }
 
-    /// The channel of a place for a filter: of channels that differ by their filters the one with this filter, else the one with the widest.
+    /// The channel at a place for a criterion with this filter. If there are channels with several filters, it is the
+    /// one with this filter, else the one with the widest.
     fn channel(&self, place: &str, class: Option<Class>) -> Result<&'a Channel, Missing> {
         let channel = |index: &usize| &self.recording.channels[*index];
         let names = |all: &[usize]| {
@@ -99,7 +100,7 @@ impl<'a> Recorded<'a> {
                         (Some(own), _) if Some(own) == class => f64::INFINITY,
                         (Some(own), _) => own.frequency(),
                         (None, Some(_)) => 0.0,
-                        // not filtered, or hardly
+                        // the channel has no filter, or a wide one
                         (None, None) => f64::MAX,
                     }
                 };
@@ -126,7 +127,7 @@ impl<'a> Recorded<'a> {
         }
     }
 
-    /// The signal of a place \[SI\], filtered as the criterion wants it, its channel, and a remark on it.
+    /// The signal at a place \[SI\] with the filter of the criterion, its channel, and a remark on it.
     fn filtered(
         &self,
         place: &str,
@@ -171,7 +172,7 @@ impl<'a> Recorded<'a> {
             Some(before) if criterion.allows(before) => {
                 return Ok((signal, channel, format!("filtered by {before} before")));
             }
-            // frequencies that a filter has removed cannot be restored for a wider filter
+            // frequencies that an earlier filter removed cannot be restored for a wider filter
             Some(before) if before.frequency() < class.frequency() => {
                 return Err(wrong(format!(
                     "it is filtered by {before} already, and {class} is wanted"
@@ -185,7 +186,7 @@ impl<'a> Recorded<'a> {
         }
     }
 
-    /// The signals of a criterion, and how they are combined.
+    /// The places whose signals the criterion needs, and how they are combined.
     fn formed(&self, criterion: &Criterion, limits: &Limits) -> Result<Formed, Missing> {
         criterion.formed(
             limits,
@@ -194,7 +195,8 @@ impl<'a> Recorded<'a> {
         )
     }
 
-    /// The value of a criterion \[SI\], with a remark on it; `channels` get the names of the channels by places.
+    /// The value of a criterion \[SI\], with a remark on it. Places and names of the channels that it uses are added to
+    /// `channels`.
     fn value(
         &self,
         criterion: &Criterion,
@@ -231,7 +233,7 @@ impl<'a> Recorded<'a> {
         Ok((value, remarks.join("; ")))
     }
 
-    /// Whether a criterion would have to choose from several sensors.
+    /// True if several sensors fit a place of the criterion.
     fn is_ambiguous(&self, criterion: &Criterion, limits: &Limits) -> bool {
         let places = self
             .formed(criterion, limits)
@@ -240,7 +242,7 @@ impl<'a> Recorded<'a> {
         places.iter().any(several)
     }
 
-    /// The channels of the occupant that are left out, with the reasons.
+    /// Channels of the occupant whose files cast doubt on them, with the reasons.
     fn left_out(&self) -> Vec<String> {
         let occupant = self.choice.occupant.as_deref().unwrap_or_default();
         let all = self.recording.channels.iter();
@@ -253,7 +255,8 @@ impl<'a> Recorded<'a> {
     }
 }
 
-/// The verdict on a recording: all criteria that the regulation limits, and the criteria at places for which it limits none.
+/// The verdict on a recording: all criteria that the regulation limits, and others for which there are channels that no
+/// limited criterion uses.
 pub fn verdict(limits: &Limits, recorded: &Recorded<'_>) -> Verdict {
     let limit = |criterion: &Criterion| limits.limits.get(criterion.name).copied();
     let places = |criterion: &Criterion| {
@@ -266,7 +269,7 @@ pub fn verdict(limits: &Limits, recorded: &Recorded<'_>) -> Verdict {
     let shown = CRITERIA.iter().filter(|one| {
         let places = places(one);
         let apart = !places.is_empty() && places.iter().all(|place| !limited.contains(place));
-        // one that the regulation does not limit is shown only where it is clear of which sensor
+        // a criterion without a limit is shown only if it is clear which sensor it belongs to
         limit(one).is_some() || apart && !recorded.is_ambiguous(one, limits)
     });
     let rows = shown.map(|criterion| {
@@ -298,7 +301,7 @@ pub fn verdict(limits: &Limits, recorded: &Recorded<'_>) -> Verdict {
     }
 }
 
-/// The signals, if they have the same times.
+/// Returns the signals if all have the same times; else an error.
 fn together(signals: Vec<Signal>) -> Result<Vec<Signal>, Missing> {
     let first = &signals[0];
     let same = |other: &Signal| {

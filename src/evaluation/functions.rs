@@ -1,5 +1,5 @@
-//! The functions that the graph of a model calls, over plain numbers. Evaluation without compilation needs both the generator and the
-//! runtime, which do not know each other.
+//! The functions that the graph of a model calls, for plain numbers. They are here because evaluation without
+//! compilation needs both the generator and the runtime, which do not know each other.
 
 use bryant_engine::UserFunctions;
 use bryant_generator::expression::{ApproachCall, Function, UserCall};
@@ -9,12 +9,13 @@ use bryant_runtime::curve as runtime;
 use bryant_runtime::force::approach::{plane, space};
 use bryant_runtime::force::{belt, contact, ellipsoid, friction, power, switch};
 
-/// The functions of a model that are not algebra, over plain numbers; a user function gives NaN.
+/// The functions of a model that are not algebra, for plain numbers; a user function returns NaN.
 pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
     functions_with(model, None)
 }
 
-/// The same with `users` for user functions, which give NaN without it.
+/// The functions of a model that are not algebra, for plain numbers. `users` has the user functions; without it they
+/// return NaN.
 pub fn functions_with<'a>(
     model: &'a Model,
     users: Option<&'a dyn UserFunctions>,
@@ -41,7 +42,7 @@ pub fn functions_with<'a>(
     }
 }
 
-/// The first x > 0 at which velocity + factor · ∫₀ˣ of a curve reaches 0, or 0 if it never does; the runtime does the search.
+/// The first x > 0 for which velocity + factor · ∫₀ˣ curve is 0; 0 if there is none. The runtime searches it.
 pub(crate) fn stop(curve: &Curve, velocity: f64, factor: f64) -> f64 {
     let beyond = match curve.extrapolate {
         Extrapolate::Linear => runtime::Extrapolate::Linear,
@@ -61,7 +62,7 @@ pub(crate) fn stop(curve: &Curve, velocity: f64, factor: f64) -> f64 {
     table.stop(velocity, factor)
 }
 
-/// One result of a user function.
+/// Result `call.part` of a user function.
 fn user(users: &dyn UserFunctions, call: UserCall, a: &[f64]) -> f64 {
     let mut results = vec![f64::NAN; usize::from(call.parts)];
     if let Some(form) = f64::FORM {
@@ -70,7 +71,7 @@ fn user(users: &dyn UserFunctions, call: UserCall, a: &[f64]) -> f64 {
     results[usize::from(call.part)]
 }
 
-/// One result of the approach of two ellipsoids.
+/// Result `call.part` of the approach of two ellipsoids.
 fn approach(call: ApproachCall, a: &[f64]) -> f64 {
     let part = usize::from(call.part);
     if call.planar {

@@ -1,4 +1,4 @@
-//! Runs the scenes of hard cases in the same way as a user's model.
+//! Runs the scenes of hard cases in the same way as a user's models.
 
 use crate::accuracy::run;
 use crate::equations;
@@ -37,7 +37,7 @@ impl Scenes {
         if let Some(found) = known().get(&model.digest) {
             return Ok(Arc::clone(found));
         }
-        // Two threads may derive the same equations at the same time; neither waits for the other.
+        // two threads may derive the same equations at once, because neither waits for the other
         let made = equations::of(&model).map_err(|error| Trouble::System(error.to_string()))?;
         let made = Arc::new(made);
         known().insert(model.digest.clone(), Arc::clone(&made));

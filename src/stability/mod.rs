@@ -1,4 +1,4 @@
-//! Runs of the hard cases: their measurements, and whether they keep their bounds.
+//! Runs the hard cases, and reports whether they keep their bounds.
 //!
 //! The crate `bryant-hard` has the cases; each runs its scenes in the same way as a user's model.
 
@@ -17,20 +17,21 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub struct Outcome {
     /// The case.
     pub case: Case,
-    /// Its checks, up to the point where it broke off.
+    /// Its checks; only the first ones if the case ended early.
     pub checks: Vec<Check>,
-    /// Why it broke off.
+    /// The reason why the case ended early.
     pub trouble: Option<Trouble>,
 }
 
 impl Outcome {
-    /// Whether there is at least one check, and all checks hold.
+    /// True if the case did not end early, has checks, and all of them hold.
     pub fn holds(&self) -> bool {
         self.trouble.is_none() && !self.checks.is_empty() && self.checks.iter().all(Check::holds)
     }
 }
 
-/// Cases whose group or name contains one of the words, in upper or lower case; all cases if there are no words.
+/// The cases whose group or name contains one of the words, whose case does not matter; all cases if there are no
+/// words.
 pub fn select(words: &[String]) -> Vec<Case> {
     let wanted = |case: &Case| {
         let text = format!("{}: {}", case.group.title(), case.name).to_lowercase();
@@ -39,10 +40,10 @@ pub fn select(words: &[String]) -> Vec<Case> {
     bryant_hard::cases().into_iter().filter(wanted).collect()
 }
 
-/// Runs one case. A panic in it is reported as its trouble and does not affect other cases.
+/// Runs one case. A panic in it becomes its trouble, and does not affect other cases.
 pub fn run_case(case: &Case, engine: &dyn Engine, full: bool) -> Outcome {
     let mut bench = Bench::new(engine, full);
-    // each check is added as a whole, so that the checks before a panic are valid
+    // a check is always added completely, so the checks before a panic are valid
     let trouble = match catch_unwind(AssertUnwindSafe(|| (case.run)(&mut bench))) {
         Ok(result) => result.err(),
         Err(payload) => Some(Trouble::Panicked(message(payload.as_ref()))),
@@ -54,7 +55,7 @@ pub fn run_case(case: &Case, engine: &dyn Engine, full: bool) -> Outcome {
     }
 }
 
-/// The message of a panic; empty if its payload is not text.
+/// The message of a panic; "without a message" if its payload is not text.
 fn message(payload: &(dyn Any + Send)) -> String {
     let plain = payload
         .downcast_ref::<&str>()
@@ -63,8 +64,8 @@ fn message(payload: &(dyn Any + Send)) -> String {
     text.unwrap_or_else(|| "without a message".into())
 }
 
-/// Runs the cases on all processors and returns the outcomes in the order of the cases, without those that an interruption left out.
-/// `progress` is called with the number of finished cases.
+/// Runs the cases on all processors. Returns the outcomes in the order of the cases, without cases that an interruption
+/// left out. `progress` is called with the number of finished cases.
 pub fn run(
     cases: &[Case],
     engine: &dyn Engine,

@@ -1,7 +1,8 @@
-//! A row of a stiff scene, which lanes would take too long for: it is run alone, by the method that changes where the scene is stiff.
+//! Runs a row of a stiff scene alone, because it would take too long in lanes; the method can change to an implicit
+//! one.
 //!
-//! Its error is estimated as that of a row in lanes ([`rows`](bryant_runtime::batch::rows)): by a run at ten times the tolerances, and by runs at a tenth
-//! for as long as that is needed and helps.
+//! The error is estimated as for a row in lanes ([`rows`](bryant_runtime::batch::rows)): by a run at ten times the
+//! tolerances, and by runs at a tenth of the tolerances as long as these are needed and help.
 
 use super::refusal::parameters;
 use crate::accuracy::setting::{Curves, Pace as OfSetting, Scheme, Setting};
@@ -12,27 +13,28 @@ use bryant_runtime::batch::rows::Job;
 use bryant_runtime::program::{Job as Single, Reading, Scalar};
 use bryant_runtime::response::Answer;
 
-/// A run of a row, alone.
+/// The result of a row that was run alone.
 pub struct Alone {
-    /// The responses; NaN where the run cannot be trusted.
+    /// The responses; NaN if the run cannot be trusted.
     pub responses: Vec<f64>,
-    /// Steps accepted.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Estimated relative error, the largest of all responses; NaN if it is not known, or not to be estimated.
+    /// Estimated relative error, the largest of all responses; NaN if it is not known or was not requested.
     pub error: f64,
-    /// How often the tolerances were taken to a tenth.
+    /// How many times the tolerances were divided by ten.
     pub sharpened: u32,
-    /// Why it cannot be trusted.
+    /// The reason why the run cannot be trusted.
     pub doubt: Option<String>,
 }
 
-/// The factor between the tolerances of two runs that are compared; what they differ by is so many times the error of the finer one, √10 − 1 (as in lanes).
+/// The factor between the tolerances of two runs that are compared; and the ratio of their difference to the error of
+/// the finer run, at least √10 − 1 (as in lanes).
 const APART: f64 = 10.0;
 const SURELY: f64 = 2.16;
-/// How often the tolerances are taken to a tenth.
+/// Largest number of times that the tolerances are divided by ten.
 const AGAIN: u32 = 5;
 
-/// Runs a row alone; `None` if its steps are fixed, its scene is not stiff, or the run does not reach its end.
+/// Runs a row alone. `None` if its steps are fixed, its scene is not stiff, or the run does not reach its end.
 pub fn alone(engine: &Engine, job: &Job, row: &[f64]) -> Option<Alone> {
     let Pace::Adaptive(tolerances) = job.settings.pace else {
         return None;
@@ -79,7 +81,7 @@ pub fn alone(engine: &Engine, job: &Job, row: &[f64]) -> Option<Alone> {
     })
 }
 
-/// A run at a tolerance that reached its end by the implicit method, at least in a part.
+/// A run at a tolerance; `None` if it did not reach its end, or never used the implicit method.
 fn run(engine: &Engine, job: &Job, row: &[f64], tolerance: f64) -> Option<Recording> {
     let settings = &job.settings;
     let setting = Setting {
@@ -97,7 +99,7 @@ fn run(engine: &Engine, job: &Job, row: &[f64], tolerance: f64) -> Option<Record
         .map(|one| one.name.to_owned());
     let single = setting.job(&Single {
         duration: Some(settings.duration),
-        // nobody reads the rows
+        // the rows of the table are not used
         every: Some(settings.duration),
         max_steps: Some(settings.max_steps.into()),
         time_limit: settings.time_limit,
@@ -115,7 +117,7 @@ fn run(engine: &Engine, job: &Job, row: &[f64], tolerance: f64) -> Option<Record
     stiff.then_some(recording)
 }
 
-/// The largest relative difference of the responses; NaN where one is.
+/// The largest relative difference of the responses; NaN if one of them is NaN.
 fn apart(fine: &Recording, coarse: &Recording) -> f64 {
     let pairs = fine.answers.iter().zip(&coarse.answers);
     pairs

@@ -1,4 +1,4 @@
-//! Runs the rows of a study: a model in lanes, in this process, on any number of threads.
+//! Runs the rows of a study: in lanes, in this process, on any number of threads.
 
 use super::alone::Alone;
 use crate::accuracy::conclusion::percent;
@@ -19,12 +19,13 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// A run in lanes that takes more steps than this is looked into: where its scene is stiff, it is run alone by a method that changes. Others are run
-/// again without this limit. The heaviest bundled scene takes 16 000 steps.
+/// Largest number of steps of a run in lanes at first. A row that needs more is run alone by a method that can become
+/// implicit, if its scene is stiff; else it is run in lanes again, without this limit. The heaviest bundled scene takes
+/// 16 000 steps.
 pub const FEW: u32 = 50_000;
-/// A sharper run of a row takes at most so many times the steps: 10^(5/5) at a hundred-thousandth of the tolerances.
+/// Largest factor by which sharper runs of a row take more steps: 10^(5/5) at a hundred-thousandth of the tolerances.
 const SHARPER: u32 = 10;
-/// The fastest motion is searched for this many runs that came to a standstill, for at most this time each \[s\].
+/// Number of rows at a standstill for which the fastest motion is searched, and the time limit of each search \[s\].
 const LOOKED_INTO: usize = 3;
 const LOOKING: f64 = 3.0;
 
@@ -34,18 +35,18 @@ pub struct Lanes<'a> {
     job: Job,
     precision: Precision,
     refused: Mutex<BTreeMap<String, u64>>,
-    /// Is called with messages about rows whose computation takes long.
+    /// Called with messages about rows whose computation takes long.
     tell: Option<&'a (dyn Fn(&str) + Sync)>,
-    /// Number of rows that were given up because their computation took too long.
+    /// Number of rows that exceeded their time limit.
     slow: AtomicU64,
-    /// Outputs with a filter of their own, by their index.
+    /// The channels of outputs that have a filter, with the indices of the outputs.
     filtered: Vec<(usize, Channel)>,
-    /// Some rows whose steps became too many or too small, with their ends.
+    /// Some rows that took too many or too small steps, with their results.
     stalled: Mutex<Vec<(Vec<f64>, Row)>>,
 }
 
 impl<'a> Lanes<'a> {
-    /// The rows of a job, in this precision, for a model with these outputs.
+    /// Runs rows of `job` in this precision, for a model with these outputs.
     pub fn new(
         equations: &'a Equations,
         job: Job,
@@ -68,12 +69,12 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// Number of rows that were given up because their computation took too long.
+    /// Number of rows that exceeded their time limit.
     pub fn given_up(&self) -> u64 {
         self.slow.load(Ordering::Relaxed)
     }
 
-    /// The same with `tell`, which gets a line about each row whose computation takes long, every ten seconds.
+    /// Adds a function that gets a line every ten seconds about each row whose computation takes long.
     pub fn telling(self, tell: &'a (dyn Fn(&str) + Sync)) -> Self {
         Lanes {
             tell: Some(tell),
@@ -81,7 +82,7 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// "the run with friction = 0.3": a row, by its varied parameters.
+    /// A row in words, by its varied parameters: "the run with friction = 0.3".
     fn named(&self, given: &[f64]) -> String {
         let info = self.equations.info();
         let varied = self.job.varied.iter().zip(given);
@@ -116,7 +117,7 @@ impl<'a> Lanes<'a> {
         refused.unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// The reason why a row is refused; it is recorded.
+    /// The reason why a row is refused, which is also recorded; `None` if it is not refused.
     fn refuse(&self, row: &[f64]) -> Option<String> {
         let reason = super::refusal(self.equations, &self.job, row)?;
         let refused = self.refused.lock();
@@ -125,8 +126,8 @@ impl<'a> Lanes<'a> {
         Some(reason)
     }
 
-    /// The reason why a row came to a standstill; it is recorded. The text has only the order of magnitude of the step, so that similar
-    /// rows have equal reasons; the table has the time.
+    /// The reason why a row came to a standstill; the row is also recorded. The text has only the order of magnitude of
+    /// the step, so that similar rows have equal reasons; the table has the time.
     fn stall(&self, row: &Row, given: &[f64]) -> String {
         let stalled = self.stalled.lock();
         let mut stalled = stalled.unwrap_or_else(PoisonError::into_inner);
@@ -157,8 +158,8 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// A line for each of the first few rows that came to a standstill, with the motion that bounds its steps. Each is run again, alone,
-    /// for some seconds at most.
+    /// A line for each of the first few rows at a standstill, about the motion that limits its steps. To find this
+    /// motion, each is run again alone, for a few seconds at most.
     pub fn standstills(&self) -> Vec<String> {
         let stalled = self.stalled.lock();
         let stalled = stalled.unwrap_or_else(PoisonError::into_inner);
@@ -167,7 +168,7 @@ impl<'a> Lanes<'a> {
             let values = super::refusal::parameters(self.equations, &self.job, given);
             let names = info.parameters.iter().map(|parameter| parameter.name);
             let single = Single {
-                // no further than the row came
+                // only up to the time that the row reached
                 duration: (row.t > 0.0).then_some(row.t),
                 parameters: names
                     .zip(&values)
@@ -190,7 +191,7 @@ impl<'a> Lanes<'a> {
         stalled.iter().map(line).collect()
     }
 
-    /// A remark on the error of a row that reached its end.
+    /// A remark on the error of a row that reached its end; `None` if there is nothing to say.
     fn remark(&self, row: &Row) -> Option<String> {
         let wanted = percent(self.job.wanted);
         let often = row.sharpened;
@@ -209,7 +210,8 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// The reason why a row has no result or cannot be trusted, if its status does not say it; or why its result comes from another run.
+    /// The reason for the status of a row, or for doubts about its result, or a remark on how its result was computed;
+    /// `None` if its status says enough.
     fn reason(&self, row: &Row, given: &[f64]) -> Option<String> {
         match row.status {
             Ended::Refused => self.refuse(given),
@@ -235,7 +237,7 @@ impl Lanes<'_> {
         results.map_err(|error| EngineError(error.to_string()))
     }
 
-    /// Whether a row, or a sharper or coarser run of it, may have come to the limit of [`FEW`] steps.
+    /// True if a row, or a sharper or coarser run of it, may have reached the limit of [`FEW`] steps.
     fn takes_many(&self, row: &Row) -> bool {
         let adaptive = matches!(self.job.settings.pace, Pace::Adaptive(_));
         let good = !self.job.estimate || row.error <= self.job.wanted;
@@ -247,7 +249,7 @@ impl Lanes<'_> {
             }
     }
 
-    /// Hands over a row of a stiff scene that was run alone.
+    /// Adds the outcome of a row that was run alone.
     fn push_alone(&self, alone: Alone, outcomes: &mut Outcomes) {
         let trusted = alone.doubt.is_none();
         let row = Row {
@@ -297,7 +299,7 @@ fn outcome(row: &Row) -> Outcome {
     }
 }
 
-/// Times and outputs of a run, from samples that are in the order of the outputs.
+/// Times and outputs of a run, from its samples, which are output by output.
 fn series(job: &Job, samples: &[f64]) -> Series {
     let count = job.settings.samples;
     let every = job.settings.duration / (count - 1) as f64;
@@ -371,7 +373,7 @@ impl Worker for &Lanes<'_> {
         let mut series = series(&self.job, &samples);
         let every = self.job.settings.duration / (self.job.settings.samples - 1) as f64;
         for (index, output) in self.filtered.iter() {
-            // if samples are too far apart, the study keeps no such series
+            // if the samples are too far apart for the filter, the study does not keep this series
             let formed = output.form(|output| series.outputs[output].clone(), every);
             if let Some(samples) = formed {
                 series.outputs[*index] = samples;

@@ -1,5 +1,5 @@
-//! The data in a folder of results that makes merging independent of other files: the study as it was given, the table of its rows if that
-//! is a file, and the facts about its model.
+//! Data in a folder of results that allow merging without other files: the study as it was given, the file with its
+//! rows if there is one, and the facts about its model.
 
 use bryant_generator::description::load::read_bytes;
 use bryant_generator::diagnostic::Diagnostics;
@@ -12,7 +12,7 @@ use bryant_study::study::Study;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-/// A study as a folder of its results has it.
+/// The study and the program of a folder of results.
 #[derive(Debug)]
 pub struct Kept {
     /// The study.
@@ -21,13 +21,13 @@ pub struct Kept {
     pub program: Program,
 }
 
-/// Why a folder has no study, or cannot be given one.
+/// Why a study cannot be read from a folder, or stored in it.
 #[derive(Debug, thiserror::Error)]
 pub enum KeptError {
-    /// Nothing was run here.
+    /// The folder has no results.
     #[error("{} is not a folder of results: it has no study.json\n  help: name the folder that `bryant sweep` was given by --out", .0.display())]
     NoResults(PathBuf),
-    /// The process that began here ended before the study was written.
+    /// The process that created the folder ended before it stored the study.
     #[error("{} is missing: the command that began here ended before it wrote the file\n  help: run the study on this folder again; what is done stays", .0.display())]
     Lost(PathBuf),
     /// A file cannot be read.
@@ -38,7 +38,7 @@ pub enum KeptError {
         /// The reason.
         source: io::Error,
     },
-    /// A file is not what it should be.
+    /// The content of a file is wrong.
     #[error("{} cannot be understood: {reason}\n  help: run the study again into another folder", .path.display())]
     Damaged {
         /// The file.
@@ -49,7 +49,7 @@ pub enum KeptError {
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The rows are in a file outside of the folder of the study.
+    /// The file with the rows is outside the folder of the study.
     #[error(
         "the rows of the study are in {0}, outside of its folder, so that its results could not be merged without it\n  help: put that file beside the study, and name it without .."
     )]
@@ -62,15 +62,15 @@ pub enum KeptError {
 const STUDY: &str = "study.yaml";
 const FACTS: &str = "facts.json";
 
-/// The place in a folder of results where the study is kept.
+/// The directory in a folder of results where the study is stored.
 fn place(folder: &Path) -> PathBuf {
     folder.join("study")
 }
 
-/// Keeps a study with its results, unless it is already there.
+/// Stores a study with its results, unless it is already there.
 ///
 /// # Errors
-/// A file cannot be read or written, or the rows are in a file outside of the folder of the study.
+/// A file cannot be read or written, or the file with the rows is outside the folder of the study.
 pub fn keep(
     folder: &Path,
     file: &StudyFile,
@@ -102,7 +102,8 @@ pub fn keep(
     Ok(())
 }
 
-/// Writes a file unless it exists with the same bytes, so that a study can continue where only missing files can be written.
+/// Writes a file, unless it exists with the same bytes: a study can then continue in a folder whose existing files
+/// cannot be written.
 fn put(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     if read_bytes(path, bytes.len() as u64).is_ok_and(|there| there == bytes) {
         return Ok(());
@@ -114,7 +115,7 @@ fn put(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 }
 
 impl Kept {
-    /// The study whose results are in a folder.
+    /// Reads the study of a folder of results.
     ///
     /// # Errors
     /// There are no results, or a file is damaged.

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `plan` | the settings of a study for the runtime: duration, accuracy, responses |
 //! | `engine` | runs rows of a model |
-//! | `alone` | a row whose scene is stiff |
+//! | `alone` | runs a row of a stiff scene alone |
 //! | `refusal` | why a row of parameters is refused, or why its run cannot be trusted |
 //! | `kept` | the data that a folder of results needs for merging |
 

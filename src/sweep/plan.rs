@@ -1,4 +1,4 @@
-//! The settings of a study for the runtime.
+//! Converts the settings of a study to those of the runtime.
 
 use crate::accuracy::check::FAR;
 use bryant_generator::model::Model;
@@ -11,29 +11,29 @@ use bryant_study::facts::ModelFacts;
 use bryant_study::response::What;
 use bryant_study::study::{self, FixedSteps, Precision, RunSettings, Study};
 
-/// The tolerance of a step is this share of the accuracy of the responses. With a tolerance of 10⁻⁶, peaks, HIC and 3 ms values of
-/// child-seat err by less than 2·10⁻⁵ in half of the rows of a study with six parameters, and by less than 10⁻⁴ in 999 of 1 000 rows. For
-/// other scenes, the estimates of a study show the errors.
+/// Ratio of the tolerance of a step to the accuracy of responses. At a tolerance of 10⁻⁶, the errors of peaks, HIC and
+/// 3 ms values of child-seat are below 2·10⁻⁵ in half of the rows of a study with six parameters, and below 10⁻⁴ in 999
+/// of 1 000 rows. For other scenes, the error estimates of a study show the errors.
 const TOLERANCE: f64 = 1e-3;
-/// Largest number of steps of a run: a scene that needs more is stiff, and would block its lane for long.
+/// Largest number of steps of a run. A scene that needs more is stiff, and would occupy its lane for long.
 const MOST_STEPS: u32 = 1_000_000;
-/// Largest number of samples of a run: they are kept until its end, for each lane.
+/// Largest number of samples of a run, because they are kept until its end, for each lane.
 const MOST_SAMPLES: f64 = 1e6;
 
 /// The difference between 1 and the next number in single precision.
 const OF_SINGLES: f64 = f32::EPSILON as f64;
-/// Steps in single precision are at least this many units in the last place of the end time: the times of shorter steps are mostly
-/// rounding.
+/// Least length of steps in single precision, in units in the last place of the end time. The times of shorter steps
+/// would be mostly rounding.
 const COARSEST: f64 = 16.0;
 
-/// The length of steps.
+/// The fixed steps or the tolerances of a run.
 ///
 /// # Errors
 /// A run would have too many steps, or steps or accuracies that single precision cannot resolve.
 fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
     let single = run.precision == Precision::Single;
     if let Some(FixedSteps { length, method }) = run.step {
-        // rounding may add a little to a whole number of steps
+        // rounding must not add a step to a whole number of steps
         let steps = (duration / length - 1e-9).ceil();
         if steps > f64::from(MOST_STEPS) {
             return Err(format!(

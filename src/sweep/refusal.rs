@@ -1,4 +1,4 @@
-//! The reasons why a row of parameters is refused, and why its run cannot be trusted.
+//! The reasons why a row of parameters is refused, or why its run cannot be trusted.
 
 use crate::equations::Engine;
 use bryant_runtime::CurveKind;
@@ -18,7 +18,7 @@ pub fn parameters(engine: &Engine, job: &Job, row: &[f64]) -> Vec<f64> {
     values
 }
 
-/// The condition of the model that the parameters of a row violate; `None` if they violate none.
+/// The reason why the model refuses the parameters of a row; `None` if it accepts them.
 pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
     let info = engine.info();
     let values = parameters(engine, job, row);
@@ -35,7 +35,7 @@ pub fn refusal(engine: &Engine, job: &Job, row: &[f64]) -> Option<String> {
     Some((*condition).to_owned())
 }
 
-/// The reason why a run that reached its end cannot be trusted; `None` if it can.
+/// The reason why a run that reached its end cannot be trusted; `None` without a doubt.
 pub fn doubt(engine: &Engine, doubt: Option<Doubt>) -> Option<String> {
     let info = engine.info();
     Some(match doubt? {

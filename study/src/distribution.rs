@@ -36,7 +36,7 @@ pub enum Distribution {
         /// Largest value.
         max: Option<f64>,
     },
-    /// Density that rises and falls in straight lines.
+    /// Triangular density.
     Triangular {
         /// Least value.
         from: f64,
@@ -153,7 +153,7 @@ pub fn level(weights: &[f64], u: f64) -> usize {
         sum += weight;
         u < sum
     });
-    // if the weights sum to slightly less than 1
+    // rounding may leave the sum of the weights slightly below 1
     found.unwrap_or(weights.len().saturating_sub(1))
 }
 

@@ -1,10 +1,10 @@
-//! The engine behind two traits: a model, whoever made it. The study knows no equations and no integrator.
+//! The traits of an engine that runs a model. The rest of the crate knows no equations and no integrator.
 
 use crate::response::Response;
 use serde::Serialize;
 use std::sync::Arc;
 
-/// Runs rows, on as many threads as ask for a worker.
+/// Runs rows of a study, on any number of threads.
 pub trait Engine: Sync {
     /// A worker for one thread.
     ///
@@ -12,24 +12,26 @@ pub trait Engine: Sync {
     /// The engine cannot work.
     fn worker(&self) -> Result<Box<dyn Worker + '_>, EngineError>;
 
-    /// The number of rows that a worker should get at once to be fast, if so many are available: it gets whole blocks, at least one. If it
-    /// gets more than one block, the result of a row must depend on that row alone.
+    /// The number of rows that a worker should get in one call to be fast. It gets whole blocks, at least one, and
+    /// fewer rows if fewer are left. If a call may have more than one block, the result of a row must depend on that
+    /// row alone.
     fn rows_at_once(&self) -> u64 {
         1
     }
 
-    /// Whether no further block of rows should begin, because the user asked the program to end.
+    /// True if no further block of rows should begin, because the user asked the program to end.
     fn stops(&self) -> bool {
         false
     }
 }
 
-/// Runs rows on one thread. Its results depend only on the given rows, in their order.
+/// Runs rows on one thread. The results depend only on the rows of the call, in their order.
 pub trait Worker {
-    /// Runs rows, given row-major in SI, with one number for each varied parameter. One outcome for each row is pushed, in their order.
+    /// Runs rows and appends one outcome for each, in their order. The rows are given row-major in SI, with one number
+    /// for each varied parameter.
     ///
     /// # Errors
-    /// No row can be run; a row that fails is an outcome.
+    /// No row can be run. If only single rows fail, this is part of their outcomes.
     fn run(&mut self, rows: &[f64], outcomes: &mut Outcomes) -> Result<(), EngineError>;
 
     /// Runs one row and returns the time series of all outputs.
@@ -61,7 +63,8 @@ pub enum Status {
     Doubtful = 4,
     /// The model refuses the parameters.
     Refused = 5,
-    /// The computation took too long. Only this status may differ on another machine: a study that continues runs such a row again.
+    /// The computation exceeded its time limit. Only this status may differ between machines: a study that continues
+    /// runs such a row again.
     Slow = 6,
 }
 
@@ -114,9 +117,9 @@ pub struct Outcome {
 pub struct Outcomes {
     /// One outcome for each run.
     pub runs: Vec<Outcome>,
-    /// The reason why a run has no result or cannot be trusted, in words; `None` if its status says everything.
+    /// The reason why a run has no result or cannot be trusted, in words; `None` if its status says enough.
     pub reasons: Vec<Option<Arc<str>>>,
-    /// Row-major, `width` for each run; NaN if there is none.
+    /// Responses, row-major, `width` for each run; NaN for a missing one.
     pub responses: Vec<f64>,
     /// Number of responses for each run.
     pub width: usize,
@@ -138,7 +141,7 @@ impl Outcomes {
         self.push_because(outcome, responses, None);
     }
 
-    /// The same with the reason why the run has no result or cannot be trusted.
+    /// Adds a run as [`Outcomes::push`] does, with the reason why it has no result or cannot be trusted.
     pub fn push_because(&mut self, outcome: Outcome, responses: &[f64], reason: Option<Arc<str>>) {
         self.runs.push(outcome);
         self.reasons.push(reason);
@@ -146,7 +149,7 @@ impl Outcomes {
         self.responses.extend(known.take(self.width));
     }
 
-    /// Converts all responses from SI to their units.
+    /// Converts all responses from SI to the units in which they are shown.
     pub fn show_in_units_of(&mut self, responses: &[Response]) {
         for row in self.responses.chunks_mut(self.width.max(1)) {
             for (value, response) in row.iter_mut().zip(responses) {
@@ -155,7 +158,7 @@ impl Outcomes {
         }
     }
 
-    /// Removes the first runs and returns them.
+    /// Removes the first `count` runs and returns them.
     pub fn take(&mut self, count: usize) -> Outcomes {
         let count = count.min(self.runs.len());
         let runs = self.runs.split_off(count);
@@ -175,7 +178,7 @@ impl Outcomes {
         self.reasons[run].as_deref().unwrap_or_default()
     }
 
-    /// Whether the computation of one of them took too long.
+    /// True if the computation of one of the runs took too long.
     pub fn any_slow(&self) -> bool {
         self.runs.iter().any(|run| run.status == Status::Slow)
     }
@@ -186,11 +189,11 @@ impl Outcomes {
     }
 }
 
-/// Outputs of a model over time.
+/// Time series of the outputs of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// \[s\]
+    /// Times \[s\].
     pub times: Vec<f64>,
-    /// One series for each output of the model, in its order, with a value for each time, SI.
+    /// One series for each output, in the model's order, with a value for each time, SI.
     pub outputs: Vec<Vec<f64>>,
 }

@@ -1,4 +1,5 @@
-//! The facts that a study must know about a model: its parameters, its outputs, and the run settings that the study does not give.
+//! The facts that a study must know about a model: its parameters, its outputs, and the run settings that the study
+//! does not give.
 
 use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::model::scene::Scene;
@@ -9,7 +10,7 @@ use bryant_runtime::response::STANDARD_GRAVITY;
 use bryant_runtime::response::filter::Standard;
 use serde::{Deserialize, Serialize};
 
-/// By default, there are this many samples between two rows of the model's own table.
+/// Number of samples between two rows of the model's own table, by default.
 const FINER: f64 = 20.0;
 
 /// Parameters and outputs of a model, in the model's order.
@@ -19,13 +20,13 @@ pub struct ModelFacts {
     pub parameters: Vec<ParameterFact>,
     /// The outputs that responses may be read off.
     pub outputs: Vec<OutputFact>,
-    /// Declared parameters on which nothing depends, with the reason.
+    /// Declared parameters that have no effect, with the reason.
     #[serde(default)]
     pub unused: Vec<(String, String)>,
     /// The settings of its runs.
     #[serde(default)]
     pub run: RunFact,
-    /// Whether nothing moves along y.
+    /// True if nothing moves along y.
     #[serde(default)]
     pub planar: bool,
     /// The criteria that its runs are judged by.
@@ -40,10 +41,10 @@ pub struct CriteriaFact {
     pub standard: String,
     /// The dummy.
     pub dummy: String,
-    /// Whether filters follow SAE J211-1 instead of ISO 6487.
+    /// True if filters follow SAE J211-1 instead of ISO 6487.
     #[serde(default)]
     pub sae: bool,
-    /// Test object and position of the occupant, where the codes of several are there.
+    /// Test object and position of the occupant, if the outputs have channel codes of several.
     #[serde(default)]
     pub occupant: Option<String>,
     /// Places of the dummy with the outputs at them.
@@ -59,7 +60,7 @@ pub struct RunFact {
     pub sampling: f64,
 }
 
-/// The settings are unknown, in results that were made before they were kept.
+/// For results from versions that did not keep these settings.
 impl Default for RunFact {
     fn default() -> Self {
         RunFact {
@@ -100,22 +101,22 @@ pub struct OutputFact {
     /// The filter with which it is shown, by its name.
     #[serde(default)]
     pub filter: Option<String>,
-    /// For kinematics of a body: whether it is the length of a vector, or one of its components.
+    /// For kinematics of a body: true for the length of a vector, false for one of its components.
     #[serde(default)]
     pub resultant: Option<bool>,
-    /// Whether it has the axes and signs of SAE J211-1 and ISO 6487.
+    /// True if it has the axes and signs of SAE J211-1 and ISO 6487.
     #[serde(default)]
     pub standard: bool,
-    /// What is to be known of the place where it measures.
+    /// A remark on the place where it measures.
     #[serde(default)]
     pub remark: Option<String>,
-    /// For an acceleration that no instrument reads: why.
+    /// The reason why no instrument can measure it, for such an acceleration.
     #[serde(default)]
     pub unread: Option<String>,
 }
 
 impl CriteriaFact {
-    /// The standard whose coefficients the filters have.
+    /// The standard that defines the coefficients of the filters.
     pub fn standard_of_filters(&self) -> Standard {
         match self.sae {
             true => Standard::SaeJ211,
@@ -173,7 +174,7 @@ impl ModelFacts {
         }
     }
 
-    /// The message for a parameter that cannot be varied, and what to do.
+    /// The message for a parameter that cannot be varied, and the remedy.
     pub fn no_parameter(&self, name: &str) -> (String, String) {
         if let Some((_, why)) = self.unused.iter().find(|(unused, _)| unused == name) {
             let message = format!("the parameter {} changes nothing: {why}", quoted(name));
@@ -203,11 +204,13 @@ impl ModelFacts {
     }
 }
 
-/// A field is gravity if it is constant, points down within this slope, and has no more than this many times standard gravity.
+/// A field counts as gravity if it is constant, its slope from the vertical is at most `SLOPE`, and it is at most
+/// `LARGEST` times standard gravity.
 const SLOPE: f64 = 0.6;
 const LARGEST: f64 = 1.1;
 
-/// Why no instrument reads an acceleration: a field other than gravity acts on the element, or the observer moves.
+/// The reason why no instrument can measure an acceleration: a field other than gravity acts on the element, or the
+/// observer moves; `None` if there is no such reason.
 fn unread(model: &Model, quantity: &Quantity) -> Option<String> {
     let Quantity::Point {
         body,
@@ -262,7 +265,7 @@ impl ParameterFact {
         }
     }
 
-    /// Whether all values of an interval are allowed.
+    /// True if all values of an interval are allowed.
     pub fn allows(&self, [low, high]: [f64; 2]) -> bool {
         self.min.is_none_or(|min| low >= min) && self.max.is_none_or(|max| high <= max)
     }

@@ -12,7 +12,7 @@ pub fn bits(seed: u64, stream: u64, index: u64) -> u64 {
     mix(start.wrapping_add(index.wrapping_add(1).wrapping_mul(GAMMA)))
 }
 
-/// A number in the open interval (0, 1), a multiple of 2⁻⁵³.
+/// A number in the open interval (0, 1).
 pub fn uniform(seed: u64, stream: u64, index: u64) -> f64 {
     open_unit(bits(seed, stream, index))
 }

@@ -5,9 +5,10 @@
 //!                                                                                  └─summary→ numbers, indices, pictures
 //! ```
 //!
-//! This crate knows no model and no compiler: [`engine::Engine`] hides them. A row's parameters depend only on the study and the row's
-//! index, and a block's results only on the study and the block's index. So any number of threads and processes can fill one folder in any
-//! order and may be ended at any time, and the table always has the same bytes.
+//! This crate knows no model and no compiler: [`engine::Engine`] hides them. A row's parameters depend only on the
+//! study and the row's index, and a block's results only on the study and the block's index. So any number of threads
+//! and processes can fill one folder in any order and may be ended at any time, and the table always has the same
+//! bytes.
 //!
 //! | module | what it holds |
 //! |---|---|

@@ -1,5 +1,5 @@
-//! The normal distribution: Φ(z) = ½ erfc(−z/√2), and its inverse by Wichura's rational functions, relative error about 1e-16
-//! \[M. J. Wichura, algorithm AS 241 (PPND16), Applied Statistics 37, 477 (1988)\].
+//! The normal distribution: Φ(z) = ½ erfc(−z/√2), and its inverse by Wichura's rational functions, relative error about
+//! 1e-16 \[M. J. Wichura, algorithm AS 241 (PPND16), Applied Statistics 37, 477 (1988)\].
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -27,10 +27,10 @@ pub fn quantile(p: f64) -> f64 {
     z.copysign(q)
 }
 
-/// The quantile u of the distribution truncated to the interval from `low` to `high`; both may be infinite.
+/// The quantile u of the normal distribution truncated to the interval from `low` to `high`; both may be infinite.
 pub fn truncated(u: f64, low: f64, high: f64) -> f64 {
     let mass = between(low, high);
-    // each half uses its own tail, so that neither loses digits
+    // each half is computed from its own tail, so that neither loses digits
     let below_it = below(low) + u * mass;
     let above_it = below(-high) + (1.0 - u) * mass;
     let z = if below_it < above_it {

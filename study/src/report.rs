@@ -1,4 +1,5 @@
-//! The report of a complete study: `summary.json`, `summary.txt`, and the pictures `scatter` and `tornado` as SVG or PNG.
+//! The report of a complete study: `summary.json`, `summary.txt`, and the pictures `scatter` and `tornado` as SVG or
+//! PNG.
 
 use crate::picture::{scatter, tornado};
 use crate::results::{Results, ResultsError};
@@ -7,7 +8,7 @@ use crate::summary::{Summary, summarize, text};
 use bryant_picture::{Format, RasterError};
 use std::path::PathBuf;
 
-/// Why there is no report.
+/// Why a report could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The results are incomplete or damaged.

@@ -1,4 +1,5 @@
-//! Responses: one number for each run, read off the time series of an output. This file has their names and units; the engine computes
+//! Responses: each is one number that is computed from the time series of outputs of a run. This file has their names
+//! and units; the engine computes them.
 //! them.
 
 use crate::facts::OutputFact;
@@ -9,8 +10,8 @@ use bryant_runtime::response::Channel;
 use bryant_runtime::response::filter::Filter;
 use serde::Serialize;
 
-/// Is raised whenever the computation of a response changes by more than rounding, or its input changes: results of both versions are then
-/// never mixed. 2: clips are those of the line through the samples.
+/// Version of the computation of responses. It is raised when results change by more than rounding, so that results of
+/// two versions are never mixed. 2: clips use the straight lines between samples.
 pub const REVISION: u32 = 2;
 
 /// A number read off each run.
@@ -18,7 +19,7 @@ pub const REVISION: u32 = 2;
 pub struct Response {
     /// Heading of its column; no other response has it.
     pub name: String,
-    /// The channel that it is read off: outputs of the model, by their indices.
+    /// The channel that it is computed from: outputs of the model, by their indices.
     #[serde(rename = "output", serialize_with = "as_text")]
     pub channel: Channel,
     /// Names of the outputs.
@@ -35,7 +36,7 @@ pub struct Response {
     pub si: String,
 }
 
-/// Whether a unit of this size is that of the SI.
+/// True for the size of an SI unit.
 fn is_si(size: &f64) -> bool {
     *size == 1.0
 }
@@ -49,14 +50,14 @@ impl Response {
 
     /// The number in its unit, from its SI value.
     pub fn in_unit(&self, si: f64) -> f64 {
-        // in SI all digits stay as they are
+        // without a division, all digits stay as they are
         match is_si(&self.size) {
             true => si,
             false => si / self.size,
         }
     }
 
-    /// The longest time between samples that its filter allows \[s\], if it has a filter.
+    /// The longest time between samples that its filter allows \[s\]; `None` without a filter.
     pub fn longest_interval(&self) -> Option<f64> {
         self.channel
             .filter
@@ -64,7 +65,7 @@ impl Response {
     }
 }
 
-/// An output without changes is stored as its index, other channels with all their parts.
+/// Stores a channel of one output without a filter as the index of the output, and other channels with all their parts.
 fn as_text<S: serde::Serializer>(channel: &Channel, to: S) -> Result<S::Ok, S::Error> {
     match channel.plain() {
         Some(output) => to.serialize_u64(output as u64),
@@ -79,7 +80,7 @@ pub fn channel_of(output: usize, filter: Option<&str>) -> Channel {
     channel
 }
 
-/// The number that is read off a series x(t), with t from 0 to the end T.
+/// The kind of number that is computed from a series x(t), 0 ≤ t ≤ T.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum What {
@@ -126,7 +127,7 @@ pub enum What {
     Olc,
 }
 
-/// All kinds with the names that a study uses; times are filled in later.
+/// The names of all kinds in a study. Their times are filled in later.
 pub const NAMES: [(&str, What); 16] = [
     ("peak", What::Peak),
     ("minimum", What::Minimum),
@@ -146,7 +147,7 @@ pub const NAMES: [(&str, What); 16] = [
     ("OLC", What::Olc),
 ];
 
-/// Other words for the kinds, and the names that are used here.
+/// Synonyms: the name of a kind, and other words for it.
 const MEANT: [(&str, &[&str]); 12] = [
     (
         "peak",
@@ -196,7 +197,7 @@ const MEANT: [(&str, &[&str]); 12] = [
     ("integral", &["impulse", "area", "time integral"]),
 ];
 
-/// The name of the kind that another word stands for.
+/// The name of the kind that a synonym stands for.
 pub fn meant(word: &str) -> Option<&'static str> {
     let word = word.trim().to_lowercase().replace(['_', '-'], " ");
     let of = MEANT
@@ -214,18 +215,19 @@ impl What {
             .map(|(_, what)| *what)
     }
 
-    /// Whether it needs an acceleration.
+    /// True if it needs an acceleration.
     pub fn is_injury_criterion(self) -> bool {
         matches!(self, What::Hic15 | What::Hic36 | What::Olc)
     }
 
-    /// Whether it judges what an accelerometer reads.
+    /// True if it is meant for readings of accelerometers.
     fn is_of_instrument(self) -> bool {
         self.is_injury_criterion()
             || matches!(self, What::Clip { .. } | What::ContiguousClip { .. })
     }
 
-    /// The warning about this response of an acceleration that no instrument reads, with a remedy.
+    /// The warning, with a remedy, if this response is meant for readings of instruments and the output is an
+    /// acceleration that none can measure.
     pub fn caution(self, of: &OutputFact) -> Option<String> {
         let why = of.unread.as_ref().filter(|_| self.is_of_instrument())?;
         Some(format!(
@@ -234,7 +236,7 @@ impl What {
         ))
     }
 
-    /// The length of its window \[s\], if it has one.
+    /// The length of its time window \[s\], if it has one.
     pub fn window(self) -> Option<f64> {
         match self {
             What::Hic15 => Some(15e-3),
@@ -244,7 +246,7 @@ impl What {
         }
     }
 
-    /// Its unit for an output in `unit`.
+    /// Its unit, for an output in `unit`.
     pub fn unit(self, unit: &str) -> String {
         match self {
             What::TimeOfPeak | What::TimeOfMinimum => "s".into(),

@@ -1,4 +1,4 @@
-//! The results of a whole study, block by block: the parameters are drawn again, the outcomes are read from the folder.
+//! The results of a whole study, block by block. Parameters are drawn again; outcomes are read from the folder.
 
 use crate::design::{Sampler, TooManyParameters};
 use crate::engine::Outcomes;
@@ -34,7 +34,7 @@ pub struct Results<'a> {
     pub sampler: Sampler<'a>,
 }
 
-/// Why there are no results.
+/// Why results are not available.
 #[derive(Debug, thiserror::Error)]
 pub enum ResultsError {
     /// Blocks are missing.
@@ -54,7 +54,7 @@ pub enum ResultsError {
     /// Blocks are damaged.
     #[error("{}\n  help: run the study again on this folder; damaged blocks are run anew", list(.0))]
     Damaged(
-        /// The blocks, and what is wrong with them.
+        /// The blocks, each with its error.
         Vec<(u64, PartError)>,
     ),
     /// An error of the folder.
@@ -112,7 +112,7 @@ impl<'a> Results<'a> {
         self.folder.blocks().count()
     }
 
-    /// The error for a damaged block and all damaged blocks after it.
+    /// The error for a damaged block and all damaged ones after it.
     fn damaged_since(&self, block: u64, error: PartError) -> Result<ResultsError, ResultsError> {
         let mut damaged = vec![(block, error)];
         for block in block + 1..self.count() {

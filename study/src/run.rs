@@ -14,10 +14,10 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// The progress.
+/// A message about the progress.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Progress {
-    /// Rows of this shard are done.
+    /// Rows were finished.
     Rows {
         /// Rows in the folder, including those that were there at the beginning.
         done: u64,
@@ -42,7 +42,7 @@ pub enum Progress {
 pub struct Report {
     /// Rows of this shard.
     pub rows: u64,
-    /// Rows of these that were found in the folder.
+    /// Rows of this shard that were in the folder already.
     pub found: u64,
     /// Damaged blocks that were found.
     pub damaged: Vec<PathBuf>,
@@ -179,7 +179,7 @@ struct Search {
     report: Report,
 }
 
-/// The blocks that are to be run. Every existing block is read, and its digest is compared.
+/// The blocks that must be run. Every existing block is read, and its digest is checked.
 fn search(
     folder: &Folder,
     shard: Shard,
@@ -193,7 +193,7 @@ fn search(
         let mut missing = Vec::new();
         while let Some(&block) = mine.get(next.fetch_add(1, Ordering::Relaxed)) {
             match folder.read(block)? {
-                // with more time these rows may reach their ends
+                // slow rows are run again: with more time they may reach their ends
                 Found::Good(outcomes) if outcomes.any_slow() => missing.push((block, None)),
                 Found::Good(_) => {}
                 Found::Missing => missing.push((block, None)),
@@ -273,7 +273,7 @@ impl State<'_> {
         let mut values = Vec::new();
         let (d, width) = (self.study.varied.len(), self.study.responses.len());
         let blocks = self.folder.blocks();
-        // as many blocks as make the number of rows that the engine wants at once
+        // a thread takes whole blocks with at least the number of rows that the engine wants in one call
         let taken = self.engine.rows_at_once().div_ceil(blocks.size).max(1) as usize;
         while !self.stop.load(Ordering::Relaxed) && !self.engine.stops() {
             let first = self
@@ -306,7 +306,7 @@ impl State<'_> {
                 self.folder.write(*block, &outcomes)?;
                 let mut shared = self.lock();
                 shared.done += count;
-                // under the lock, so that reported numbers only grow
+                // called while the lock is held, so that reported numbers only grow
                 tell(shared.done);
             }
         }

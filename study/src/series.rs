@@ -1,4 +1,4 @@
-//! Time series of the runs that are kept: `series/run-00000017.csv`, a column for each output.
+//! Time series of runs for which the study keeps them: `series/run-00000017.csv`, a column for each output.
 
 use crate::design::Sampler;
 use crate::engine::{Engine, EngineError, Series};
@@ -75,7 +75,7 @@ fn headings(study: &Study) -> Vec<String> {
     std::iter::once("time [s]".to_owned()).chain(kept).collect()
 }
 
-/// The outputs that are kept.
+/// The series of the outputs that are kept.
 fn columns<'a>(study: &Study, series: &'a Series) -> Result<Vec<&'a [f64]>, EngineError> {
     let column = |index: usize| {
         let values = series
@@ -93,7 +93,8 @@ fn columns<'a>(study: &Study, series: &'a Series) -> Result<Vec<&'a [f64]>, Engi
         .collect()
 }
 
-/// Whether the file exists with these columns; an existing file is complete, but other outputs may be requested now.
+/// True if the file exists with these columns. An existing file is complete, but it may be from a time when other
+/// outputs were kept.
 fn is_whole(path: &Path, headings: &[String]) -> bool {
     let mut expected = Vec::new();
     let (Ok(file), Ok(())) = (open_file(path), record(&mut expected, headings)) else {

@@ -34,13 +34,13 @@ impl Shard {
         }
     }
 
-    /// The blocks of this shard, of `count` blocks in all.
+    /// The blocks of this shard; the study has `count` blocks in all.
     pub fn blocks(self, count: u64) -> impl Iterator<Item = u64> {
         let step = usize::try_from(self.count).unwrap_or(usize::MAX);
         (self.index..count).step_by(step)
     }
 
-    /// Whether a block belongs to this shard.
+    /// True if a block belongs to this shard.
     pub fn has(self, block: u64) -> bool {
         block % self.count == self.index
     }

@@ -20,7 +20,7 @@ pub const OWN_COLUMNS: [&str; 6] = [
     "reason",
 ];
 
-/// The runs of a study, and the responses that are read off them. `store` says which parts decide about the results.
+/// The runs of a study, and the responses that are computed from them. `store` decides which parts affect the results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Study {
     /// The model as the file names it: a bundled model, or a path relative to the file.
@@ -30,11 +30,11 @@ pub struct Study {
     pub rows: u64,
     /// The parameters that differ between runs, in the order of the file.
     pub varied: Vec<Varied>,
-    /// Parameters that have the same value in all runs, which is not that of the model.
+    /// Parameters that have the same value in all runs, instead of that of the model.
     pub fixed: Vec<Fixed>,
-    /// The plan of the values.
+    /// The values of the parameters.
     pub plan: Plan,
-    /// The settings of the run of a row.
+    /// The settings of each run.
     pub run: RunSettings,
     /// The responses that are read off each run, at least one.
     pub responses: Vec<Response>,
@@ -53,7 +53,7 @@ pub struct Varied {
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
-    /// The unit that people read its values in: that of the study's text, or the SI unit where it has none.
+    /// The unit in which its values are shown to people: that of the study's text, or the SI unit if the text has none.
     #[serde(skip)]
     pub shown: String,
 }
@@ -63,7 +63,7 @@ pub struct Varied {
 pub struct Fixed {
     /// Its name in the model.
     pub name: String,
-    /// SI.
+    /// Value, SI.
     pub value: f64,
 }
 
@@ -77,7 +77,7 @@ pub enum Plan {
     List(Listed),
     /// Random rows.
     Random {
-        /// The way in which points are spread.
+        /// How points are spread.
         design: RandomDesign,
         /// The seed of all random numbers.
         seed: u64,
@@ -129,13 +129,13 @@ impl Levels {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RandomDesign {
-    /// One point in each of n equal parts of each parameter.
+    /// Latin hypercube: the range of each parameter has n parts of equal probability, with one point in each.
     LatinHypercube,
     /// A scrambled Sobol' sequence.
     Sobol,
     /// Independent points.
     MonteCarlo,
-    /// Groups A, B, AB₁ … AB_d of two scrambled Sobol' points each, for the indices of Sobol'.
+    /// Saltelli's groups for Sobol' indices: A and B are scrambled Sobol' points, and AB_i is A with coordinate i of B.
     Saltelli,
 }
 
@@ -143,7 +143,7 @@ pub enum RandomDesign {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Listed(pub Vec<f64>);
 
-/// Stored by their digest, because a list may be long.
+/// A list is stored by its digest, because it may be long.
 impl Serialize for Listed {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut digest = Sha256::new();
@@ -154,18 +154,18 @@ impl Serialize for Listed {
     }
 }
 
-/// Settings of each run; the model decides about settings that are not given.
+/// Settings of each run; for a setting that is not given, that of the model holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct RunSettings {
-    /// \[s\]
+    /// Length of a run \[s\].
     pub duration: Option<f64>,
-    /// Relative error of the responses that is aimed at.
+    /// Requested relative error of the responses.
     pub accuracy: Option<f64>,
-    /// Time between the samples that responses are read off \[s\].
+    /// Time between the samples that responses are computed from \[s\].
     pub sampling: Option<f64>,
-    /// Fixed steps, instead of steps that follow from the accuracy.
+    /// Fixed steps; `None` if the steps follow from the accuracy.
     pub step: Option<FixedSteps>,
-    /// Share of energy and of momentum that may be missing in runs with fixed steps; `None` for the default.
+    /// Largest share of energy and of momentum that may be missing in runs with fixed steps; `None` for the default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_limit: Option<f64>,
     /// The precision of the numbers.
@@ -174,7 +174,8 @@ pub struct RunSettings {
 }
 
 impl Study {
-    /// The time between the samples of responses \[s\]: as the study says, or what the model and the filters need.
+    /// The time between the samples of responses \[s\]: that of the study, else the shortest that the model and the
+    /// filters need.
     pub fn sampling(&self, facts: &ModelFacts) -> f64 {
         let needed = crate::file::sampling(&self.run, facts, &self.responses);
         let kept = self.kept_filters(facts).map(Class::longest_interval);
@@ -223,7 +224,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// All of them, by order.
+    /// All methods, by order.
     pub const ALL: [Method; 4] = [Method::Heun, Method::Rk4, Method::Merson, Method::Dopri5];
 
     /// Its name in files.
@@ -262,9 +263,9 @@ impl Precision {
 /// Runs whose time series are kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Keep {
-    /// These, in increasing order.
+    /// Indices of such runs, in increasing order.
     pub runs: Vec<u64>,
-    /// Also the runs 0, n, 2 n, ….
+    /// Also runs 0, n, 2 n, ….
     pub every: Option<u64>,
     /// The outputs that are kept.
     pub outputs: Vec<KeptOutput>,

@@ -14,7 +14,8 @@ pub struct Heading<'t> {
 }
 
 impl<'t> Heading<'t> {
-    /// The parts of `ax [g]`; where `is_unit` holds of the unit also of `ax (g)`, `ax/g` and `ax / g`.
+    /// Splits a heading into name and unit: `ax [g]`. The forms `ax (g)`, `ax/g` and `ax / g` are split only if
+    /// `is_unit` is true for the unit.
     pub fn of(field: Field<'t>, is_unit: &dyn Fn(&str) -> bool) -> Heading<'t> {
         let text = field.text;
         let between = |open: char, close: char| {
@@ -31,7 +32,7 @@ impl<'t> Heading<'t> {
                 Some(inside) if !inside.contains('(') => inside.trim(),
                 _ => unit,
             };
-            // `v m/s` and `m/s` have no name before the stroke
+            // `v m/s` and `m/s` have no name before the stroke, so they are not split
             let is_name = !name.is_empty() && !name.contains(char::is_whitespace) && !is_unit(name);
             is_name.then_some((name, unit))
         };
@@ -46,7 +47,7 @@ impl<'t> Heading<'t> {
         Heading { field, name, unit }
     }
 
-    /// Whether a user who writes this name means this heading: with its unit or without it.
+    /// True if `name` means this heading: it is the heading with or without its unit.
     pub fn is_called(&self, name: &str) -> bool {
         let name = name.trim();
         self.field.text == name || self.name == name

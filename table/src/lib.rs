@@ -1,27 +1,28 @@
-//! Tables of numbers as text (CSV), as curves and recordings have them: read once, by one rule.
+//! Tables of numbers as text (CSV), for curves and recordings, which are read by the same rules.
 //!
-//! A table has a line for each row, with fields between tabs, `;` or `,`. Lines that are empty or begin with `#` are skipped, as is a byte
-//! order mark. A field may stand between quotation marks. The first line may have headings such as `ax [g]`, with the unit of the column.
+//! A table has a line for each row, with fields between tabs, `;` or `,`. Empty lines, lines that begin with `#`, and a
+//! byte order mark are skipped. A field may be in quotation marks. The first line may have headings such as `ax [g]`,
+//! with the unit of the column.
 //!
-//! What could be read in two ways is refused: a line with more or fewer fields than the first one, and a decimal comma.
+//! Ambiguous text is refused: a line with more or fewer fields than the first line, and a decimal comma.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod heading;
 
 pub use heading::Heading;
 
-/// What is wrong in a table, its place, and what would be right.
+/// An error in a table, with its place and a remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// Line, from 1.
     pub line: usize,
-    /// First character of the line that is wrong, from 1.
+    /// The first wrong character in the line, from 1.
     pub column: usize,
-    /// Number of characters, 1 or more.
+    /// Number of wrong characters, at least 1.
     pub length: usize,
-    /// What is wrong.
+    /// The error.
     pub message: String,
-    /// What would be right.
+    /// The remedy.
     pub help: String,
 }
 
@@ -39,7 +40,7 @@ pub struct Field<'t> {
 }
 
 impl Field<'_> {
-    /// The number; `None` if the field is empty. It may be infinite or not a number if that is written.
+    /// The number; `None` if the field is empty. It may be infinite or NaN if the text says so.
     ///
     /// # Errors
     /// The text is no number.
@@ -68,7 +69,7 @@ impl Field<'_> {
     }
 }
 
-/// A text for a message: its first 40 characters.
+/// The first 40 characters of a text, for a message.
 fn shortened(text: &str) -> String {
     match text.char_indices().nth(40) {
         Some((end, _)) => format!("{}…", &text[..end]),
@@ -76,12 +77,12 @@ fn shortened(text: &str) -> String {
     }
 }
 
-/// Whether a text would be a number with a point in place of its comma.
+/// True if a text is a number with a decimal comma.
 fn has_decimal_comma(text: &str) -> bool {
     text.matches(',').count() == 1 && text.replace(',', ".").parse::<f64>().is_ok()
 }
 
-/// A table: its first line, and what separates the fields of all lines.
+/// A table: its text, the delimiter of fields, and the fields of the first line.
 #[derive(Clone, Debug)]
 pub struct Table<'t> {
     text: &'t str,
@@ -90,10 +91,10 @@ pub struct Table<'t> {
 }
 
 impl<'t> Table<'t> {
-    /// The table in a text; `None` if there is no line with content.
+    /// Reads a table; `None` if the text has no line with content.
     ///
     /// # Errors
-    /// A quotation mark of the first line does not end.
+    /// A quotation mark in the first line is not closed.
     pub fn of(text: &'t str) -> Result<Option<Table<'t>>, Fault> {
         let text = text.trim_start_matches('\u{feff}');
         let mut lines = contents(text);
@@ -114,20 +115,20 @@ impl<'t> Table<'t> {
         &self.first
     }
 
-    /// The headings in the first line. `is_unit` says whether a text is a unit; only then it is taken as one between round brackets or
-    /// behind a stroke, as in `ax (g)` and `ax/g`.
+    /// The headings in the first line. Units in round brackets or behind a stroke, as in `ax (g)` and `ax/g`, are
+    /// recognised only if `is_unit` is true for them.
     pub fn headings(&self, is_unit: &dyn Fn(&str) -> bool) -> Vec<Heading<'t>> {
         let each = self.first.iter();
         each.map(|field| Heading::of(*field, is_unit)).collect()
     }
 
-    /// Whether the first line has headings: the field of this index is neither a number nor one with a decimal comma.
+    /// True if the first line has headings: its field `index` is neither a number nor a number with a decimal comma.
     pub fn is_headed(&self, index: usize) -> bool {
         let text = self.first.get(index).map_or("", |field| field.text);
         text.parse::<f64>().is_err() && !has_decimal_comma(text)
     }
 
-    /// The lines with numbers: all, or all but the `headed` first one. Each has as many fields as the first line.
+    /// The lines with numbers: without the first line if it is `headed`. Each has as many fields as the first line.
     pub fn rows(&self, headed: bool) -> impl Iterator<Item = Result<Vec<Field<'t>>, Fault>> + '_ {
         let lines = contents(self.text).skip(usize::from(headed));
         lines.map(move |line| self.row(line, headed))
@@ -136,7 +137,7 @@ impl<'t> Table<'t> {
     fn row(&self, line: (usize, &'t str), headed: bool) -> Result<Vec<Field<'t>>, Fault> {
         let mut fields = split(line, self.delimiter)?;
         let expected = self.first.len();
-        // a delimiter at the end of a line separates nothing
+        // a delimiter at the end of a line is ignored
         while fields.len() > expected && fields.last().is_some_and(|last| last.text.is_empty()) {
             fields.pop();
         }
@@ -181,8 +182,8 @@ fn contents(text: &str) -> impl Iterator<Item = (usize, &str)> {
         })
 }
 
-/// What separates the fields: the first of tab, `;` and `,` that divides the first line into as many fields, two or more, as the second
-/// one; if there is none, the first of them in the first line.
+/// The delimiter of fields: the first of tab, `;` and `,` that gives the same number of fields in the first and the
+/// second line, at least two. If there is none, the first of them that occurs in the first line, else `,`.
 fn delimiter(first: (usize, &str), second: Option<(usize, &str)>) -> char {
     let count = |line, delimiter| split(line, delimiter).map_or(1, |fields| fields.len());
     let all = ['\t', ';', ','];
@@ -197,7 +198,7 @@ fn delimiter(first: (usize, &str), second: Option<(usize, &str)>) -> char {
         .unwrap_or(',')
 }
 
-/// The fields of a line; a delimiter between quotation marks separates nothing.
+/// The fields of a line. A delimiter in quotation marks does not count.
 fn split((line, text): (usize, &str), delimiter: char) -> Result<Vec<Field<'_>>, Fault> {
     let mut fields = Vec::new();
     let (mut begin, mut first, mut column) = (0, 1, 1);

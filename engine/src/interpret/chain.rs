@@ -1,8 +1,8 @@
-//! Joins the operations of a list into chains. In a chain each operation uses the result of the one before, and no other
-//! operation does.
+//! Joins the operations of a list into chains. In a chain, each operation uses the result of the one before, and this
+//! result is used nowhere else.
 //!
-//! Example: a·b + c·d + e·f is one chain of three operations. Its intermediate results are never stored. A change of sign of an
-//! operand becomes part of the fused operation that uses it.
+//! Example: a·b + c·d + e·f is one chain of three operations. Its intermediate results are never stored. If an operand
+//! of a fused operation is a change of sign, the sign becomes part of the kind of the operation.
 
 use bryant_generator::expression::Function;
 use bryant_generator::program::{List, Operation, Value};
@@ -38,7 +38,7 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
     pub kind: Kind,
-    /// Indices of values, as many as the kind has operands.
+    /// The operands, as indices of values; only as many as the kind has.
     pub operands: [u32; 3],
     /// Index of the first value that it defines.
     pub defines: u32,
@@ -54,12 +54,13 @@ pub struct Call {
     pub results: u32,
 }
 
-/// Operations that are done one after the other. Each except the first has the result of the one before as its addend.
+/// Operations that are executed one after the other. The third operand of each, except the first, is the result of the
+/// one before.
 #[derive(Clone, Copy, Debug)]
 pub struct Chain {
     links: [Link; LONGEST],
     length: usize,
-    /// The index of the call, if the chain is one.
+    /// The index of its call, if the chain is a call.
     call: usize,
 }
 
@@ -83,7 +84,7 @@ impl Kind {
         }
     }
 
-    /// Whether a chain may begin with this kind.
+    /// True if a chain may begin with an operation of this kind.
     fn begins(self) -> bool {
         matches!(
             self,
@@ -97,7 +98,7 @@ impl Kind {
         )
     }
 
-    /// Whether a chain may continue with this kind.
+    /// True if an operation of this kind may continue a chain.
     fn goes_on(self) -> bool {
         matches!(self, Kind::MulAdd | Kind::NegMulAdd | Kind::MulSub)
     }
@@ -108,7 +109,7 @@ impl Chain {
         &self.links[..self.length]
     }
 
-    /// The index of the call, if the chain is one.
+    /// The index of its call, if the chain is a call.
     pub fn call(&self) -> Option<usize> {
         (self.links[0].kind == Kind::Call).then_some(self.call)
     }
@@ -128,7 +129,7 @@ impl Chain {
         [first, last]
     }
 
-    /// Calls `of` with every value that the chain needs from elsewhere.
+    /// Calls `of` with every value that the chain uses and does not define itself.
     pub fn needs(&self, calls: &[Call], mut of: impl FnMut(u32)) {
         for (place, link) in self.links().iter().enumerate() {
             let count = link.kind.operands() - usize::from(place > 0);
@@ -139,7 +140,7 @@ impl Chain {
         }
     }
 
-    /// The first value that the chain defines for others, and the number of such values.
+    /// The first value that the chain defines for others, and the number of these values.
     pub fn defines(&self, calls: &[Call]) -> (u32, u32) {
         let last = self.links[self.length - 1];
         let count = match last.kind {
@@ -175,7 +176,7 @@ pub fn chains(list: &List) -> (Vec<Chain>, Vec<Call>) {
     let mut found = Vec::with_capacity(links.len());
     for at in (0..links.len()).rev() {
         let (last, call) = links[at];
-        // A change of sign that became part of the operation that uses it.
+        // the sign became part of the operations that use it
         let unused = last.kind == Kind::Neg && uses[last.defines as usize] == 0;
         if taken[at] || unused {
             continue;
@@ -212,7 +213,8 @@ pub fn chains(list: &List) -> (Vec<Chain>, Vec<Call>) {
     (found, calls)
 }
 
-/// The operations, each with the index of its call if it is one. Changes of sign of operands are part of fused operations.
+/// The operations, each with the index of its call if it is a call, and all calls. Fused operations include the signs
+/// of their operands.
 fn links(list: &List) -> (Vec<(Link, usize)>, Vec<Call>) {
     let leaves = list.constants.len() + list.inputs.len();
     let mut negative_of: Vec<Option<u32>> = vec![None; leaves];

@@ -1,4 +1,4 @@
-//! Turns chains in order into code: values become places in the frame, and chains of one shape become runs.
+//! Turns ordered chains into code: values get places in the frame, and successive chains of one shape become a run.
 
 use super::Layout;
 use super::chain::{Call, Chain, chains};
@@ -14,27 +14,28 @@ pub struct Code {
     pub runs: Vec<Run>,
     pub groups: Vec<Group>,
     pub calls: Vec<Site>,
-    /// The places of the arguments of calls.
+    /// The places of the arguments of all calls.
     pub arguments: Vec<u16>,
-    /// The places of the results.
+    /// The places of the results of the list.
     pub results: Vec<u16>,
     /// One more than the largest place in the code. It is private, so that no other module can set it.
     end: usize,
 }
 
-/// A number of chains of one shape, one after the other.
+/// Successive chains of one shape.
 #[derive(Clone, Copy, Debug)]
 pub struct Run {
     pub shape: u16,
     pub count: u32,
 }
 
-/// The places of one chain: of its result, of the operands of its first operation, at most three, and of the factors of the operations
-/// that follow. For a call, the first entry is its index.
+/// The places of one chain: the place of its result, then those of the operands of its first operation (three entries),
+/// then two for each further operation, whose third operand is the result before. In a call, the first entry is the
+/// index of the call.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Group(pub [u16; 8]);
 
-/// A call: the range of its arguments in the list of arguments, and the places of its results.
+/// A call: the range of its arguments in the list of arguments; and the first place of its results, with their number.
 #[derive(Clone, Copy, Debug)]
 pub struct Site {
     pub function: Function,
@@ -42,7 +43,8 @@ pub struct Site {
     pub results: (u16, u16),
 }
 
-/// The code of a list. `constants` gives the place of each constant, by its bits. `None` if the list needs more places than there are.
+/// Encodes a list. `constants` gives the place of each constant, by its bits. `None` if a place would exceed sixteen
+/// bits.
 pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, u32>) -> Option<Code> {
     let (chains, calls) = chains(list);
     let mut supported = Vec::with_capacity(chains.len());
@@ -69,7 +71,7 @@ pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, u32>) -> Op
     Some(code)
 }
 
-/// Adds a chain with its shape. If there is no loop for the whole chain, it is split.
+/// Adds a chain with its shape. A chain without a loop of its shape is split.
 fn add_supported(chain: &Chain, to: &mut Vec<(Chain, usize)>) {
     let kinds: Vec<_> = chain.links().iter().map(|link| link.kind).collect();
     if let Some(shape) = shape_of(&kinds) {
@@ -102,7 +104,7 @@ impl Code {
         let mut last = 0;
         for run in &self.runs {
             let (groups, after) = rest.split_at(run.count as usize);
-            // For a call the first entry is no place; the second value of a sine is one place further.
+            // the groups of calls hold no places; the cosine is one place after its sine
             if !is_call(run.shape) {
                 let places = groups.iter().flat_map(|group| group.0);
                 last = last.max(places.max().unwrap_or(0).into());
@@ -119,7 +121,7 @@ impl Code {
         self.end = 1 + last.max(others.unwrap_or(0).into());
     }
 
-    /// Adds a chain as the current step. `None` if a place is too far away.
+    /// Adds a chain as the step with this number. `None` if a place exceeds sixteen bits.
     fn add(&mut self, chain: &Chain, calls: &[Call], step: u32, places: &mut Places) -> Option<()> {
         let mut group = Group::default();
         let call = chain.call().map(|call| &calls[call]);
@@ -158,19 +160,20 @@ impl Code {
     }
 }
 
-/// The places of values.
+/// Assigns places in the frame to values.
 struct Places {
     /// The place of each value.
     of: Vec<u32>,
-    /// For each value, the step that uses it last, or the step that defines it if none does; [`NEVER`] for results.
+    /// For each value, the last step that uses it, or the step that defines it if no step uses it; [`NEVER`] for
+    /// results.
     last_use: Vec<u32>,
-    /// Values before this one have fixed places.
+    /// Number of constants and inputs; these are the first values and have fixed places.
     leaves: u32,
     free: Vec<u32>,
     next: u32,
 }
 
-/// The last step of a value whose place is never free.
+/// Marks a value whose place is not freed (again).
 const NEVER: u32 = u32::MAX;
 
 impl Places {
@@ -208,13 +211,13 @@ impl Places {
     /// Frees the place of a value if this is the last step that needs it.
     fn free_after(&mut self, value: u32, step: u32) {
         if value >= self.leaves && self.last_use[value as usize] == step {
-            // Only once, even if a step uses the value twice.
+            // only once, even if a step uses the value twice
             self.last_use[value as usize] = NEVER;
             self.free.push(self.of[value as usize]);
         }
     }
 
-    /// Assigns places to neighbouring values. The places of values that nothing uses are free again.
+    /// Assigns neighbouring places to values, and frees the places of values that are never used.
     fn define(&mut self, first: u32, count: u32, step: u32) -> Option<u16> {
         let reused = (count == 1).then(|| self.free.pop()).flatten();
         let to = reused.unwrap_or_else(|| {

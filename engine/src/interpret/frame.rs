@@ -1,12 +1,12 @@
-//! The frame: the values that code works on.
+//! The frame: the values of an evaluation.
 
 use super::encode::Code;
 use crate::call::Library;
 use bryant_generator::expression::Function;
 use bryant_runtime::Real;
 
-/// The values of one scalar that a piece of code works on. All places of the code lie in it. This is checked once, when the frame is made,
-/// and not at each access.
+/// The values of one scalar that a piece of code reads and writes. All places of the code lie in the frame. This is
+/// checked once, when the frame is made, and not at each access.
 pub struct Frame<'a, T> {
     values: &'a mut [T],
     /// Room for the arguments of a call.
@@ -14,7 +14,7 @@ pub struct Frame<'a, T> {
 }
 
 impl<'a, T: Real> Frame<'a, T> {
-    /// A frame of these values, with room for the arguments of the longest call of the code.
+    /// A frame of `values`; `arguments` has room for the longest call of the code.
     ///
     /// # Panics
     /// If the code has places beyond the values.
@@ -28,8 +28,8 @@ impl<'a, T: Real> Frame<'a, T> {
     #[inline(always)]
     pub fn get(&self, place: u16) -> T {
         debug_assert!(usize::from(place) < self.values.len());
-        // SAFETY: `place` belongs to the code that the frame was made for. So it is below `Code::end`, which `new` compares with the
-        // length.
+        // SAFETY: `place` belongs to the code that the frame was made for. So it is below `Code::end`, and `new` has
+        // checked that the frame is at least as long.
         unsafe { *self.values.get_unchecked(usize::from(place)) }
     }
 
@@ -42,7 +42,7 @@ impl<'a, T: Real> Frame<'a, T> {
         unsafe { *self.values.get_unchecked_mut(usize::from(place)) = value };
     }
 
-    /// Calls a function with the values at these places. The results go to neighbouring places, given by the first place and their number.
+    /// Calls a function with the values at `places`. Its results go to `count` neighbouring places from `first` on.
     #[inline(always)]
     pub fn call(
         &mut self,

@@ -1,19 +1,21 @@
 //! The interpreter: runs lists over any scalar.
 //!
-//! A list becomes code once, for all scalars, when its method is used for the first time:
+//! When a method is used for the first time, its list becomes code for all scalars:
 //!
 //! | step | where |
 //! |---|---|
-//! | operations whose result only the next one uses are joined into chains; changes of sign become part of fused operations | `chain` |
+//! | operations are joined into chains, if only the next one uses the result; changes of sign become part of fused operations | `chain` |
 //! | chains are ordered such that runs of one shape are long | `order` |
-//! | values get places in a frame; a place is used again when nothing uses its value any more | `encode` |
+//! | values get places in a frame; a place is reused after the last use of its value | `encode` |
 //! | one loop executes each run | `run` |
 //!
-//! All methods share one frame of values: constants, parameters, values derived from them, time, state, the inputs from earlier methods,
-//! and room for the results of operations. The operations, their order and their rounding are those of the list.
+//! All methods share one frame of values: constants, parameters, values derived from them, time, state, the inputs from
+//! earlier methods, and room for the results of operations. The operations, their order and their rounding are those of
+//! the list.
 //!
-//! Places have sixteen bits, which keeps the code in the first cache of a processor. A plain loop over operations (`plain`) runs models that need
-//! more places, and scalars whose operations are long: duals and double-doubles. For numbers it takes several times as long.
+//! Places have sixteen bits, so that the code fits into the first-level cache of a processor. A plain loop over
+//! operations (`plain`) is used for models that need more places, and for scalars with costly operations: duals and
+//! double-doubles. For plain numbers it takes several times as long as runs.
 
 mod chain;
 mod encode;
@@ -34,20 +36,20 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
-/// The methods of a model in the form that the interpreter runs. They are the same for all scalars.
+/// The methods of a model in the form that the interpreter runs, the same for all scalars.
 #[derive(Debug)]
 pub struct Programs {
     constants: Vec<f64>,
     /// The place of each constant, by its bits.
     place_of: HashMap<u64, u32>,
     layout: Layout,
-    /// The runs of each method, made when they are used for the first time; `None` if the method needs too many places.
+    /// The runs of each method, made when the method is first used; `None` if it needs too many places.
     runs: [OnceLock<Option<Code>>; Method::ALL.len()],
-    /// The plain code of each method, made when it is used for the first time.
+    /// The plain code of each method, made when the method is first used.
     plain: [OnceLock<plain::Code>; Method::ALL.len()],
 }
 
-/// Where the parts of the frame begin. The constants come first, then these.
+/// The first place of each part of the frame. The constants come first, then these parts in their order.
 #[derive(Clone, Copy, Debug)]
 struct Layout {
     parameters: u32,
@@ -55,7 +57,7 @@ struct Layout {
     time: u32,
     state: u32,
     before: u32,
-    /// The results of operations.
+    /// Results of operations.
     rest: u32,
 }
 
@@ -132,8 +134,8 @@ struct Values<T> {
 }
 
 impl<T: Real> Interpreter<T> {
-    /// Whether there are loops for runs of chains over this scalar. They take long to compile, and save time where an operation takes no longer
-    /// than to find out which one it is. A scalar without a form may be such a number.
+    /// True if loops for runs of chains are compiled over this scalar. This takes long, and pays only if an operation
+    /// is about as fast as finding out which operation is next. Scalars without a form may be that fast.
     const RUNS: bool = match T::FORM {
         Some(form) => form.order == 0 && !matches!(form.base, Base::DoubleDouble),
         None => true,
@@ -166,7 +168,7 @@ impl<T: Real> Execute<T> for Interpreter<T> {
         let Shared { lists, library, .. } = &*self.shared;
         let mut values = self.values.borrow_mut();
         values.give(&programs.layout, given);
-        // A branch on a constant: over other scalars no loop for runs is compiled.
+        // a branch on a constant: without `RUNS`, no loop for runs is compiled
         if Self::RUNS
             && let Some(code) = programs.runs(lists, method)
         {
@@ -206,7 +208,7 @@ impl<T: Real> Values<T> {
         frame[layout.before as usize..][..given.before.len()].copy_from_slice(given.before);
     }
 
-    /// Makes room for a method, so that nothing is allocated when it runs again.
+    /// Makes room for a method, so that nothing is allocated when the method runs again.
     fn make_room(&mut self, places: usize, arguments: usize) {
         if self.frame.len() < places {
             self.frame.resize(places, T::from_f64(0.0));

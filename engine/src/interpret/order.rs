@@ -4,11 +4,12 @@ use super::chain::{Call, Chain};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// How far, in chains, a run may be ahead of the first chain that is not done. Values that are computed too early have to wait in
-/// memory.
+/// Number of chains by which the order may be ahead of the first chain that is not done. A larger window makes longer
+/// runs, but values that are computed too early have to wait in memory.
 const WINDOW: usize = 400;
 
-/// The numbers of the chains in a new order, in which operands come first. `shapes` gives the shape of each chain, a small number.
+/// The numbers of the chains in an order of long runs; operands still come before their uses. `shapes` gives the shape
+/// of each chain, a small number.
 pub fn in_runs(chains: &[Chain], calls: &[Call], values: usize, shapes: &[usize]) -> Vec<u32> {
     let users = Users::of(chains, calls, values);
     let mut waits_for = users.waits_for.clone();
@@ -49,11 +50,11 @@ pub fn in_runs(chains: &[Chain], calls: &[Call], values: usize, shapes: &[usize]
 
 /// For each chain, the chains that use it.
 struct Users {
-    /// For each chain, where its users begin; with one more entry at the end.
+    /// For each chain, the index of its first user in `users`; with one more entry at the end.
     starts: Vec<u32>,
-    /// A chain that uses a value twice stands here twice.
+    /// The users of all chains. A chain that uses a value twice is listed twice.
     users: Vec<u32>,
-    /// For each chain, how often it stands among the users.
+    /// For each chain, the number of its entries in `users`: operands that have to be computed before it.
     waits_for: Vec<u32>,
 }
 
@@ -101,11 +102,11 @@ impl Users {
     }
 }
 
-/// Chains whose operands are computed.
+/// Chains whose operands are computed, and which are not yet in the order.
 struct Queue {
-    /// For each shape, those within the window.
+    /// For each shape, chains within the window.
     ready: Vec<BinaryHeap<Reverse<u32>>>,
-    /// Those beyond the window.
+    /// Chains beyond the window.
     later: BinaryHeap<Reverse<u32>>,
     limit: usize,
 }
@@ -118,7 +119,7 @@ impl Queue {
         }
     }
 
-    /// Moves the end of the window.
+    /// Moves the end of the window to `limit`.
     fn advance(&mut self, limit: usize, shapes: &[usize]) {
         self.limit = limit;
         while let Some(&Reverse(number)) = self.later.peek()

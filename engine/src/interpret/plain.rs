@@ -1,4 +1,5 @@
-//! A plain loop over the operations of a list, for models that have too many values for runs of chains.
+//! A plain loop over the operations of a list: for models with too many values for runs of chains, and for scalars with
+//! costly operations.
 
 use super::Layout;
 use crate::call::{self, Library};
@@ -14,17 +15,17 @@ type Place = u32;
 #[derive(Debug)]
 pub struct Code {
     steps: Vec<Step>,
-    /// The calls, by the index in a step.
+    /// The calls; a step has the index of its call.
     calls: Vec<Call>,
     /// The places of the arguments of calls.
     arguments: Vec<Place>,
-    /// The places of the results.
+    /// The places of the results of the list.
     pub results: Vec<Place>,
     /// One more than the largest place in the code.
     pub end: usize,
 }
 
-/// A call: its arguments, and the places of its results.
+/// A call: the range of its arguments; and the first place of its results, with their number.
 #[derive(Clone, Copy, Debug)]
 struct Call {
     function: Function,
@@ -48,7 +49,7 @@ enum Kind {
     Call,
 }
 
-/// An operation on places. For a call, `a` is its index.
+/// An operation on places. In a call, `a` is the index of the call.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     kind: Kind,
@@ -69,7 +70,7 @@ impl Code {
     }
 }
 
-/// The code of a list. `constants` gives the place of each constant, by its bits.
+/// Encodes a list. `constants` gives the place of each constant, by its bits.
 pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> Code {
     let mut place: Vec<Place> = Vec::with_capacity(list.values());
     place.extend(list.constants.iter().map(|c| constants[&c.to_bits()]));
@@ -111,7 +112,7 @@ pub fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> 
         }
         let count = operation.defines() as u32;
         let start = place.len();
-        // The results of a call stand side by side. They are written there after all arguments are read.
+        // The results of a call have neighbouring places. All arguments are copied before the results are written.
         let to = match count {
             1 => frame.one(),
             _ => frame.several(count),
@@ -155,7 +156,7 @@ fn kind_of(operation: Operation) -> Kind {
     }
 }
 
-/// The free places.
+/// Free places of the frame.
 struct Places {
     next: Place,
     free: Vec<Place>,
@@ -173,7 +174,7 @@ impl Places {
     }
 }
 
-/// For each value, the operation that uses it last, or the one that defines it if none does; beyond the last operation for
+/// For each value, the last operation that uses it, or the operation that defines it if none uses it; `usize::MAX` for
 /// results.
 fn last_uses(list: &List) -> Vec<usize> {
     let leaves = list.constants.len() + list.inputs.len();

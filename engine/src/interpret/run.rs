@@ -6,7 +6,7 @@ use super::frame::Frame;
 use crate::call::{self, Library};
 use bryant_runtime::{Real, Task};
 
-/// Kinds of operations as numbers, for loops that are compiled for certain kinds.
+/// Kinds of operations as numbers, because the loops have kinds as constant parameters.
 const NONE: u8 = u8::MAX;
 const ADD: u8 = Kind::Add as u8;
 const SUB: u8 = Kind::Sub as u8;
@@ -22,7 +22,7 @@ const ATAN2: u8 = Kind::Atan2 as u8;
 const MAX: u8 = Kind::Max as u8;
 const MIN: u8 = Kind::Min as u8;
 
-/// All shapes, and the function that executes a run of one.
+/// Defines all shapes, and the function that executes a run of one shape.
 macro_rules! shapes {
     ($($number:literal: $first:ident $second:ident $third:ident;)*) => {
         /// The kinds of the operations of each shape. The last two shapes, sines and calls, are not in this table.
@@ -93,12 +93,12 @@ pub const SINES: u16 = SHAPES.len() as u16;
 /// The shape of a call.
 const CALLS: u16 = SINES + 1;
 
-/// Whether a shape is that of calls, which have an index in place of places.
+/// True if a shape is that of calls; their groups hold the index of a call instead of places.
 pub fn is_call(shape: u16) -> bool {
     shape == CALLS
 }
 
-/// The shape of these kinds; `None` if there is no loop for it. Each single operation has a loop.
+/// The shape of a chain with these kinds; `None` if there is no loop for it. Each single operation has a loop.
 pub fn shape_of(kinds: &[Kind]) -> Option<usize> {
     match kinds {
         [Kind::SinCos] => return Some(SINES.into()),
@@ -110,7 +110,7 @@ pub fn shape_of(kinds: &[Kind]) -> Option<usize> {
     SHAPES.iter().position(|shape| *shape == wanted)
 }
 
-/// A piece of code on a frame as a task, compiled for the instructions of the scalar.
+/// The runs of a list as a task, compiled for the instructions of the scalar.
 pub struct Runs<'a, T> {
     pub code: &'a Code,
     pub library: &'a Library,

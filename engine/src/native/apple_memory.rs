@@ -1,7 +1,7 @@
-//! Memory that holds machine code, on Apple silicon. This is compiled, but has not been run yet.
+//! Memory for machine code on Apple silicon. This file is compiled, but has not been run yet.
 //!
-//! Memory must be mapped for this purpose there (`MAP_JIT`). Each thread sees all such memory either as writable or as executable, and changes that for
-//! itself.
+//! On Apple silicon, such memory must be mapped for this purpose (`MAP_JIT`). It is either writable or executable for a
+//! thread, and each thread switches for itself.
 
 #![expect(unsafe_code, reason = "memory becomes executable")]
 
@@ -9,11 +9,11 @@ use std::ffi::c_void;
 use std::ptr::{NonNull, null_mut};
 
 unsafe extern "C" {
-    /// Makes written memory visible to the fetching of instructions, in all cores (libSystem).
+    /// Makes written memory visible to the instruction fetch of all cores (libSystem).
     fn sys_icache_invalidate(start: *mut c_void, length: usize);
 }
 
-/// Memory with code, which may be executed but not written.
+/// Memory with machine code, which may be executed but not written.
 pub struct Executable {
     start: NonNull<u8>,
     length: usize,
@@ -25,7 +25,7 @@ unsafe impl Send for Executable {}
 unsafe impl Sync for Executable {}
 
 impl Executable {
-    /// A copy of the code, at the beginning of a page. `None` where memory cannot be made executable.
+    /// A copy of the code, at the beginning of a page. `None` if the system does not allow executable memory.
     pub fn new(code: &[u8]) -> Option<Self> {
         let protection = libc::PROT_READ | libc::PROT_WRITE | libc::PROT_EXEC;
         let flags = libc::MAP_PRIVATE | libc::MAP_ANON | libc::MAP_JIT;
@@ -36,7 +36,8 @@ impl Executable {
         }
         let start = NonNull::new(start.cast::<u8>())?;
         let length = code.len();
-        // SAFETY: the memory is new, as long as the code, and writable for this thread until it is executable again.
+        // SAFETY: the memory is new and as long as the code. This thread may write to it until it makes it executable
+        // again.
         unsafe {
             libc::pthread_jit_write_protect_np(0);
             std::ptr::copy_nonoverlapping(code.as_ptr(), start.as_ptr(), length);

@@ -1,7 +1,9 @@
-//! Calls into machine code and out of it. All `unsafe` code of this crate is here and in `memory`.
+//! Calls machine code, and lets machine code call functions. All `unsafe` code for machine code is here and in
+//! `memory`.
 //!
-//! Only [`assemble`] in this file makes code, so no other bytes can be run. The code reads and writes only the slots that it is given, and says how
-//! many these are. The tests run that of x86-64 on an emulated processor that checks every access.
+//! Only [`assemble`] makes the code that is run here. The code reads and writes only slots of the regions that it is
+//! given, and says how many slots it needs of each. Tests run the code for x86-64 on an emulated processor that checks
+//! every access.
 
 #![expect(
     unsafe_code,
@@ -19,7 +21,7 @@ use bryant_runtime::Real;
 use std::cell::Cell;
 use std::ffi::c_void;
 
-/// A function, or its type, with the calling convention of code.
+/// A function, or its type, with the calling convention of machine code.
 #[cfg(target_arch = "x86_64")]
 macro_rules! convention {
     ($($function:tt)*) => { extern "sysv64" $($function)* };
@@ -29,13 +31,13 @@ macro_rules! convention {
     ($($function:tt)*) => { extern "C" $($function)* };
 }
 
-/// A function that a list calls.
+/// A function that machine code calls.
 pub trait Call<T> {
-    /// Writes the results. Both slices have the lengths of the function.
+    /// Writes the results. Both slices are as long as the function requires.
     fn call(&self, arguments: &[T], results: &mut [T]);
 }
 
-/// The pointers that are passed to the code, in the order of [`Base`].
+/// The pointers that are passed to machine code, in the order of [`Base`].
 #[repr(C)]
 struct Pointers<T> {
     time: *const T,
@@ -49,14 +51,14 @@ struct Pointers<T> {
     functions: *const Entry,
 }
 
-/// A function in the form in which code calls it.
+/// A function in the form in which machine code calls it.
 #[repr(C)]
 struct Entry {
     function: *const c_void,
     context: *const c_void,
 }
 
-/// A function with the lengths of its slices.
+/// A function with the numbers of its arguments and results.
 #[derive(Debug)]
 struct Called<C> {
     function: C,
@@ -64,7 +66,8 @@ struct Called<C> {
     results: usize,
 }
 
-/// A list as machine code over a scalar that consists of numbers side by side. `C` is the type of the functions that it calls.
+/// A list as machine code over a scalar that consists of numbers side by side. `C` is the type of the functions that
+/// the code calls.
 pub struct Compiled<T, C> {
     memory: Executable,
     /// The number of slots of each region.
@@ -77,11 +80,11 @@ pub struct Compiled<T, C> {
 }
 
 impl<T: Real, C: Call<T>> Compiled<T, C> {
-    /// The code of a list of a model with these curves. `function` gives the functions that it calls. Sine, cosine and `atan2` are those of the
-    /// scalar. `None` where memory cannot be made executable.
+    /// Compiles a list of a model with these curves. `function` gives the functions that the list calls, except sine,
+    /// cosine and `atan2`, which are those of the scalar. `None` if the system does not allow executable memory.
     ///
     /// # Panics
-    /// If `target` is not that of the scalar, which [`target`](super::target) finds.
+    /// If `target` is not the [`target`](super::target) of the scalar.
     pub(crate) fn new(
         list: &List,
         curves: &[Curve],
@@ -143,7 +146,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
             && derived.len() >= slots(Base::Derived)
             && results.len() >= slots(Base::Results);
         assert!(enough, "a slice is shorter than the list needs");
-        // a called function may evaluate the list again, with another frame
+        // the frame is taken, because a called function may evaluate this list again and then needs another frame
         let mut frame = self.frame.take();
         if frame.len() < slots(Base::Frame) {
             frame.resize(slots(Base::Frame), T::from_f64(0.0));
@@ -159,8 +162,9 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
             frame: frame.as_mut_ptr(),
             functions: self.entries.as_ptr(),
         };
-        // SAFETY: the code was assembled for the layout of T and has this signature. The processor has its instructions, as `target` found. It reads
-        // and writes only the slots that it declares, and these exist: the lengths are checked above. Results and frame are exclusive. Every bit
+        // SAFETY: the code was assembled for the layout of T and has this signature. The processor has the instructions
+        // of the code, because `target` has checked it. The code reads and writes only the slots that it declares, and
+        // these exist, because the lengths are checked above. Nothing else uses results and frame meanwhile. Every bit
         // pattern of numbers is a T.
         unsafe {
             let function: convention!(fn(*const Pointers<T>)) =
@@ -180,7 +184,7 @@ impl<T, C> std::fmt::Debug for Compiled<T, C> {
     }
 }
 
-/// A function that needs no context.
+/// The entry of a function that needs no context.
 fn direct<T>(function: convention!(fn(*const c_void, *const T, *mut T))) -> Entry {
     Entry {
         function: function as *const c_void,
@@ -188,7 +192,8 @@ fn direct<T>(function: convention!(fn(*const c_void, *const T, *mut T))) -> Entr
     }
 }
 
-// Code calls the following three functions. A panic does not pass through code: `extern` functions end the process instead.
+// Machine code calls the following three functions. A panic cannot unwind through machine code: `extern` functions end
+// the process instead.
 
 convention! {
     fn sin_cos<T: Real>(_: *const c_void, arguments: *const T, results: *mut T) {
@@ -210,8 +215,9 @@ convention! {
 
 convention! {
     fn any<T: Real, C: Call<T>>(context: *const c_void, arguments: *const T, results: *mut T) {
-        // SAFETY: the context is the `Called` that stands beside this function in the table, and lives as long as the code. Code passes as many
-        // arguments as the function has, and room for its results, which do not overlap. All are initialised, because the frame and all slices are.
+        // SAFETY: the context is the `Called` of the same entry, and lives as long as the code. The code passes as many
+        // arguments as the function has, and room for its results, which do not overlap. All of them are initialised,
+        // because the frame and all slices are.
         unsafe {
             let called = &*context.cast::<Called<C>>();
             let arguments = std::slice::from_raw_parts(arguments, called.arguments);

@@ -1,13 +1,13 @@
-//! Memory that holds machine code.
+//! Memory for machine code.
 //!
-//! It is written before it becomes executable; no thread can write and execute it at the same time. Arm processors do not see in their caches of
-//! instructions what was written as data, so there it is flushed.
+//! The memory is written before it becomes executable; it is never both at once. The instruction caches of Arm
+//! processors do not see written data until the caches are flushed.
 
-/// Memory with code, which may be executed but not written.
+/// Memory with machine code, which may be executed but not written.
 pub struct Executable(memmap2::Mmap);
 
 impl Executable {
-    /// A copy of the code, at the beginning of a page. `None` where memory cannot be made executable.
+    /// A copy of the code, at the beginning of a page. `None` if the system does not allow executable memory.
     pub fn new(code: &[u8]) -> Option<Self> {
         let mut memory = memmap2::MmapMut::map_anon(code.len()).ok()?;
         memory.copy_from_slice(code);
@@ -27,9 +27,11 @@ impl Executable {
     }
 }
 
-/// Makes written memory visible to the fetching of instructions, in all cores. No core can have fetched any of it before, because it is not executable yet.
+/// Makes written memory visible to the instruction fetch of all cores. No core can have fetched any of it before,
+/// because it is not executable yet.
 ///
-/// This is the sequence of the Arm Architecture Reference Manual for code that a program writes: DC CVAU, DSB, IC IVAU, DSB, ISB.
+/// The sequence is that of the Arm Architecture Reference Manual for self-written code: DC CVAU, DSB, IC IVAU, DSB,
+/// ISB.
 #[cfg(target_arch = "aarch64")]
 #[expect(unsafe_code, reason = "instructions for caches")]
 fn flush(memory: &[u8]) {
@@ -42,15 +44,15 @@ fn flush(memory: &[u8]) {
     let (start, end) = (range.start as usize, range.end as usize);
     let lines = |length: usize| (start / length * length..end).step_by(length);
     for address in lines(line(16)) {
-        // SAFETY: the line is memory of ours; its content stays as it is.
+        // SAFETY: the line is part of our memory, and its content does not change.
         unsafe { asm!("dc cvau, {}", in(reg) address, options(nostack, preserves_flags)) };
     }
-    // SAFETY: this waits.
+    // SAFETY: the instruction only waits.
     unsafe { asm!("dsb ish", options(nostack, preserves_flags)) };
     for address in lines(line(0)) {
         // SAFETY: as above.
         unsafe { asm!("ic ivau, {}", in(reg) address, options(nostack, preserves_flags)) };
     }
-    // SAFETY: this waits, and drops instructions that were already fetched.
+    // SAFETY: the instructions only wait, and drop instructions that were fetched before.
     unsafe { asm!("dsb ish", "isb", options(nostack, preserves_flags)) };
 }

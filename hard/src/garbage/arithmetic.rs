@@ -1,4 +1,4 @@
-//! Arithmetic in quantities: random sequences of its words, and expressions with known values.
+//! Arithmetic in quantities: random sequences of its tokens, and expressions with known values.
 
 use super::caught::Tried;
 use crate::bench::{Bench, Trouble};
@@ -93,7 +93,7 @@ fn quantities(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             None => {}
         }
     }
-    // deep, long, and both
+    // deeply nested texts, long texts, and both
     for word in [
         "(", "-", "+", "sqrt(", "1*", "1+", "1/", "m*", "m/", "1 ", "m ", "^", "m^9*", "(1)", "pi",
     ] {
@@ -121,7 +121,7 @@ fn quantities(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// Whether a text is an expression; an `Err` if a reported place is not inside it.
+/// True if a text is an expression; an `Err` if a reported place is not inside the text.
 fn within(text: &str) -> Result<bool, String> {
     let characters = text.chars().count();
     match parse(text) {
@@ -142,8 +142,8 @@ fn within(text: &str) -> Result<bool, String> {
     }
 }
 
-/// An expression as text, with its value and a bound of its rounding error: the sum of the absolute values of its parts, each times its
-/// amplification of errors of operands.
+/// An expression as text, with its value and a bound of its rounding error: the sum of the absolute values of all
+/// parts, each times the factor by which the expression amplifies its error.
 struct Written {
     text: String,
     value: f64,
@@ -170,7 +170,7 @@ const UNITS: [(&str, f64); 14] = [
 
 impl Written {
     fn at_random(random: &mut Random, depth: usize) -> Written {
-        // a rounded value adds ε to the errors of its operands
+        // rounding of the value is added to the errors that its operands carry over
         let made = |text: String, value: f64, carried: f64| Written {
             text,
             value,
@@ -228,7 +228,7 @@ fn agrees(written: &Written) -> Result<(), String> {
     }
     let expression = parse(&written.text).map_err(|mistake| format!("{mistake:?}"))?;
     let value = value(&expression);
-    // if a divisor may be 0 within its error, nothing is known
+    // if a divisor may be 0 within its error, no bound is known
     let known = written.error.is_finite() && written.error < 1e-3 * (1.0 + written.value.abs());
     match !known || (value - written.value).abs() <= written.error {
         true => Ok(()),

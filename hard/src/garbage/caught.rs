@@ -1,4 +1,4 @@
-//! Tries inputs, and collects those that cause an error.
+//! Tries inputs, and collects those that cause a panic or a fault.
 
 use crate::bench::Bench;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -18,7 +18,7 @@ pub struct Tried {
 const SHOWN: usize = 2000;
 
 impl Tried {
-    /// Tries one input; an error from `check` is a fault. `None` after a panic.
+    /// Tries one input: `check` returns an error for a fault, and may panic. `None` after a fault or a panic.
     pub fn input<T>(
         &mut self,
         input: &dyn Fn() -> String,
@@ -39,7 +39,7 @@ impl Tried {
         }
     }
 
-    /// Records the number of inputs, and that there are no panics and no faults.
+    /// Records checks: the number of inputs is at least `least`, and there were no panics and no faults.
     pub fn note(&self, bench: &mut Bench<'_>, least: usize, fault: &str, because: &str) {
         bench.at_least(
             "inputs tried",

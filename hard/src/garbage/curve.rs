@@ -1,4 +1,5 @@
-//! Curves of no length, backwards, with one point, and with points near the limits of floating-point numbers.
+//! Curves of length 0, backward curves, curves with one point, and curves with points near the limits of floating-point
+//! numbers.
 
 use super::caught::Tried;
 use crate::bench::{Bench, Trouble};
@@ -7,7 +8,7 @@ use crate::random::Random;
 use crate::scene::Scene;
 use bryant_generator::model::{Curve, Extrapolate};
 
-/// Curves from random, very bad points.
+/// Curves through random, mostly invalid points.
 pub const CURVES: Case = Case {
     group: Group::Garbage,
     name: "curves of no length",
@@ -15,10 +16,11 @@ pub const CURVES: Case = Case {
     run: curves,
 };
 
-/// Allowed deviation of a curve from its points, as a share of the neighbouring ordinates; the reader of models allows the same.
+/// Allowed deviation of a curve from its points, as a share of the neighbouring ordinates; the reader of models allows
+/// the same.
 const TOLERANCE: f64 = 1e-9;
 
-/// Abscissae and ordinates.
+/// Candidates for abscissae and ordinates.
 const NUMBERS: [&str; 22] = [
     "0",
     "-0.0",
@@ -79,7 +81,7 @@ fn curves(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// A random curve; half of them have increasing abscissae.
+/// The text of a random curve; the abscissae of half of the curves increase.
 fn written(random: &mut Random) -> String {
     let number = |random: &mut Random| (*random.one_of(&NUMBERS)).to_owned();
     let length = random.below(5);
@@ -87,7 +89,7 @@ fn written(random: &mut Random) -> String {
         .map(|_| [number(random), number(random)])
         .collect();
     if random.one_in(2) {
-        // texts that are not numbers may come anywhere
+        // texts that are not numbers are sorted as 0, so they may come anywhere
         points.sort_by(|a, b| {
             let value = |text: &str| text.parse::<f64>().unwrap_or(0.0);
             value(&a[0]).total_cmp(&value(&b[0]))
@@ -110,7 +112,7 @@ fn written(random: &mut Random) -> String {
     )
 }
 
-/// A model that is driven by a curve, whatever its unit.
+/// A model with a force that follows a curve, whatever the unit of the curve.
 fn scene(curve: &str) -> Scene {
     let force = if curve.contains("m/s^2") {
         "{ field: f, acceleration: [c, 0] }"
@@ -126,11 +128,11 @@ fn scene(curve: &str) -> Scene {
     )
 }
 
-/// Checks that a curve goes through its points: exactly at the beginning of a piece, within rounding at its end.
+/// Checks that a curve goes through its points: exactly where a piece begins, within rounding where a piece ends.
 fn through_its_points(curve: &Curve) -> Result<(), String> {
     let last = curve.points.len() - 1;
     for (k, &[x, y]) in curve.points.iter().enumerate() {
-        // a curve that may not be extended has its last point at the end of a piece
+        // only the last point of a curve without extrapolation is not the beginning of a piece
         let rounding = match curve.extrapolate == Extrapolate::Error && k == last {
             true => TOLERANCE * (y.abs() + curve.points[k - 1][1].abs()),
             false => 0.0,
@@ -143,7 +145,7 @@ fn through_its_points(curve: &Curve) -> Result<(), String> {
     for pair in curve.points.windows(2) {
         let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
         let (before, middle) = (x1.next_down(), x0 + 0.5 * (x1 - x0));
-        // a monotone cubic is at most three times as steep as its secant, and abscissae are rounded
+        // a monotone cubic is at most three times as steep as its secant; abscissae have rounding errors
         let slope = 3.0 * ((y1 - y0) / (x1 - x0)).abs();
         let bound = TOLERANCE * (y0.abs() + y1.abs())
             + slope
@@ -163,7 +165,7 @@ fn through_its_points(curve: &Curve) -> Result<(), String> {
     for beyond in [first - 1.0, last + 1.0] {
         let inside = (first..=last).contains(&beyond);
         let value = curve.value(beyond);
-        // an extended line may become infinite
+        // a value by linear extrapolation may be infinite
         if value.is_nan() != (curve.extrapolate == Extrapolate::Error && !inside) {
             return Err(format!("{value:e} at {beyond:e}"));
         }

@@ -1,5 +1,5 @@
-//! The equations of random models against other derivations: Lagrange's equations, virtual power, Cholesky's factors, and the other
-//! coordinates.
+//! Compares the equations of random models with other derivations: Lagrange's equations, virtual power, Cholesky's
+//! factors, and the other coordinates.
 
 use super::caught::Tried;
 use super::sample;
@@ -28,9 +28,10 @@ pub const RANDOM_MODELS: Case = Case {
 
 /// Number of states of each model.
 const STATES: usize = 3;
-/// Factor from the scatter of eight samples to the largest difference, as in the tests of compiled equations.
+/// Factor between the scatter of eight samples and the largest allowed difference, as in the tests of compiled
+/// equations.
 const C: f64 = 20.0;
-/// Number of roundings in a sum of constants: of the masses of as many elements as a tree has.
+/// Number of roundings in a constant that the generator sums up: the mass of as many elements as a tree has.
 const FOLDED: f64 = 8.0;
 
 fn random_models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
@@ -56,7 +57,7 @@ fn random_models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "20 times the scatter of eight evaluations with every operation rounded at random, which is κ·ε of each value; for the \
          solution with S, plus the componentwise bound of Higham (Accuracy and Stability, 10.1)",
     );
-    // models that the language refuses, such as a belt whose ends coincide, are not compared
+    // the language refuses some models, such as one with a belt whose ends coincide; these are not compared
     bench.at_most(
         format!(
             "refused{}",
@@ -109,14 +110,14 @@ fn values(
     Values { value, scatter }
 }
 
-/// Checks that two results are equal up to rounding.
+/// Checks that two results are equal within their scatter.
 fn same(what: &str, names: &dyn Fn(usize) -> String, a: &Values, b: &Values) -> Result<(), String> {
     for i in 0..a.value.len() {
         let (x, y) = (a.value[i], b.value[i]);
-        // the scatter does not see sums of constants: the masses of a tree
+        // the scatter does not include rounding of sums of constants, such as the masses of a tree
         let folded = FOLDED * f64::EPSILON * (x.abs() + y.abs());
         let bound = C * (a.scatter[i] + b.scatter[i]) + folded;
-        // values that are not finite do not agree
+        // false, too, for values that are not finite
         let agree = (x - y).abs() <= bound;
         if !agree {
             return Err(format!(
@@ -172,7 +173,8 @@ fn compare(
     Ok(())
 }
 
-/// Compares S, and r without forces, with Lagrange's equations; r includes the inertia forces of prescribed accelerations.
+/// Compares S, and r without forces, with those of Lagrange's equations; r includes the inertia forces of prescribed
+/// accelerations.
 fn as_lagrange(
     engine: &dyn Engine,
     model: &Model,
@@ -202,7 +204,7 @@ fn as_lagrange(
     same("S, r_s", &name, &ours, &theirs)
 }
 
-/// Compares vᵀ r_k if nothing has a prescribed motion, and dT/dt always.
+/// Compares dT/dt with the powers; and vᵀ r_k with the power of the forces, if no motion is prescribed.
 fn powers(
     engine: &dyn Engine,
     model: &Model,
@@ -281,7 +283,7 @@ fn solved(
             solve(&factor, n, &unit)
         })
         .collect();
-    // |δr| + |δS| |x| for the given values, and (3 n + 1) ε |L| |Lᵀ| |x| for the solution
+    // error bounds: |δr| + |δS| |x| for errors of S and r, and (3 n + 1) ε |L| |Lᵀ| |x| for the solution
     let given: Vec<f64> = (0..n)
         .map(|i| {
             let row = (0..n).map(|k| {
@@ -308,7 +310,7 @@ fn solved(
     Ok(())
 }
 
-/// L of S = L Lᵀ, by rows; `None` where S is not positive definite.
+/// L of S = L Lᵀ, by rows; `None` if S is not positive definite.
 fn cholesky(s: &[f64], n: usize) -> Option<Vec<f64>> {
     let mut l = vec![0.0; n * n];
     for i in 0..n {
@@ -337,7 +339,8 @@ fn solve(l: &[f64], n: usize, r: &[f64]) -> Vec<f64> {
     x
 }
 
-/// Converts the accelerations in Bryant angles to those of ω, and compares them with those of the model in quaternions.
+/// Converts accelerations of Bryant angles to those of ω, and compares them with the accelerations of the model in
+/// quaternions.
 ///
 /// ω = W φ̇, ω̇ = W φ̈ + Ẇ φ̇; the columns of W are x, Rx(φ₁) y and Rx(φ₁) Ry(φ₂) z.
 fn in_quaternions(
@@ -430,7 +433,8 @@ fn quaternion(angles: [f64; 3]) -> [f64; 4] {
     product(product(x, y), z)
 }
 
-/// The state of a model, with the states of force laws and charts from another model of the same scene, which may have fewer.
+/// A state of the model `others`: the states of force laws and charts are taken from a model of the same scene by their
+/// names. `others` may have fewer of them.
 fn of_laws(equations: &Equations, others: &Equations, state: &State) -> State {
     let kept = |names: &[LawState], values: &[f64], wanted: &[LawState]| {
         let of = |wanted: &LawState| names.iter().position(|known| known.name == wanted.name);
@@ -445,8 +449,8 @@ fn of_laws(equations: &Equations, others: &Equations, state: &State) -> State {
     }
 }
 
-/// A random state with second angles away from their singularity. Memory has its initial value; events that have not happened may instead
-/// have happened.
+/// A random state, with second angles away from their singularity. States of force laws and memory have their initial
+/// values; but in half of the states, pending events have happened at t = 0.
 fn state(engine: &dyn Engine, model: &Model, equations: &Equations, random: &mut Random) -> State {
     let q = (equations.coordinates.iter())
         .map(|variable| match variable.unit {

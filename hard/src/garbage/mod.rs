@@ -1,6 +1,6 @@
-//! Input that is not a model, NaN and infinite numbers, and models that nobody would write.
+//! Input that is not a model, NaN and infinite numbers, and models that no user would write.
 //!
-//! Random inputs have a fixed seed, so that a failing test fails again; the check reports the input that caused a fault.
+//! Random inputs have fixed seeds, so that failures are reproducible. A check reports the input that caused a fault.
 
 mod arithmetic;
 mod caught;

@@ -1,4 +1,4 @@
-//! Meaningless numbers in every place of a number.
+//! Puts meaningless numbers in place of each number of a model.
 
 use super::caught::Tried;
 use super::sample;
@@ -8,7 +8,7 @@ use crate::case::{Case, Group};
 use crate::random::Random;
 use bryant_generator::description::tree::{Kind, Node, Source, Span};
 
-/// Every scalar of valid models is replaced.
+/// Replaces every number in the text of valid models.
 pub const IN_THE_TEXT: Case = Case {
     group: Group::Garbage,
     name: "no numbers in the place of every number",
@@ -17,7 +17,7 @@ pub const IN_THE_TEXT: Case = Case {
     run: in_the_text,
 };
 
-/// Parameters of valid models are set at run time.
+/// Sets parameters of valid models at run time.
 pub const AT_RUN_TIME: Case = Case {
     group: Group::Garbage,
     name: "parameters at the ends of what a number can be",
@@ -54,8 +54,8 @@ const GARBAGE: [&str; 24] = [
     "0x10",
 ];
 
-/// Number of replacements that are tried in one place; of the accepted models one in this many is derived. The full case tries and derives
-/// all.
+/// Number of replacements that are tried for each number; and of the accepted models, one in `DERIVED` is derived. The
+/// full case tries and derives all.
 const TRIED: usize = 6;
 const DERIVED: usize = 6;
 
@@ -93,7 +93,7 @@ fn in_the_text(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         "refused with place and remedy, or finite, or reported",
         "no number that is not finite is reported",
     );
-    // all of these must happen, or the case would show nothing
+    // each outcome must occur, or the case would prove nothing
     for (what, count) in [
         ("refused", refused),
         ("accepted, finite", finite),
@@ -130,7 +130,7 @@ fn at_run_time(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
         for (i, parameter) in model.parameters.iter().enumerate() {
             let ends = [parameter.min, parameter.max].into_iter().flatten();
-            // a job does not accept values outside of the bounds
+            // a job refuses values outside the bounds
             let within = |value: &f64| {
                 parameter.min.is_none_or(|min| *value >= min)
                     && parameter.max.is_none_or(|max| *value <= max)
@@ -163,7 +163,7 @@ fn at_run_time(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The result of a replaced number.
+/// What happened to a model with a replaced number.
 enum Judged {
     Refused,
     Accepted,
@@ -192,7 +192,7 @@ fn judge(engine: &dyn Engine, text: &str, derive: bool) -> Result<Judged, String
     }
 }
 
-/// Some replacements, or all.
+/// Random replacements, or all.
 fn chosen(random: &mut Random, all: bool) -> Vec<&'static str> {
     match all {
         true => GARBAGE.to_vec(),
@@ -200,7 +200,7 @@ fn chosen(random: &mut Random, all: bool) -> Vec<&'static str> {
     }
 }
 
-/// The places of numbers: scalars that begin like a number.
+/// Finds the places of numbers: scalars that begin like a number.
 fn numbers(node: &Node, places: &mut Vec<Span>) {
     match &node.kind {
         Kind::Scalar { text, .. } => {

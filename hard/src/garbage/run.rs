@@ -25,7 +25,7 @@ pub const PARAMETERS: Case = Case {
     run: parameters,
 };
 
-/// Limit of steps: enough for meaningful settings, and soon reached by others.
+/// Limit of steps: enough for meaningful settings, but soon reached by others.
 const LIMIT: u64 = 20_000;
 
 const GARBAGE: [f64; 13] = [
@@ -44,7 +44,7 @@ const GARBAGE: [f64; 13] = [
     f64::MAX,
 ];
 
-/// Counts of the ends of runs.
+/// Counts how runs ended.
 #[derive(Default)]
 struct Ends {
     refused: usize,
@@ -247,7 +247,7 @@ fn parameters(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     for scalar in scalars {
         for name in names {
             for x in GARBAGE {
-                // a negative mass makes no sense, but belongs to another case
+                // a negative mass is meaningless, too, but belongs to another case
                 if x < 0.0 && name != "speed" && name != "pull" {
                     continue;
                 }

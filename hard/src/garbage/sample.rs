@@ -1,4 +1,4 @@
-//! Valid models to begin with; together they have every kind of force, motion, switch and output.
+//! Valid models to start from; together they have every kind of force, motion, switch and output.
 
 use crate::scene::Scene;
 use bryant_generator::Diagnostics;
@@ -13,7 +13,7 @@ pub fn scenes() -> impl Iterator<Item = Scene> {
     ALL.iter().map(|(name, text)| Scene::new(*name, *text))
 }
 
-/// Reads text as a model; it may include `data/pulse.csv`.
+/// Reads text as a model, which may include `data/pulse.csv`.
 pub fn read(text: &str) -> Result<Model, Diagnostics> {
     let loader = |path: &Path| match path.ends_with("data/pulse.csv") {
         true => Ok(PULSE.to_owned()),

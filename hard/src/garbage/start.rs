@@ -1,5 +1,5 @@
-//! The equations of a model at the start of a run, evaluated without compilation: whether a value is NaN or infinite, and whether a run
-//! notices it.
+//! Evaluates the equations of a model at the start of a run without compilation: finds values that are not finite, and
+//! whether a run would report them.
 
 use crate::bench::{Engine, functions};
 use bryant_generator::dynamics::{Options, derive_with};
@@ -8,26 +8,26 @@ use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::model::Model;
 
-/// A model with its equations, for evaluation at its start.
+/// A model with its equations, which are evaluated at the start of a run.
 pub struct Start<'a> {
     engine: &'a dyn Engine,
     model: &'a Model,
     equations: Equations,
 }
 
-/// The result at a start.
+/// What was found at a start.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Found {
     /// All values are finite.
     Finite,
-    /// A value is not finite, and a run evaluates it: the run ends at its beginning with a message.
+    /// A value that a run evaluates is not finite: the run ends at its beginning with a message.
     Reported,
-    /// A value is not finite, and no run evaluates it.
+    /// A value is not finite, and no run would report it; the value's name.
     Silent(String),
 }
 
 impl<'a> Start<'a> {
-    /// Derives the equations; the engine provides their functions.
+    /// Derives the equations; `engine` provides the functions that they call.
     pub fn of(engine: &'a dyn Engine, model: &'a Model) -> Start<'a> {
         let options = Options {
             matrices: false,
@@ -80,7 +80,7 @@ impl<'a> Start<'a> {
             .chain(equations.auxiliaries.iter().map(|z| z.next))
             .collect();
         let finite = |values: &[f64]| values.iter().all(|x| x.is_finite());
-        // a run evaluates its initial state, the rates and outputs there, and the memory after its first step
+        // a run evaluates its initial state, the rates and outputs at this state, and memory after its first step
         let states = [&q, &v, &z, &m];
         if !(states.into_iter().all(|values| finite(values))
             && finite(&at(&rates))
@@ -88,8 +88,8 @@ impl<'a> Start<'a> {
         {
             return Found::Reported;
         }
-        // An event function that is NaN never changes its sign, so its event would never come. Energies may overflow; the balance at the
-        // end of a run reports this.
+        // An event function that is NaN never changes its sign, so the event would never happen and nothing would
+        // report it. Energies may overflow, because the balance at the end of a run reports this.
         let named = equations.event_functions.iter().chain(&equations.kinks);
         let (names, roots): (Vec<&str>, Vec<NodeId>) = named
             .map(|named| (named.name.as_str(), named.value))

@@ -1,4 +1,4 @@
-//! Text that is almost a model, or not a model at all.
+//! Text that is almost a model, or far from one.
 
 use super::caught::Tried;
 use super::sample;
@@ -9,7 +9,7 @@ use bryant_generator::Diagnostics;
 use bryant_generator::description::table::{Column, Fault, Table};
 use bryant_generator::model::Model;
 
-/// Damaged models, and text that is made to cost time or stack.
+/// Damaged models, and text that is made to cost time or stack space.
 pub const MODELS: Case = Case {
     group: Group::Garbage,
     name: "text that is no model",
@@ -123,7 +123,7 @@ fn models(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// Whether a text is a model; an `Err` if a message about it makes no sense.
+/// True if a text is a model; an `Err` if a message about the text makes no sense.
 fn well_reported(text: &str, read: Result<Model, Diagnostics>) -> Result<bool, String> {
     let Err(problems) = read else {
         return Ok(true);
@@ -146,7 +146,7 @@ fn well_reported(text: &str, read: Result<Model, Diagnostics>) -> Result<bool, S
                 problem.message
             ));
         }
-        // the end of a text is also a place
+        // a place may be after the end of the text
         let lines = text
             .split(['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}'])
             .count()
@@ -158,7 +158,7 @@ fn well_reported(text: &str, read: Result<Model, Diagnostics>) -> Result<bool, S
             ));
         }
     }
-    // fifty problems are shown, with an excerpt of at most 2000 characters each
+    // at most fifty problems are shown, with an excerpt of at most 2000 characters each
     for drawn in [problems.render(true), problems.render(false)] {
         if drawn.is_empty() || drawn.len() > 2_000_000 {
             return Err(format!("drawn in {} bytes", drawn.len()));
@@ -198,7 +198,7 @@ fn mutilated(random: &mut Random, text: &str) -> String {
             }
             8 => lines[at].push_str(&"x".repeat(random.below(3000))),
             9 => {
-                // one character is removed or replaced
+                // remove or replace one character
                 let mut characters: Vec<char> = lines[at].chars().collect();
                 if !characters.is_empty() {
                     let place = random.below(characters.len());

@@ -1,8 +1,8 @@
-//! Random valid models as a user would write them: trees of a few elements with all parts of the language.
+//! Random valid models as users write them: trees of a few elements, with all parts of the language.
 
 use crate::random::Random;
 
-/// The state of writing a model.
+/// A model that is being written.
 struct Writer<'a> {
     random: &'a mut Random,
     plane: bool,
@@ -13,7 +13,7 @@ struct Writer<'a> {
     jointed: Vec<usize>,
 }
 
-/// A model in the plane, or in space with Bryant angles if its text has the word `bryant`.
+/// A random model in the plane, or in space; if the word `bryant` occurs in its text, it uses Bryant angles.
 pub fn model(random: &mut Random) -> String {
     let plane = random.one_in(2);
     let mut writer = Writer {
@@ -76,7 +76,7 @@ impl Writer<'_> {
         let count = if self.plane { 2 } else { 3 };
         let numbers: Vec<String> = (0..count)
             .map(|_| match self.random.below(6) {
-                // terms with 0 vanish
+                // some components are 0, so that terms vanish
                 0 => "0".to_owned(),
                 _ => self.number(-size, size),
             })
@@ -84,7 +84,7 @@ impl Writer<'_> {
         format!("[{}]", numbers.join(", "))
     }
 
-    /// A rotation about each axis of the dimension.
+    /// A rotation: one angle in the plane, three in space.
     fn turns(&mut self, size: f64) -> String {
         match self.plane {
             true => self.number(-size, size),
@@ -92,7 +92,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The motion of a point with a prescribed motion.
+    /// A random motion of a point whose motion is prescribed.
     fn motion(&mut self) -> String {
         let (key, curves) = match self.random.below(3) {
             0 => (
@@ -130,7 +130,7 @@ impl Writer<'_> {
                 _ => format!("on: e{}, at: {}, ", self.random.below(e), self.vector(0.4)),
             };
             let mass = self.random.uniform(0.5, 5.0);
-            // semi-axes of a solid ellipsoid: its moments of inertia are always realisable
+            // moments of a solid ellipsoid with these semi-axes are always physical
             let squares = [0, 1, 2].map(|_| self.random.uniform(0.03, 0.2f64).powi(2));
             let sum: f64 = squares.iter().sum();
             let moments = squares.map(|square| format!("{:e}", mass / 5.0 * (sum - square)));
@@ -155,7 +155,7 @@ impl Writer<'_> {
         text
     }
 
-    /// Two different places of attachment.
+    /// Two different bodies on which a force acts.
     fn two_bodies(&mut self) -> [String; 2] {
         let first = self.random.below(self.elements.len());
         let mut others = vec!["frame".to_owned()];

@@ -1,4 +1,4 @@
-//! Models whose S is singular in every position are refused when they are read; other models are not.
+//! Models must be refused when they are read if and only if S is singular in every position.
 
 use crate::balance::Tree;
 use crate::bench::{Bench, Trouble};
@@ -9,7 +9,7 @@ use crate::random::Random;
 use crate::scene::Scene;
 use bryant_generator::model::{Dimension, Model};
 
-/// Singular models, made by hand.
+/// Singular models, written by hand.
 pub const REFUSED: Case = Case {
     group: Group::MassAndShape,
     name: "singular models are refused",
@@ -28,13 +28,13 @@ pub const RANDOM: Case = Case {
     run: random,
 };
 
-/// A model made by hand: its description, its text, and the expected message.
+/// A model written by hand: its parts, and the expected message.
 struct Way {
     name: &'static str,
     dimension: u8,
     reference: &'static str,
     elements: &'static [&'static str],
-    /// Words of the message: the element, the axis; empty if the model is accepted.
+    /// Words that the message must have: the element, the axis. Empty if the model must be accepted.
     said: &'static [&'static str],
 }
 
@@ -272,7 +272,7 @@ fn first_line(text: &str) -> String {
     text.lines().next().unwrap_or_default().to_owned()
 }
 
-/// Random numbers with few values, so that coincidences that make S singular are frequent.
+/// A random link from few possible values, so that coincidences that make S singular are frequent.
 fn odd(random: &mut Random, kind: Kind) -> Link {
     let mut pick = |values: &[[f64; 3]]| {
         let at = random.uniform(0.0, values.len() as f64);
@@ -296,7 +296,7 @@ fn odd(random: &mut Random, kind: Kind) -> Link {
     }
 }
 
-/// A scaled pivot below this counts as zero; it is computed in double-double from numbers between 1e-3 and 1e3.
+/// A scaled pivot below this counts as zero; pivots are computed in double-double from numbers between 1e-3 and 1e3.
 const ZERO: f64 = 1e-20;
 
 fn random(bench: &mut Bench<'_>) -> Result<(), Trouble> {
@@ -346,12 +346,13 @@ fn random(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The model of links that would be refused: it is read with moments that are not zero, and then gets the moments of the links.
+/// The model of a chain that may have to be refused: it is read with other moments of inertia, which are then replaced
+/// by those of the links.
 fn bodies(setting: Setting, links: &[Link]) -> Result<Model, Trouble> {
     let sound: Vec<Link> = links
         .iter()
         .map(|link| Link {
-            // all values are different, because irrelevant principal axes are dropped
+            // all moments differ, because principal axes that do not matter are dropped
             inertia: [0.1, 0.11, 0.12],
             ..*link
         })

@@ -1,4 +1,4 @@
-//! The shapes of scenes in which a free motion meets something, or nothing.
+//! The shapes of scenes in which a free motion meets something, or nothing, and the parameters of each scene.
 
 use super::{Case, Met, direction, met, size, speed, stiffness};
 use crate::random::Random;
@@ -35,7 +35,7 @@ fn balls(random: &mut Random) -> Case {
         -before * along[1] + aside * along[0],
     ];
     let velocity = along.map(|x| speed * x);
-    // the law is idle at both ends of the run
+    // the force law must not act at either end of the run
     let clear = |t: f64| (speed * (t - at)).hypot(aside) > r + s;
     let [x, z] = place;
     let [u, w] = velocity;
@@ -73,7 +73,8 @@ outputs:
 run: { duration: 1 s, every: 0.1 s }
 ";
 
-/// Two ellipsoids of one shape that do not rotate touch when the centre of one is on an ellipsoid of twice the size about the other.
+/// Two ellipsoids of the same axes that do not rotate touch when the centre of one is on an ellipsoid of twice the size
+/// about the centre of the other.
 fn ellipsoids(random: &mut Random) -> Case {
     let a = size(random);
     let axes = [
@@ -87,7 +88,7 @@ fn ellipsoids(random: &mut Random) -> Case {
     along = along.map(|x| x / norm);
     let through = axes.map(|axis| 1.5 * axis * random.uniform(-1.0, 1.0));
     let start: Vec<f64> = (0..3).map(|i| through[i] - speed * at * along[i]).collect();
-    // the closest approach, in coordinates where the ellipsoid is a ball of radius 1
+    // distance of the centres over its value at touch, in coordinates where this ellipsoid is a unit ball
     let (p, d): (Vec<f64>, Vec<f64>) = (0..3)
         .map(|i| (through[i] / (2.0 * axes[i]), along[i] / (2.0 * axes[i])))
         .unzip();
@@ -137,7 +138,7 @@ outputs:
 run: { duration: 1 s, every: 0.1 s }
 ";
 
-/// With a second plate that makes a corner with the first.
+/// A second plate, which forms a corner with the first.
 const CORNERS: &str = "
   - contact: wall
     ellipsoid: { on: ball/body, center: [0, 0], semi_axes: [r, r] }
@@ -145,14 +146,15 @@ const CORNERS: &str = "
     elastic: { curve: line, times: k }
 ";
 
-/// The time that a motion spends between `low` and `high` in a run from 0 to 1: its beginning and end.
+/// The times when a uniform motion enters and leaves the interval from `low` to `high`; `place` is its place at time 0.
 fn while_between(place: f64, speed: f64, [low, high]: [f64; 2]) -> [f64; 2] {
     let times = [(low - place) / speed, (high - place) / speed];
     [times[0].min(times[1]), times[0].max(times[1])]
 }
 
-/// The largest depth of a ball in a plate along its `normal`, while it is between the edges. It must be idle at both ends of the run and
-/// deeper than a hundredth of its size in between; otherwise `None`.
+/// The largest depth of a ball in a plate along the `normal` of the plate, while the ball is between its edges.
+/// Negative if the ball misses the plate. `None` if the plate acts at either end of the run, or if the contact is too
+/// short or too weak to be clear.
 fn depth(normal: [f64; 2], along: [f64; 2], r: f64, e: f64) -> Option<f64> {
     let [height, falls] = normal;
     let [from, to] = while_between(along[0], along[1], [-e, e]);
@@ -167,7 +169,7 @@ fn depth(normal: [f64; 2], along: [f64; 2], r: f64, e: f64) -> Option<f64> {
     }
     let deepest = deep(from).max(deep(to));
     let long = (to - from) * along[1].abs().max(falls.abs()) > 0.02 * e.min(r);
-    // within half of the width over which it fades, the plate pushes with less than half of its force
+    // near its edges the force of a plate fades; within half of that width it is less than half of the full force
     let inner = e - r.clamp(0.01, 1.0).min(e) / 2.0;
     let (from, to) = {
         let [from, to] = while_between(along[0], along[1], [-inner, inner]);
@@ -228,7 +230,7 @@ outputs:
 run: { duration: 1 s, every: 0.1 s }
 ";
 
-/// A mass that is thrown up comes back at the end of the run.
+/// A mass on a belt is thrown up, and is back at the end of the run.
 fn belts(random: &mut Random) -> Case {
     let w = speed(random);
     let (g, apex) = (2.0 * w, 0.25 * w);

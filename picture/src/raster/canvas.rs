@@ -1,30 +1,31 @@
-//! A canvas of pixels, with clips and with groups of an opacity.
+//! A canvas of pixels, with groups that clip or have an opacity.
 
 use super::RasterError;
 use super::style::Colour;
 use zeno::{Command, Mask, Style};
 
-/// Pictures with more pixels are refused: they would need about 600 MB during drawing.
+/// Largest number of pixels of a picture; drawing it needs about 600 MB for each layer.
 const MOST: usize = 40_000_000;
 
-/// A picture of pixels.
+/// A picture under construction as pixels.
 pub struct Canvas {
     width: usize,
     height: usize,
-    /// Red, green, blue and opacity; the colours are multiplied by the opacity. The first layer is white paper.
+    /// Pixels of each layer: red, green, blue and opacity; colours are multiplied by the opacity. The first layer is
+    /// white paper.
     layers: Vec<Vec<[f32; 4]>>,
     groups: Vec<Group>,
 }
 
 struct Group {
-    /// Left, top, right, bottom: everything outside is clipped.
+    /// Left, top, right, bottom; nothing is painted outside.
     clip: [f32; 4],
-    /// Opacity of the group's own layer, if it has one.
+    /// Opacity of the group, if it has a layer of its own.
     opacity: Option<f32>,
 }
 
 impl Canvas {
-    /// White paper.
+    /// A canvas of white paper.
     pub fn new([width, height]: [f64; 2]) -> Result<Canvas, RasterError> {
         let fits = width >= 1.0 && height >= 1.0 && width * height <= MOST as f64;
         if !fits {
@@ -44,7 +45,7 @@ impl Canvas {
         self.groups.last().map_or(all, |group| group.clip)
     }
 
-    /// Opens a group that is clipped outside of left, top, right, bottom.
+    /// Opens a group that is clipped to left, top, right, bottom.
     pub fn open_clipped(&mut self, [left, top, right, bottom]: [f32; 4]) {
         let clip = self.clip();
         self.groups.push(Group {
@@ -58,7 +59,7 @@ impl Canvas {
         });
     }
 
-    /// Opens a group that is drawn on its own layer and then put on the layer below.
+    /// Opens a group with an opacity. It is painted on a layer of its own, which is then put on the layer below.
     pub fn open(&mut self, opacity: f32) {
         let clip = self.clip();
         let opacity = (opacity < 1.0).then_some(opacity);
@@ -68,7 +69,7 @@ impl Canvas {
         self.groups.push(Group { clip, opacity });
     }
 
-    /// Closes the last group.
+    /// Closes the group that was opened last.
     pub fn close(&mut self) {
         let Some(Group {
             opacity: Some(opacity),
@@ -90,7 +91,7 @@ impl Canvas {
         self.layers.last_mut().expect("the paper stays")
     }
 
-    /// Paints the inside or the stroke of a path; its points must be finite and not far outside.
+    /// Paints the inside or the stroke of a path; its points must be finite and not far outside the picture.
     pub fn paint(&mut self, path: &[Command], style: Style<'_>, colour: Colour, opacity: f32) {
         let clip = self.clip();
         let bounds = zeno::bounds(path, style, None);
@@ -108,7 +109,7 @@ impl Canvas {
             .offset([-(left as f32), -(top as f32)])
             .size(width as u32, height as u32)
             .render_into(&mut mask, None);
-        // the part of a row or column of pixels that is inside of the clip
+        // the share of a row or column of pixels that lies inside the clip
         let inside = |index: usize, low: f32, high: f32| {
             let (from, to) = (index as f32, index as f32 + 1.0);
             (to.min(high) - from.max(low)).clamp(0.0, 1.0)

@@ -1,4 +1,4 @@
-//! Text as outlines of DejaVu Sans, from left to right, with kerning; a character that the font does not have becomes a box.
+//! Text as outlines of DejaVu Sans, from left to right, with kerning. A character that the font lacks becomes a box.
 
 use super::RasterError;
 use super::style::Style;
@@ -6,7 +6,7 @@ use crate::drawing::Anchor;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 use zeno::{Command, PathBuilder};
 
-/// The outlines of a text in pixels of the raster, `scale` of which are one pixel of the drawing.
+/// The outlines of a text in pixels of the raster; `scale` is the number of these per pixel of the drawing.
 pub fn outlines(
     text: &str,
     [x, y]: [f64; 2],
@@ -19,7 +19,7 @@ pub fn outlines(
         false => dejavu::sans::regular(),
     };
     let face = Face::parse(data, 0).map_err(|e| RasterError::Font(e.to_string()))?;
-    // as in SVG, one space separates words
+    // words are separated by one space, as in SVG
     let words = text.split(|c: char| c.is_whitespace() || c.is_control());
     let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
     let words = words.join(" ");
@@ -48,7 +48,7 @@ pub fn outlines(
     };
     for (place, glyph) in places {
         outline.origin = [scale * x + size * (place - start), scale * y].map(|at| at as f32);
-        // a glyph without a bounding box is empty, such as that of a space
+        // a glyph without a bounding box, such as a space, has no outline
         let _ = face.outline_glyph(glyph, &mut outline);
     }
     Ok(outline.path)
@@ -61,7 +61,7 @@ fn kerning(face: &Face<'_>, left: GlyphId, right: GlyphId) -> i16 {
     values.sum()
 }
 
-/// A path in font units, y upwards, that is moved to its position.
+/// The outline of a glyph, moved to its place: converts from font units (y upwards) to pixels (y downwards).
 struct Outline {
     path: Vec<Command>,
     size: f32,

@@ -1,5 +1,5 @@
-//! A picture as pixels: PNG with a font that is part of the program, so that the text does not depend on the fonts of the machine. It draws
-//! the shapes of a [`Drawing`], not SVG in general.
+//! Draws a [`Drawing`] as pixels (PNG). The font is part of the program, so the text does not depend on the fonts of
+//! the machine. SVG files cannot be drawn.
 
 mod canvas;
 mod font;
@@ -38,10 +38,12 @@ pub enum RasterError {
     Font(String),
 }
 
-/// Pixels of the raster for each pixel of the SVG: sharp on screens of high resolution and in print.
+/// Pixels of the raster for each pixel of the drawing, so that pictures are sharp on screens of high resolution and in
+/// print.
 const SCALE: f64 = 2.0;
 
-/// Shapes beyond this distance from the corner of the picture are not drawn \[pixels\]; the library would overflow far beyond.
+/// Largest distance of a shape from the corner of the picture \[pixels\]; shapes beyond are refused, because the
+/// library would overflow.
 const FARTHEST: f32 = 1e5;
 
 /// The PNG of a drawing.
@@ -53,12 +55,12 @@ pub fn png(drawing: &Drawing) -> Result<Vec<u8>, RasterError> {
     Ok(png::encode(size, &points))
 }
 
-/// Whether a file begins like one that [`png()`] made.
+/// True if these are the first bytes of a file that [`png()`] made.
 pub fn is_own_png(begin: &[u8]) -> bool {
     png::is_own(begin)
 }
 
-/// Width, height, and red, green, blue of each point.
+/// Width and height; and red, green, blue of each pixel.
 fn points(drawing: &Drawing) -> Result<([usize; 2], Vec<u8>), RasterError> {
     let rules = Rules::read(&drawing.style)?;
     let mut canvas = Canvas::new(drawing.size.map(|length| (SCALE * length).ceil()))?;
@@ -69,7 +71,7 @@ fn points(drawing: &Drawing) -> Result<([usize; 2], Vec<u8>), RasterError> {
                 let edges = [x, y, x + width, y + height];
                 canvas.open_clipped(edges.map(|edge| (SCALE * edge) as f32));
             }
-            // here shapes do not inherit from their groups
+            // shapes do not inherit the style of their group here
             Item::Group { class, .. } if rules.any("g", class) => {
                 return Err(RasterError::Style(format!("g.{class}")));
             }
@@ -127,7 +129,7 @@ fn path(shape: &Shape, style: &Style) -> Result<Vec<Command>, RasterError> {
     Ok(path)
 }
 
-/// Paints the inside, then the stroke on it.
+/// Paints the inside of a path, then its stroke.
 fn paint(canvas: &mut Canvas, path: &[Command], style: &Style) -> Result<(), RasterError> {
     let points = path.iter().flat_map(|part| match *part {
         Command::MoveTo(a) | Command::LineTo(a) => vec![a],

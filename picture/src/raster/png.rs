@@ -1,26 +1,27 @@
-//! The PNG of points, as <https://www.w3.org/TR/png-3/> says: 8 bits of red, green and blue each, one compressed block.
+//! Writes pixels as PNG by <https://www.w3.org/TR/png-3/>: 8 bits each of red, green and blue, one compressed block.
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
 /// The first bytes of every PNG.
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
-/// The keyword and the text that say which program made a picture.
+/// The keyword and the text that name the program.
 const SOFTWARE: &[u8] = b"Software\0bryant";
-/// From 0 to 10; higher values take long and save little.
+/// Level of compression from 0 to 10; higher levels take long and save little.
 const COMPRESSION: u8 = 7;
 
-/// The file. `points` are red, green, blue, row after row.
+/// The bytes of a PNG file. `points` has red, green, blue of each pixel, row after row.
 pub fn encode([width, height]: [usize; 2], points: &[u8]) -> Vec<u8> {
     let mut header = Vec::new();
     for length in [width, height] {
-        // the canvas has no length beyond 32 bits
+        // the canvas is never wider or higher than 32 bits can hold
         header.extend((length as u32).to_be_bytes());
     }
-    // bits of a channel, red-green-blue, the only compression and filter, no interlacing
+    // bits per channel, red-green-blue, the only compression and filter, no interlacing
     header.extend([8, 2, 0, 0, 0]);
     let mut rows = Vec::with_capacity(points.len() + height);
     for row in points.chunks_exact(3 * width) {
-        // rows are stored as they are, not as differences from their neighbours: pictures of lines compress best this way
+        // filter 0: rows are stored as they are, not as differences from neighbours, which compresses pictures of lines
+        // best
         rows.push(0);
         rows.extend(row);
     }
@@ -36,11 +37,11 @@ pub fn encode([width, height]: [usize; 2], points: &[u8]) -> Vec<u8> {
     file
 }
 
-/// Whether these are the first bytes of a file that [`encode`] made.
+/// True if these are the first bytes of a file that [`encode`] made.
 pub fn is_own(bytes: &[u8]) -> bool {
     let mut text = Vec::new();
     chunk(&mut text, b"tEXt", SOFTWARE);
-    // behind the signature and the header of 13 bytes
+    // after the signature (8 bytes) and the header (25 bytes)
     bytes.starts_with(&SIGNATURE) && bytes.get(33..).is_some_and(|rest| rest.starts_with(&text))
 }
 

@@ -1,12 +1,12 @@
-//! The part of CSS that these pictures use: selectors of one element or of classes, and the properties of [`Style::set`].
+//! The part of CSS that drawings use: selectors of one element or of classes, and the properties of [`Style::set`].
 
 use super::RasterError;
 use zeno::{Cap, Join};
 
-/// Red, green, blue between 0 and 1.
+/// Red, green, blue, each from 0 to 1.
 pub type Colour = [f32; 3];
 
-/// How a shape is drawn.
+/// The style of a shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Style {
     pub fill: Option<Colour>,
@@ -16,7 +16,7 @@ pub struct Style {
     pub stroke_width: f32,
     pub cap: Cap,
     pub join: Join,
-    /// Lengths on and off in turn; empty for a solid line.
+    /// Lengths of dashes and gaps in turn; empty for a solid line.
     pub dashes: Vec<f32>,
     pub font_size: f32,
     pub bold: bool,
@@ -41,10 +41,10 @@ impl Default for Style {
 }
 
 impl Style {
-    /// Sets a property; `None` if it is not known.
+    /// Sets a property; `None` if the property or its value is not known.
     fn set(&mut self, property: &str, value: &str) -> Option<()> {
         match property {
-            // this is the only font
+            // DejaVu Sans is the only font
             "font-family" => return value.contains("DejaVu Sans").then_some(()),
             "font-size" => self.font_size = number(value.strip_suffix("px")?)?,
             "font-weight" => self.bold = word(&[("bold", true), ("normal", false)], value)?,
@@ -69,7 +69,7 @@ impl Style {
     }
 }
 
-/// The meaning of a word in a property.
+/// The meaning of a keyword in a property.
 fn word<T: Copy>(known: &[(&str, T)], value: &str) -> Option<T> {
     let found = known.iter().find(|(word, _)| *word == value);
     found.map(|(_, meaning)| *meaning)
@@ -80,7 +80,7 @@ fn number(text: &str) -> Option<f32> {
     (value.is_finite() && value >= 0.0).then_some(value)
 }
 
-/// "none", "#rgb" or "#rrggbb"; the outer `None` if the text is not known.
+/// Reads "none", "#rgb" or "#rrggbb"; the outer `None` if the text is none of these.
 fn colour(text: &str) -> Option<Option<Colour>> {
     if text == "none" {
         return Some(None);
@@ -95,11 +95,11 @@ fn colour(text: &str) -> Option<Option<Colour>> {
     Some(Some([part(0)?, part(1)?, part(2)?]))
 }
 
-/// The rules; stronger ones come last.
+/// The rules of a style sheet, in increasing order of precedence.
 pub struct Rules<'a>(Vec<Rule<'a>>);
 
 struct Rule<'a> {
-    /// The element; "" for any.
+    /// The element that the rule selects; "" for any.
     element: &'a str,
     classes: Vec<&'a str>,
     declarations: Vec<(&'a str, &'a str)>,
@@ -136,12 +136,13 @@ impl<'a> Rules<'a> {
                 });
             }
         }
-        // a rule with more classes wins, then a rule with an element; among equal rules the later one, because sorting is stable
+        // a rule with more classes wins, then a rule with an element; among equal rules the later one, because sorting
+        // is stable
         rules.sort_by_key(|rule| (rule.classes.len(), !rule.element.is_empty()));
         Ok(Rules(rules))
     }
 
-    /// The style of an element with these classes.
+    /// The style of an element with these classes, separated by spaces.
     pub fn style(&self, element: &str, classes: &str) -> Style {
         let mut style = Style::default();
         for (property, value) in self.of(element, classes) {
@@ -151,7 +152,7 @@ impl<'a> Rules<'a> {
         style
     }
 
-    /// Whether any rule applies to such an element.
+    /// True if a rule applies to an element with these classes.
     pub fn any(&self, element: &str, classes: &str) -> bool {
         self.of(element, classes).next().is_some()
     }

@@ -9,7 +9,7 @@ pub const NOVALUE: &str = "NOVALUE";
 /// Width of a key in columns.
 const WIDTH: usize = 28;
 
-/// A file: its keys with their values, and the lines without a key.
+/// A file: pairs of key and value, and lines without a key.
 pub struct Lines {
     /// Keys and values.
     pub pairs: Vec<(String, String)>,
@@ -27,7 +27,7 @@ impl Lines {
         };
         for (index, line) in text.lines().enumerate() {
             let line = line.trim_start_matches('\u{feff}').trim_end();
-            // the data begin with the first line that has no key
+            // the data begin at the first line without a key; later colons do not matter
             let pair = if lines.data.is_empty() {
                 line.split_once(':')
             } else {
@@ -45,7 +45,7 @@ impl Lines {
         Ok(lines)
     }
 
-    /// The value of a key, in upper or lower case; `None` if there is no such key, or no value.
+    /// The value of a key, whose case does not matter; `None` if the key is missing or has no value.
     pub fn value(&self, key: &str) -> Option<&str> {
         let found = self
             .pairs
@@ -56,7 +56,7 @@ impl Lines {
     }
 }
 
-/// The line of a key and its value.
+/// A line with a key and its value.
 pub fn line(key: &str, value: &str) -> String {
     format!("{key:<WIDTH$}:{value}\n")
 }

@@ -5,8 +5,8 @@ use super::lines::{Lines, NOVALUE};
 use crate::{Channel, ReadError, Recording, Signal, unit};
 use std::path::{Path, PathBuf};
 
-/// What the key `Data status` says of data that can be used. The standard has `channel failed`, `no data`, `meaningless data` and
-/// `questionable data` for others.
+/// Values of the key `Data status` for usable data. The standard also has `channel failed`, `no data`, `meaningless
+/// data` and `questionable data`.
 const SOUND: [&str; 5] = [
     "ok",
     "good",
@@ -24,7 +24,7 @@ pub fn read(path: &Path) -> Result<Recording, ReadError> {
         true => the_only(path, "mme")?,
         false => path.to_owned(),
     };
-    // an error of this file is reported before a missing file beside it
+    // an error in this file is reported first, before a missing file beside it
     Lines::read(&about)?;
     let folder = about.parent().unwrap_or(Path::new("."));
     let channels = in_any_case(folder, "Channel");
@@ -97,7 +97,7 @@ fn the_only(folder: &Path, extension: &str) -> Result<PathBuf, ReadError> {
     }
 }
 
-/// An entry of a folder by its name in upper or lower case; the given name if there is none.
+/// The entry of a folder with this name, whose case does not matter; the name as given if there is none.
 fn in_any_case(folder: &Path, name: &str) -> PathBuf {
     let same = |path: &PathBuf| {
         path.file_name()
@@ -110,7 +110,7 @@ fn in_any_case(folder: &Path, name: &str) -> PathBuf {
         .unwrap_or_else(|| folder.join(name))
 }
 
-/// A channel as written.
+/// A channel file.
 struct Written {
     path: PathBuf,
     lines: Lines,
@@ -166,7 +166,7 @@ impl Written {
         self.lines.value("Channel code").unwrap_or_default()
     }
 
-    /// Whether the channel holds the times of other channels.
+    /// True if the channel lists the times of other channels.
     fn is_time(&self) -> bool {
         self.code().get(2..6) == Some("TIRS")
     }
@@ -202,7 +202,7 @@ impl Written {
         let file = self.path.file_name().unwrap_or_default().to_string_lossy();
         let name = match self.code() {
             "" => title.map_or(file.into_owned(), str::to_owned),
-            // some programs write codes in small letters
+            // some programs write codes in lower case
             code if is_code(&code.to_ascii_uppercase()) => code.to_ascii_uppercase(),
             code => code.to_owned(),
         };
@@ -230,7 +230,7 @@ impl Written {
         Ok(self.values.iter().map(|time| time * factor).collect())
     }
 
-    /// What the file says about its data if that casts doubt on them.
+    /// The status of the data, if it casts doubt on them.
     fn doubt(&self) -> Option<String> {
         let status = self.lines.value("Data status")?;
         let sound = SOUND.iter().any(|sound| sound.eq_ignore_ascii_case(status));

@@ -15,8 +15,8 @@ pub struct About {
     pub source: String,
 }
 
-/// Writes a recording: `NAME.mme` in this folder, and `Channel/NAME.chn`, `Channel/NAME.001`, …. Folders are created. Channels of an
-/// earlier test with this name are removed, because they would count as channels of this test.
+/// Writes a recording into `folder`: `NAME.mme`, `Channel/NAME.chn`, `Channel/NAME.001`, …. Folders are created.
+/// Channels of an earlier test with this name are removed, because they would count as channels of this test.
 ///
 /// # Errors
 /// Those of the file system.
@@ -56,13 +56,14 @@ pub fn write(folder: &Path, name: &str, recording: &Recording, about: &About) ->
     std::fs::write(folder.join(format!("{name}.mme")), test(about))
 }
 
-/// Whether the name of a channel is a code: 16 capital letters and digits.
+/// True if the name of a channel is a channel code: 16 capital letters and digits.
 pub fn is_code(name: &str) -> bool {
     let fits = |byte: u8| byte.is_ascii_uppercase() || byte.is_ascii_digit();
     name.len() == 16 && name.bytes().all(fits)
 }
 
-/// The code of a channel. A channel without a code gets its number as an unknown place, `X001`, and the quantity of its unit.
+/// The code of a channel. A channel without a code gets one from its number, as an unknown place `X001`, and from the
+/// quantity of its unit.
 fn code(channel: &Channel, number: &str) -> String {
     if is_code(&channel.name) {
         return channel.name.clone();
@@ -98,7 +99,7 @@ fn known(text: &str) -> String {
     }
 }
 
-/// The file about the test. A run has no date, so that the same run gives the same bytes.
+/// The text of the file `NAME.mme` about the test. It has no date, so that the same run gives the same bytes.
 fn test(about: &About) -> String {
     [
         ("Data format edition number", "1.6"),
@@ -115,7 +116,7 @@ fn test(about: &About) -> String {
     .concat()
 }
 
-/// The file of a channel.
+/// The text of the file of a channel.
 fn text(channel: &Channel, code: &str, about: &About) -> String {
     let signal = &channel.signal;
     let number = |value: f64| match value.is_finite() {

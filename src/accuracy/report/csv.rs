@@ -1,4 +1,4 @@
-//! A study as comma-separated values: one row for each point, with every setting that is needed to repeat it, and all digits.
+//! A study as CSV: a row for each point, with all settings that are needed to repeat it, and all digits.
 
 use crate::accuracy::conclusion::Conclusion;
 use crate::accuracy::point::{Done, Point, Status};
@@ -21,7 +21,7 @@ pub fn write(study: &Study, conclusion: &Conclusion, out: impl io::Write) -> io:
     writer.flush()
 }
 
-/// Names and values that are the same in all rows.
+/// Names and values of the columns that are the same in all rows.
 fn common(study: &Study) -> Vec<(&'static str, String)> {
     let parameters = study.parameters.iter();
     let parameters = parameters.map(|(name, value, unit)| format!("{name}={value} {unit}"));
@@ -42,7 +42,7 @@ fn common(study: &Study) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// Headings of the setting.
+/// Headings of the columns of the setting.
 const SETTING: [&str; 7] = [
     "method",
     "pace",
@@ -53,7 +53,7 @@ const SETTING: [&str; 7] = [
     "curves",
 ];
 
-/// Headings of the result, without readings.
+/// Headings of the columns of the result, except readings.
 const RESULT: [&str; 22] = [
     "status",
     "reason",
@@ -116,7 +116,7 @@ fn record(study: &Study, point: &Point, front: bool) -> Vec<String> {
         Status::Failed(reason) => record.extend(["failed".to_owned(), reason.clone()]),
         Status::Skipped(reason) => record.extend(["skipped".to_owned(), reason.clone()]),
     }
-    // A point that was not run has no results.
+    // a point that was not run has no results
     record.resize(headings(study).len(), String::new());
     record
 }

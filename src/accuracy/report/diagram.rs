@@ -8,7 +8,7 @@ use crate::accuracy::study::Study;
 use crate::picture::work_precision::{Diagram, Line};
 use bryant_runtime::program::Scalar;
 
-/// The diagram of a study: runs of this scene, without those with exchanged curves.
+/// The diagram of a study, without points with exchanged curves, because these belong to another scene.
 pub fn diagram(study: &Study, conclusion: &Conclusion) -> Diagram {
     let schemes = schemes(study);
     let drawn = |point: &&Point| point.setting.curves == Curves::Written;
@@ -64,7 +64,7 @@ pub fn diagram(study: &Study, conclusion: &Conclusion) -> Diagram {
     }
 }
 
-/// The variants in the order in which they are drawn, the usual one first.
+/// The variants in the order of drawing, the usual one first.
 const VARIANTS: [(Scalar, bool); 5] = [
     (Scalar::F64, true),
     (Scalar::F64, false),
@@ -77,7 +77,7 @@ fn of(setting: &Setting) -> (Scalar, bool) {
     (setting.scalar, setting.locate)
 }
 
-/// "f32, kinks passed"; kinks are mentioned only if the scene comes to some.
+/// The name of a variant: "f32, kinks passed"; kinks are named only if some of `all` are passed.
 fn name((scalar, locate): (Scalar, bool), all: &[(Scalar, bool)]) -> String {
     let scalar = match scalar {
         Scalar::Fast => "f64, fast sines",

@@ -1,4 +1,4 @@
-//! A study as a section of a page: its conclusion, the picture, the front.
+//! A study as a section of a page: its conclusion, its diagram, its front.
 
 use super::text::{digits, error, known};
 use crate::accuracy::conclusion::Conclusion;
@@ -6,7 +6,7 @@ use crate::accuracy::point::{Measure, Status};
 use crate::accuracy::study::Study;
 use std::fmt::Write as _;
 
-/// The section; `picture` is the link to the diagram, `command` the command that made it.
+/// The section; `picture` is the link to the diagram, `command` is the command that made the study.
 pub fn section(
     study: &Study,
     conclusion: &Conclusion,
@@ -66,7 +66,7 @@ pub fn section(
 /// Appends the table of the settings on the front.
 fn front(text: &mut String, study: &Study, conclusion: &Conclusion) {
     let of = study.of.name(&study.reference.readings);
-    // the error in the state stands beside the error asked for, unless they are the same
+    // the error of the state has a column, unless it is the error that the study is about
     let state = !matches!(study.of, Measure::State);
     let (heading, rule) = match state {
         true => (" error in the state |", "---:|"),

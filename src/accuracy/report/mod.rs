@@ -1,4 +1,4 @@
-//! A study for people and for programs: a table, CSV, JSON, a section of a page, a diagram.
+//! Reports of a study: text, CSV, JSON, a section of a page, a diagram.
 
 pub mod csv;
 pub mod diagram;

@@ -9,13 +9,13 @@ use std::fmt::Write as _;
 /// The mark in front of a point on the front.
 const MARK: &str = "*";
 
-/// Cells of a row; the first are left-aligned.
+/// Cells of a row; the first `WORDS` are left-aligned.
 type Row = Vec<String>;
 
-/// Number of columns of words, which are left-aligned and stand in front of those of numbers.
+/// Number of columns with words, which are left-aligned and come before those with numbers.
 const WORDS: usize = 5;
 
-/// Head, groups and the meaning of the marks; the last line has no line end.
+/// The study as text: head, table, and the meaning of the marks. The last line has no line end.
 pub fn text(study: &Study, conclusion: &Conclusion) -> String {
     let mut text = head(study);
     let rows: Vec<(usize, Row)> = study
@@ -73,7 +73,7 @@ pub fn text(study: &Study, conclusion: &Conclusion) -> String {
     text
 }
 
-/// The formulas of a study, in their order.
+/// The schemes of a study, in their usual order.
 pub fn schemes(study: &Study) -> Vec<Scheme> {
     let there = |scheme: &Scheme| study.points.iter().any(|p| p.setting.scheme() == *scheme);
     Scheme::all().into_iter().filter(there).collect()
@@ -111,7 +111,7 @@ fn head(study: &Study) -> String {
 
 fn heading(study: &Study) -> [Row; 2] {
     let of = match study.of {
-        // The state has a column of its own.
+        // the state has a column of its own
         Measure::State | Measure::Worst => "worst reading".to_owned(),
         other => other.name(&study.reference.readings),
     };
@@ -180,12 +180,12 @@ fn numbers(study: &Study, point: &Point, done: &Done) -> Row {
     ]
 }
 
-/// A cause in one line, without the parts that a reader of a table cannot use.
+/// The first line of a text.
 pub fn one_line(text: &str) -> String {
     text.lines().next().unwrap_or_default().trim().to_owned()
 }
 
-/// An order with one digit behind the point; zero has no sign.
+/// An order with one decimal; zero has no sign.
 fn order(value: f64) -> String {
     format!("{:.1}", (10.0 * value).round() / 10.0 + 0.0)
 }
@@ -195,7 +195,7 @@ pub fn error(value: f64) -> String {
     format!("{value:.1e}")
 }
 
-/// An error as far as it is known.
+/// An error; with "≤" if only a bound is known.
 pub fn known(known: Known) -> String {
     let bound = if known.at_most { "≤" } else { "" };
     format!("{bound}{}", error(known.error))
@@ -211,13 +211,13 @@ pub fn digits(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Cells side by side; a shorter row ends in words, which may be long.
+/// Appends a line of cells. A row with fewer cells ends in words, which may be long.
 fn line(row: &Row, widths: &[usize], text: &mut String) {
     let whole = row.len() == widths.len();
     let mut line = String::new();
     for (column, (cell, width)) in row.iter().zip(widths).enumerate() {
         let gap = if column == 0 { 0 } else { 2 };
-        // Padding counts characters, not bytes.
+        // the width is in characters, not bytes
         let _ = match column < WORDS || !whole {
             true => write!(line, "{:gap$}{cell:<width$}", ""),
             false => write!(line, "{:gap$}{cell:>width$}", ""),

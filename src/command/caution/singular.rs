@@ -1,10 +1,11 @@
-//! Positions in which two degrees of freedom of a joint move its element in the same way.
+//! Finds positions in which two degrees of freedom of a joint move its element in the same way.
 //!
-//! A joint with several degrees of freedom and no mass between them is singular where its columns H (see `bryant_generator::joint`) are linearly
-//! dependent: where the Gram determinant det Ĥᵀ Ĥ is 0, with Ĥ the columns scaled to length 1. Near such a position rates become extreme
-//! and steps become short. The columns depend only on the coordinates between the first degree of freedom and the last. The smallest determinant
-//! within the stops is searched from many start values. This is not a proof, but joints of two or three hinges and sliders, which users
-//! write, have few minima.
+//! A joint with several degrees of freedom and no mass between them is singular if its columns H (see
+//! `bryant_generator::joint`) are linearly dependent, that is if the Gram determinant det Ĥᵀ Ĥ is 0, where Ĥ are the
+//! columns scaled to length 1. Near such a position rates become extreme and steps short. The columns depend only on
+//! the coordinates between the first and the last degree of freedom. The smallest determinant within the stops is
+//! searched from many start values. This proves nothing, but the joints of two or three hinges and sliders that users
+//! write have few minima.
 
 use bryant_generator::joint::{Freedom, Joint};
 use bryant_generator::model::{Active, ElementId, ForceKind, Model};
@@ -12,41 +13,41 @@ use std::f64::consts::{PI, TAU};
 
 type Vector = [f64; 3];
 
-/// Stops that come this close to a singular angle are reported \[rad\].
+/// Singular angles this far beyond a stop are still reported \[rad\].
 const NEAR: f64 = 10.0 * PI / 180.0;
-/// The range that is assumed for a slider without stops \[m\], and the length that levers are measured by.
+/// The range of a slider without stops, and the length that makes translations and rotations comparable \[m\].
 const LENGTH: f64 = 1.0;
-/// Determinants below this are 0: they are within 1e-6 of a singular position.
+/// A smaller determinant counts as 0: the position is within 1e-6 of a singular one.
 const ZERO: f64 = 1e-12;
-/// Determinants above this are not 0; a twentieth of a turn away from a singular position they are far above.
+/// A larger determinant does not count as 0; at a twentieth of a turn from a singular position it is much larger.
 const SOUND: f64 = 1e-6;
-/// Determinants below this are within 2° of a singular position.
+/// A smaller determinant is within 2° of a singular position.
 const CLOSE: f64 = 1e-3;
 /// Number of start values of the search, for each coordinate.
 const PLACES: usize = 200;
 
-/// A joint of several degrees of freedom.
+/// A joint with several degrees of freedom.
 struct Several {
     /// The element that it carries.
     name: String,
     degrees_of_freedom: Vec<One>,
 }
 
-/// A degree of freedom with the default parameters.
+/// A degree of freedom, at given values of the parameters.
 struct One {
     name: String,
     axis: Vector,
     zero: f64,
     turns: bool,
-    /// Displacement for a unit of the coordinate \[m\], if the degree of freedom slides.
+    /// Displacement per unit of the coordinate \[m\], if the degree of freedom translates.
     advance: Option<f64>,
-    /// The range that stops leave.
+    /// The range between the stops.
     stops: [f64; 2],
-    /// Inertia of its rotor as a share of that of the element.
+    /// Inertia of its rotor relative to that of the element.
     rotor: f64,
 }
 
-/// One sentence for each joint that can come to a singular position or close to one, with a remedy.
+/// The warnings, each for a joint that can come to a singular position or close to one, with a remedy.
 pub fn cautions(model: &Model) -> Vec<String> {
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     let joints = joints(model, &defaults);
@@ -56,17 +57,17 @@ pub fn cautions(model: &Model) -> Vec<String> {
         .collect()
 }
 
-/// How near a singular position a joint is.
+/// How near a joint is to a singular position.
 #[derive(Clone, Copy)]
 pub enum Near {
-    /// In it, but for rounding.
+    /// At it, up to rounding.
     In,
-    /// Within some degrees.
+    /// Within a few degrees.
     CloseTo,
 }
 
-/// What is to be said of a joint in a singular position, and what helps, at a state: a value for each name of a coordinate, or, of a name
-/// without a value, the start of a run with these parameters.
+/// A message about a joint that is near a singular position at a state, and a remedy. `state` returns the value of a
+/// coordinate by its name; where it has none, that at the start of a run with these parameters is used.
 pub fn at(
     model: &Model,
     parameters: &[f64],
@@ -103,7 +104,8 @@ pub fn at(
     })
 }
 
-/// The joints of several degrees of freedom with these values of the parameters, and the coordinates of each at the start.
+/// The joints with several degrees of freedom, and the coordinates of each at the start, for these values of the
+/// parameters.
 fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
     let mut all = Vec::new();
     for (s, system) in model.systems.iter().enumerate() {
@@ -146,7 +148,7 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
     all
 }
 
-/// The range of a degree of freedom between the stops that always act.
+/// The range of a degree of freedom between stops that act at all times.
 fn stops(model: &Model, joint: ElementId, index: usize, defaults: &[f64]) -> [f64; 2] {
     let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
     for force in &model.forces {
@@ -182,7 +184,7 @@ impl Several {
         let relevant: Vec<usize> = (1..inner)
             .filter(|&index| self.depends_on(&found, index))
             .collect();
-        // a joint that is singular everywhere was refused with the model
+        // a joint that is singular everywhere is refused with the model, so this one has relevant coordinates
         let (first, others) = relevant.split_first()?;
         let mut places = vec![found[*first]];
         if others.is_empty() {
@@ -217,7 +219,8 @@ impl Several {
         ))
     }
 
-    /// Two neighbours that turn about nearly the same axis, or slide along it, wherever the joint is. (The same axis is refused with the model.)
+    /// The warning about two successive degrees of freedom with nearly the same axis, which are alike at all positions.
+    /// (Equal axes are refused with the model.)
     fn nearly_alike(&self) -> Option<String> {
         self.degrees_of_freedom.windows(2).find_map(|pair| {
             let [one, other] = pair else { return None };
@@ -240,7 +243,8 @@ impl Several {
         })
     }
 
-    /// H, one column for each degree of freedom: the velocity of the element's origin divided by `LENGTH`, and its angular velocity.
+    /// H, one column for each degree of freedom: the velocity of the element's origin divided by `LENGTH`, and its
+    /// angular velocity.
     fn columns(&self, q: &[f64]) -> Vec<[f64; 6]> {
         let mut rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let mut slid = [0.0; 3];
@@ -271,7 +275,7 @@ impl Several {
         found.into_iter().map(column).collect()
     }
 
-    /// Ĥᵀ Ĥ
+    /// Ĥᵀ Ĥ, with the rotors' inertia on the diagonal.
     fn gram(&self, q: &[f64]) -> Vec<Vec<f64>> {
         let columns = self.columns(q);
         let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
@@ -289,7 +293,7 @@ impl Several {
         pivots(self.gram(q)).into_iter().product()
     }
 
-    /// A position within these ranges where the determinant is 0.
+    /// A position within these ranges with determinant 0; `None` if none is found.
     fn smallest(&self, ranges: &[[f64; 2]]) -> Option<Vec<f64>> {
         let dimensions = ranges.len();
         let place = |index: usize| -> Vec<f64> {
@@ -318,7 +322,7 @@ impl Several {
         (best.0 < ZERO).then_some(best.1)
     }
 
-    /// Descends along one coordinate after the other, with steps that are halved when no step improves.
+    /// Descends along one coordinate after the other; the step is halved when no step improves.
     fn descended(&self, value: f64, q: Vec<f64>, ranges: &[[f64; 2]]) -> (f64, Vec<f64>) {
         let (mut value, mut q) = (value, q);
         let mut step = 0.1;
@@ -341,7 +345,7 @@ impl Several {
         (value, q)
     }
 
-    /// Whether a singular position is no longer singular when this coordinate changes.
+    /// True if a change of this coordinate leaves the singular position.
     fn depends_on(&self, q: &[f64], index: usize) -> bool {
         [0.3, -0.3].into_iter().any(|by| {
             let mut moved = q.to_vec();
@@ -350,7 +354,7 @@ impl Several {
         })
     }
 
-    /// All singular values of one coordinate in its range.
+    /// All values of one coordinate in its range for which the position is singular.
     fn all_places(&self, q: &[f64], index: usize, [from, to]: [f64; 2]) -> Vec<f64> {
         const STEPS: usize = 720;
         let at = |value: f64| {
@@ -387,11 +391,11 @@ impl Several {
         places
     }
 
-    /// The degrees of freedom that are linearly dependent in a singular position.
+    /// The names of the degrees of freedom that are linearly dependent in a singular position.
     fn alike(&self, q: &[f64]) -> Vec<String> {
         let gram = self.gram(q);
         let all = 0..self.degrees_of_freedom.len();
-        // if one of the dependent columns is left out, the rest are independent
+        // a column is one of the dependent ones if the others are independent without it
         let needed = |without: &usize| {
             let keep: Vec<usize> = all.clone().filter(|i| i != without).collect();
             let row = |i: &usize| keep.iter().map(|j| gram[*i][*j]).collect();
@@ -406,7 +410,8 @@ impl Several {
 }
 
 impl One {
-    /// The range of the search: slightly more than the range between the stops; without stops, a turn, or some distance along the axis.
+    /// The range of the search: that between the stops and slightly more; without stops, half a turn or `LENGTH` to
+    /// both sides.
     fn range(&self) -> [f64; 2] {
         let open = match self.turns {
             true => PI,
@@ -424,7 +429,7 @@ impl One {
     }
 
     fn shown(&self, value: f64) -> String {
-        // a zero that rounding makes negative has no sign
+        // a rounded zero has no sign
         match self.turns {
             true => format!("{:.0}°", value.to_degrees() + 0.0).replace("-0°", "0°"),
             false => format!("{:.0} mm", 1e3 * value + 0.0).replace("-0 mm", "0 mm"),
@@ -453,7 +458,8 @@ fn pivots(mut matrix: Vec<Vec<f64>>) -> Vec<f64> {
     pivots
 }
 
-/// The digits of an integer in reverse order behind the point: these numbers fill an interval evenly (Halton 1960).
+/// Element `index` of the van der Corput sequence of this base, by reversing its digits; with different bases, points
+/// fill a cube evenly (Halton 1960).
 fn halton(mut index: usize, base: u32) -> f64 {
     let (mut result, mut unit) = (0.0, 1.0);
     let base = base as usize;
@@ -476,7 +482,7 @@ fn cross(a: Vector, b: Vector) -> Vector {
     })
 }
 
-/// A rotation followed by a rotation about an axis, both in absolute axes (Rodrigues).
+/// `rotation`, followed by a rotation about `axis`, both in absolute axes (Rodrigues).
 fn turned(rotation: &[Vector; 3], axis: Vector, angle: f64) -> [Vector; 3] {
     let (sine, cosine) = libm::sincos(angle);
     let columns: [Vector; 3] = std::array::from_fn(|j| {

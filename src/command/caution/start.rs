@@ -1,6 +1,6 @@
-//! Words about the start of a run that is likely to be a mistake, and about what a model declares in vain.
+//! Remarks about the start of a run, or about declarations without effect, that are likely to be mistakes.
 //!
-//! Each is something that is so, said with numbers; whether it is meant, the user knows.
+//! Each remark states a fact with numbers; only the user knows whether it is intended.
 
 use crate::pose::{Numbers, Pose, Vec3, dot};
 use bryant_generator::model::{
@@ -8,34 +8,35 @@ use bryant_generator::model::{
     Scene, Trigger,
 };
 
-/// Where a run starts.
+/// The start of a run.
 pub struct Start<'a> {
-    /// The model, as it is run.
+    /// The model that is run.
     pub model: &'a Model,
     /// The values of its parameters.
     pub parameters: &'a [f64],
     /// The positions of its bodies.
     pub pose: Pose,
-    /// The positions of its vehicles a moment [`LATER`] \[s\].
+    /// The positions of its vehicles after the short time [`LATER`] \[s\].
     pub later: Pose,
-    /// By system, the velocity of its reference joint, where that is free \[m/s\].
+    /// For each system the velocity of its reference joint \[m/s\], if that is free.
     pub velocities: Vec<Option<Vec3>>,
-    /// Whether these are of a state that was read, and not those of the model.
+    /// True if the state was read from a file instead of following from the model.
     pub is_read: bool,
 }
 
-/// The moment by which the velocities of vehicles are told \[s\].
+/// The time over which velocities of vehicles are computed by differences \[s\].
 pub const LATER: f64 = 1e-6;
-/// A difference of velocities below this is none \[m/s\].
+/// A smaller difference of velocities counts as none \[m/s\].
 const SLOW: f64 = 1.0;
-/// A body that touches what moves by less than this may be meant to, such as a parcel on a conveyor \[m/s\].
+/// A body may be meant to touch a surface that moves relative to it more slowly than this, such as a parcel on a
+/// conveyor \[m/s\].
 const CONVEYED: f64 = 5.0;
 
-/// A centre that is behind a plane by less than this share of its ellipsoid is on it.
+/// A centre behind a plane by less than this share of its ellipsoid counts as on the plane.
 const ROUNDING: f64 = 1e-6;
 
 impl<'a> Start<'a> {
-    /// The start of a model at its own initial state; `None` if it has none with these parameters.
+    /// The start of a model in its own initial state; `None` if it has no such state with these parameters.
     pub fn of_model(model: &'a Model, parameters: &'a [f64]) -> Option<Self> {
         let numbers = Numbers { model, parameters };
         let velocities = model.systems.iter().map(|system| {
@@ -51,7 +52,7 @@ impl<'a> Start<'a> {
         })
     }
 
-    /// All words about it, each a sentence with a remedy. `scene` says what was written.
+    /// All remarks about the start, each a sentence with a remedy. `scene` has what the user wrote.
     pub fn cautions(&self, scene: &Scene) -> Vec<String> {
         let mut all = self.left_behind(scene);
         all.extend(self.behind_planes());
@@ -59,7 +60,7 @@ impl<'a> Start<'a> {
         all
     }
 
-    /// The velocity of a vehicle at the place of a system's root \[m/s\].
+    /// The velocity of a point `at` that moves with a vehicle \[m/s\].
     fn vehicle_velocity(&self, vehicle: usize, at: Vec3) -> Vec3 {
         let [now, later] = [&self.pose, &self.later].map(|pose| pose.body(Body::Vehicle(vehicle)));
         let from: Vec3 = std::array::from_fn(|i| at[i] - now.origin[i]);
@@ -68,7 +69,7 @@ impl<'a> Start<'a> {
         std::array::from_fn(|i| (moved[i] - at[i]) / LATER)
     }
 
-    /// Systems that rest beside something that moves with a vehicle and that holds them.
+    /// Remarks about systems at rest that a force connects to a moving vehicle.
     fn left_behind(&self, scene: &Scene) -> Vec<String> {
         let mut all = Vec::new();
         for (index, system) in self.model.systems.iter().enumerate() {
@@ -114,7 +115,8 @@ impl<'a> Start<'a> {
         all
     }
 
-    /// The vehicle to which a force leads from a system, and by how much their velocities must differ to be worth a word \[m/s\].
+    /// The vehicle that a force connects to a system, and the least difference of their velocities that deserves a
+    /// remark \[m/s\].
     fn held_by(&self, force: &Force, system: usize) -> Option<(usize, f64)> {
         let least = match &force.kind {
             ForceKind::Belt(_) | ForceKind::Spring(_) | ForceKind::Bushing(_) => SLOW,
@@ -131,14 +133,16 @@ impl<'a> Start<'a> {
         bodies.iter().any(belongs).then_some((vehicle?, least))
     }
 
-    /// Whether an ellipsoid lies on a plane, over it and by less than its semi-axes deep.
+    /// True if an ellipsoid touches a plane: its centre is in front of the plane, and nearer than the ellipsoid
+    /// reaches.
     fn touches(&self, contact: &Contact, active: Active) -> bool {
         let place = self.place(contact, active);
         place.is_some_and(|(height, reach)| 0.0 < height && height < reach)
     }
 
-    /// The height of the centre of an ellipsoid over a plane that acts at the start, and how far the ellipsoid reaches towards it \[m\]; `None` beside
-    /// the plane, and of two ellipsoids.
+    /// The height of the centre of an ellipsoid over a plane that acts at the start, and how far the ellipsoid reaches
+    /// towards the plane \[m\]. `None` if the contact does not act at the start, if the ellipsoid is beside the plane,
+    /// and for two ellipsoids.
     fn place(&self, contact: &Contact, active: Active) -> Option<(f64, f64)> {
         let Against::Plane(plane) = &contact.against else {
             return None;
@@ -178,7 +182,7 @@ impl<'a> Start<'a> {
         Some((dot(normal, from), reach))
     }
 
-    /// Ellipsoids whose centre is behind the plane that they meet.
+    /// Remarks about ellipsoids whose centre is behind the plane of their contact.
     fn behind_planes(&self) -> Vec<String> {
         let found = self.model.forces.iter().filter_map(|force| {
             let ForceKind::Contact(contact) = &force.kind else {
@@ -198,7 +202,7 @@ impl<'a> Start<'a> {
         found.collect()
     }
 
-    /// The components of a velocity as a model writes them.
+    /// The components of a velocity in the form of a model file.
     fn components(&self, [x, y, z]: Vec3) -> String {
         let [x, y, z] = [x, y, z].map(|v| rounded(v).to_string());
         match self.model.dimension {
@@ -208,7 +212,8 @@ impl<'a> Start<'a> {
     }
 }
 
-/// A model without any field, in which something lies, hangs or is caught: in most of these scenes gravity was forgotten.
+/// A remark about a model without any field, but with contacts, belts or airbags: in most of these scenes gravity was
+/// forgotten.
 fn weightless(model: &Model) -> Option<String> {
     let field = |force: &Force| matches!(force.kind, ForceKind::Field(_) | ForceKind::User(_));
     let holds = |force: &Force| {
@@ -229,7 +234,8 @@ fn weightless(model: &Model) -> Option<String> {
     })
 }
 
-/// What the file of a model declares and nothing mentions; what it includes may be a collection.
+/// Remarks about items that a model file declares and never uses. Included files are not checked, because they may be
+/// collections.
 pub fn unused(scene: &Scene) -> Vec<String> {
     let mut written = scene.written.clone();
     let mut used = vec![false; written.curves.len()];
@@ -272,7 +278,8 @@ pub fn unused(scene: &Scene) -> Vec<String> {
     all
 }
 
-/// Switches that did not fire in a run: its last state by name, the smallest value of each event function by name, and where it ended \[s\].
+/// Remarks about switches that did not fire in a run. `memory` has its last state and `nearest` the smallest value of
+/// each event function, both by name; the run ended at `end` \[s\].
 pub fn unfired(
     model: &Model,
     parameters: &[f64],
@@ -282,7 +289,7 @@ pub fn unfired(
 ) -> Vec<String> {
     let idle = model.switches.iter().filter_map(|switch| {
         let name = &switch.name;
-        // the time at which it fired, and one that never comes before
+        // memory holds the time at which the switch fired, or a very large time
         let fired = memory(&format!("switch {name}: fired"))? <= end;
         if fired {
             return None;
@@ -320,9 +327,9 @@ pub fn unfired(
     idle.collect()
 }
 
-/// The middle turn of a ball joint with laws about three axes that is close to ±90°, in words, with a remedy.
+/// A message, with a remedy, about a ball joint with laws about three axes whose middle angle is close to ±90°.
 pub fn near_right_angle(model: &Model, pose: &Pose) -> Option<[String; 2]> {
-    /// Within this distance of ±90°, 20° \[rad\].
+    /// Distance from ±90° that counts as close, 20° \[rad\].
     const NEAR: f64 = 20.0 * std::f64::consts::PI / 180.0;
     let joints = model.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Joint(law) => Some((force, law)),
@@ -380,7 +387,7 @@ fn cross([a, b, c]: Vec3, [x, y, z]: Vec3) -> Vec3 {
     [b * z - c * y, c * x - a * z, a * y - b * x]
 }
 
-/// To three digits.
+/// Rounds to three digits.
 fn rounded(x: f64) -> f64 {
     format!("{x:.2e}").parse::<f64>().map_or(x, |x| x + 0.0)
 }

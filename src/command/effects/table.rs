@@ -1,4 +1,4 @@
-//! The table of `bryant effects`, row by row, and the same as JSON.
+//! The table of `bryant effects`: row by row for people, or as JSON.
 
 use crate::timing::{Measured, Method};
 use bryant_generator::effect::{Entry, Reason};
@@ -11,15 +11,15 @@ use serde_json::{Value, json};
 pub struct Row<'a> {
     /// The effect.
     pub entry: &'a Entry,
-    /// The method whose cost it changes.
+    /// The method whose cost the effect changes.
     pub method: Method,
-    /// The operations with the effect, less those without it.
+    /// The operations with the effect minus those without it.
     pub operations: Option<Difference>,
     /// Measurements with the effect and without it.
     pub measured: Option<(Measured, Measured)>,
 }
 
-/// Operations that an effect adds; negative if, without the effect, common subexpressions are no longer shared.
+/// Operations that an effect adds. They are negative if more common subexpressions are shared with the effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Difference {
     /// Sums, products and other arithmetic operations.
@@ -28,7 +28,7 @@ pub struct Difference {
     pub calls: i64,
 }
 
-/// Sines, cosines, angles and calls.
+/// Number of sines, cosines, angles and calls.
 fn calls(count: &Count) -> usize {
     count.trigonometric() + count.called()
 }
@@ -43,20 +43,20 @@ impl Difference {
     }
 }
 
-/// The totals of this scene, and of the same scene with nothing left out.
+/// The totals of the scene, and of the same scene with all effects in.
 pub struct Total {
-    /// This scene.
+    /// The scene itself.
     pub scene: (Count, Option<Measured>),
-    /// The scene timed once more.
+    /// A second measurement of the scene.
     pub again: Option<Measured>,
-    /// The scene with nothing left out.
+    /// The scene with all effects in.
     pub general: (Count, Option<Measured>),
-    /// Number of run-time parameters of the scene with nothing left out.
+    /// Number of run-time parameters of the scene with all effects in.
     pub parameters: usize,
 }
 
 impl Total {
-    /// A difference of times that is below the noise \[s\].
+    /// The difference of two measurements of the scene \[s\]; smaller differences are noise.
     pub fn noise(&self) -> Option<f64> {
         Some((self.scene.1?.time - self.again?.time).abs())
     }
@@ -68,21 +68,22 @@ type Cells = [String; 7];
 /// The columns of times; they are left out if nothing is timed.
 const TIMES: std::ops::Range<usize> = 3..6;
 
-/// Columns side by side, numbers right-aligned. Rows are written one by one, so the widths must be known before any time is.
+/// A table whose numbers are right-aligned. Rows are written one by one, so the widths of columns are set before any
+/// time is measured.
 pub struct Table {
     widths: [usize; 7],
     timed: bool,
-    /// Characters of a line; `None`: no limit.
+    /// Characters in a line; `None` without a limit.
     room: Option<usize>,
 }
 
-/// The last column has at least so many characters, or stands below the others \[characters\].
+/// Least width of the last column \[characters\]; if there is less room, its text is put below the others.
 const NARROWEST: usize = 24;
-/// The last column begins here where it stands below the others.
+/// Indentation of the last column if it is below the others \[characters\].
 const INDENT: usize = 4;
 
 impl Table {
-    /// A table for these rows in lines of this `room`; `timed` says whether times will follow.
+    /// A table for these rows, in lines of at most `room` characters; `timed` says whether times will follow.
     pub fn new<'a>(
         rows: impl Iterator<Item = &'a Row<'a>>,
         total: &Total,
@@ -103,7 +104,7 @@ impl Table {
             }
         }
         if timed {
-            // as wide as the longest text that is likely
+            // wide enough for the longest likely number
             for column in TIMES {
                 widths[column] = widths[column].max(LIKELY);
             }
@@ -115,17 +116,17 @@ impl Table {
         }
     }
 
-    /// Names of the columns and their units.
+    /// The lines with the names of the columns and their units.
     pub fn heading(&self) -> String {
         heading().iter().map(|line| self.line(line)).collect()
     }
 
-    /// An effect.
+    /// The line of an effect.
     pub fn row(&self, row: &Row<'_>) -> String {
         self.line(&cells(row))
     }
 
-    /// The rows below the effects.
+    /// The lines below the effects.
     pub fn totals(&self, total: &Total) -> String {
         let lines = totals(total);
         let mut text: String = "\n".to_owned();
@@ -161,7 +162,7 @@ impl Table {
         let (parts, begin) = match room.saturating_sub(begin) {
             beside if beside >= last.chars().count() => (vec![last.clone()], begin),
             beside if beside >= NARROWEST => (wrap(last, beside), begin),
-            // below, after an empty part
+            // below the other columns, so the first part is empty
             _ => {
                 let below = wrap(last, room.saturating_sub(INDENT));
                 ([vec![String::new()], below].concat(), INDENT)
@@ -258,7 +259,7 @@ fn bytes(with: Option<u64>, without: Option<u64>) -> String {
     }
 }
 
-/// The reason of an effect's state, and its line.
+/// The reason why an effect is in or out, and the line of the text that decides it.
 fn why(entry: &Entry) -> String {
     let mut text = entry.why.clone();
     if let Some(place) = entry
@@ -278,7 +279,7 @@ fn why(entry: &Entry) -> String {
     text
 }
 
-/// The whole table, for programs; `complete` is false if an interruption left something out.
+/// The whole table as JSON; `complete` is false if an interruption left something out.
 pub fn as_json(model: &Model, rows: &[Row<'_>], total: &Total, complete: bool) -> Value {
     let effects: Vec<Value> = rows
         .iter()

@@ -1,4 +1,5 @@
-//! The keyframes of an animation: players turn a body the shorter way from one keyframe to the next, so these must be close enough.
+//! Computes the keyframes of an animation. They must be close together, because players rotate a body the shorter way
+//! from one keyframe to the next.
 
 use super::super::Error;
 use super::super::error_report::ErrorReport;
@@ -13,20 +14,24 @@ use crate::scene::Scene;
 use crate::simulation::{self, Recording};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, TAU};
 
-/// An animation has at most so many keyframes: 28 bytes for each body.
+/// Largest number of keyframes of an animation; each takes 28 bytes for each body.
 const MOST_KEYFRAMES: usize = 20_000;
-/// The angle that a body may turn from one keyframe to the next, as it is aimed at and at most \[rad\].
+/// The largest rotation of a body between two keyframes \[rad\]: the one that is aimed at, and the one that is
+/// accepted.
 const WANTED: f64 = FRAC_PI_3;
 const MOST: f64 = FRAC_PI_2;
-/// Keyframes that are so many times as close show whether bodies turn by whole turns between them: no power of them is a whole number.
+/// Factor by which a second scene has more keyframes, to detect whole turns between keyframes. No power of the factor
+/// is a whole number.
 const CLOSER: f64 = 1.3;
-/// Angles that a body turns through, over all keyframes, are the same within this share and a tenth of a turn.
+/// The total rotation of a body counts as equal in two scenes if it differs by at most this share, plus a tenth of a
+/// turn.
 const SAME: f64 = 0.02;
 
-/// The animation of a run, at its rows, or closer where bodies turn fast; then the run is computed again.
+/// The animation of a run. Keyframes are at its rows; if bodies rotate too fast for this, the run is computed again
+/// with more rows.
 ///
 /// # Errors
-/// The run has fewer than two instants.
+/// The run has fewer than two samples.
 pub fn animation(
     shown: &Shown<'_>,
     (recording, errors): (&Recording, &ErrorReport),
@@ -80,7 +85,7 @@ fn tell(terminal: &mut Terminal) {
     );
 }
 
-/// Whether the angular velocities of the state are all that turn.
+/// True if angular velocities in the state are the only rotations: there are no vehicles, and no joints follow others.
 fn turns_by_itself(found: &Found) -> bool {
     let systems = &found.model.systems;
     let elements = || systems.iter().flat_map(|system| &system.elements);
@@ -88,7 +93,7 @@ fn turns_by_itself(found: &Found) -> bool {
         && elements().all(|element| element.joint.freedoms().iter().all(|f| f.follows.is_none()))
 }
 
-/// The largest angle from one keyframe to the next, as players turn \[rad\].
+/// The largest rotation of a body from one keyframe to the next, as players show it \[rad\].
 fn widest(scene: &Scene) -> f64 {
     turns(scene)
         .iter()
@@ -96,7 +101,7 @@ fn widest(scene: &Scene) -> f64 {
         .fold(0.0, |most, angle| angle.max(most))
 }
 
-/// Whether all bodies turn through the same angle in both scenes.
+/// True if the total rotation of every body is equal in both scenes.
 fn alike(a: &Scene, b: &Scene) -> bool {
     let sums = |scene: &Scene| {
         let mut sums: Vec<f64> = Vec::new();

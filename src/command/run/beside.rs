@@ -1,4 +1,4 @@
-//! The additions of a report to a run: curves of a test, and a second run with other parameters.
+//! What a report shows beside the run: curves of a test, and a second run with other parameters.
 
 use super::super::Error;
 use super::super::compare::{channel, doubt, recording};
@@ -20,13 +20,14 @@ use bryant_runtime::program::Job;
 use bryant_signal::{Channel, NoChannel, unit};
 use serde_json::{Value, json};
 
-/// A curve shows at most this many samples; of more samples, every second one and so on is shown.
+/// Largest number of samples of a curve; if there are more, every second, third, … sample is shown.
 const MOST_SAMPLES: usize = 4000;
 
-/// The curves of a test that belong to outputs, in the units of the outputs.
+/// The curves of the test for outputs of the run, in the units of the outputs.
 ///
 /// # Errors
-/// The recording cannot be read, or has no channel of an output, or a channel has another quantity.
+/// The recording cannot be read, it has no channel for a requested output, or a channel has another quantity than its
+/// output.
 pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<Vec<Value>, Error> {
     let Some(path) = &arguments.measured else {
         return Ok(Vec::new());
@@ -95,7 +96,7 @@ pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<V
     curves.collect()
 }
 
-/// The motion and the curves of the run with other parameters; null if no such run is requested.
+/// The motion and the curves of a second run with other parameters; null if none is requested.
 ///
 /// # Errors
 /// There is no such parameter, or the run fails or cannot be trusted.

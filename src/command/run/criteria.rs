@@ -1,4 +1,5 @@
-//! Injury criteria of a run: responses that are read off its samples, independent of the rows of the table.
+//! Injury criteria of a run. They are responses with samples of their own, which do not depend on the rows of the
+//! table.
 
 use super::{Arguments, Error};
 use crate::command::criteria::places;
@@ -20,10 +21,10 @@ pub struct Criteria {
 }
 
 impl Criteria {
-    /// The criteria that the command line or the model requests, if any.
+    /// The criteria that the command line or the model requests; `None` if there are none.
     ///
     /// # Errors
-    /// There is no such regulation, dummy, place or output, or no output that a criterion can be read off.
+    /// There is no such regulation, dummy, place or output, or there are outputs for none of the criteria.
     pub fn of(arguments: &Arguments, facts: &ModelFacts) -> Result<Option<Self>, Error> {
         let named = places(&arguments.place);
         let asked = match (&arguments.criteria, &facts.criteria) {
@@ -84,7 +85,7 @@ impl Criteria {
         there.map(Requested::of_study)
     }
 
-    /// The channels whose samples are kept, because they say more than the number: the filtered signals of the neck.
+    /// Channels whose samples are kept for more than one number: the filtered signals of the neck, for the mode of Nij.
     pub fn kept(&self) -> Vec<Kept> {
         let neck = self.judged.iter().find_map(|one| {
             let channel = one.response.as_ref().ok()?.channel;
@@ -101,8 +102,8 @@ impl Criteria {
         kept.collect()
     }
 
-    /// The verdict of a run. The answers to its responses begin at index `first`, the kept signals at index `kept`. `None` if the run did
-    /// not reach its end, or cannot be trusted.
+    /// The verdict on a run. The values of its responses begin at index `first`, the kept signals at index `kept`.
+    /// `None` if the run did not reach its end, or cannot be trusted.
     pub fn verdict(
         &self,
         recording: &Recording,
@@ -144,7 +145,7 @@ impl Criteria {
             }
         });
         Some(Verdict {
-            // the codes are beside the outputs
+            // outputs already show their codes, so the occupant need not be named
             occupant: None,
             left_out: Vec::new(),
             rows: rows.collect(),

@@ -1,4 +1,4 @@
-//! The places where the results of a run go: files, and standard output.
+//! The files of a run, and the output that is printed instead of the table.
 
 use super::shown::Shown;
 use super::{Arguments, Error, Terminal};
@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 /// A requested plot, and its file.
 type Plot = (Request, PathBuf);
 
-/// The files of a run, and the output that is printed.
+/// The files that a run writes, and the output that it prints.
 pub struct Files {
     csv: Option<PathBuf>,
     final_state: Option<PathBuf>,
@@ -35,10 +35,11 @@ pub struct Files {
 }
 
 impl Files {
-    /// The requested files, and the usual ones.
+    /// The files that the user requests, and those that are written by default.
     ///
     /// # Errors
-    /// Two results go to one place, or one to a file that the command reads; or a plot needs a column that does not exist.
+    /// Two results go to one place, a result goes to a file that the command reads, or a plot needs a column that does
+    /// not exist.
     pub fn of(arguments: &Arguments, found: &Found) -> Result<Self, Error> {
         let model = &found.model;
         let view = arguments.view.unwrap_or_default();
@@ -111,7 +112,7 @@ impl Files {
         })
     }
 
-    /// Writes the files; returns the paths of those written.
+    /// Writes the files; returns their paths.
     ///
     /// # Errors
     /// A file cannot be written, or a picture cannot be drawn.
@@ -157,7 +158,7 @@ impl Files {
         Ok(written)
     }
 
-    /// Prints the table, or the file that goes to standard output in its place.
+    /// Prints the table, or the file that is printed instead.
     ///
     /// # Errors
     /// The result cannot be written or drawn.
@@ -190,14 +191,14 @@ impl Files {
         }
     }
 
-    /// Whether a file goes to standard output.
+    /// True if a file is printed on standard output.
     pub fn prints_a_file(&self) -> bool {
         let all = [&self.csv, &self.final_state, &self.picture];
         all.into_iter().flatten().any(|path| is_standard(path))
     }
 }
 
-/// Refuses rows for ISO-MME whose last interval is shorter than the others.
+/// Refuses ISO-MME if the last interval between rows is shorter than the others.
 fn has_equal_intervals(arguments: &Arguments, model: &Model) -> Result<(), Error> {
     let duration = arguments.duration.unwrap_or(model.run.duration);
     let every = arguments.every.unwrap_or(model.run.every);
@@ -211,7 +212,7 @@ fn has_equal_intervals(arguments: &Arguments, model: &Model) -> Result<(), Error
     }
 }
 
-/// The requested plots with their files in `directory`, and the corridors in them.
+/// The requested plots with their files in `directory`, and the corridors that they show.
 fn plots(
     arguments: &Arguments,
     model: &Model,
@@ -250,7 +251,7 @@ fn plots(
     Ok((plots, corridors))
 }
 
-/// Writes the outputs as channels of ISO-MME; returns the path of the file about the test.
+/// Writes the outputs as channels of ISO-MME; returns the path of the file that describes the test.
 fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<PathBuf, Error> {
     let [times, columns @ ..] = recording.table.columns.as_slice() else {
         unreachable!("a table has times");
@@ -264,7 +265,7 @@ fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<Path
             Some(code) => (code, output.name.as_str()),
             None => (&output.name, ""),
         };
-        // the code names a filter, so the samples must be filtered by it
+        // if the code names a filter, the samples must be filtered by it
         let signal = match class_of_code(name).filter(|_| output.filter.is_none()) {
             Some(class) => filtered(&signal, class, Standard::Iso6487).map_err(|error| {
                 Error::Input(format!(
@@ -326,7 +327,7 @@ pub fn parquet(
     write_numbers(out, model, &numbers.collect::<Vec<_>>(), &metadata)
 }
 
-/// The picture in the format that the ending of its file says.
+/// The picture of the motion; the extension of its file determines the format.
 fn drawn(
     arguments: &Arguments,
     shown: &Shown<'_>,
@@ -342,7 +343,8 @@ fn drawn(
         true => Arrangement::Overlay,
         false => Arrangement::Row,
     };
-    // what happens between the figures says what the view stays with, from where it looks, and which of them are alike
+    // the scene also needs the motion between the figures: it decides which bodies the view follows, from where it
+    // looks, and which figures are alike
     let between = times.windows(2).flat_map(|ends| {
         let part = |n: i32| ends[0] + f64::from(n) / 4.0 * (ends[1] - ends[0]);
         (0..4).map(part)

@@ -1,4 +1,4 @@
-//! What is said of a run that is over: its cost, why it cannot be trusted, why it failed; for people and as JSON.
+//! Describes a run that is over: its cost, doubts about it, its failure; for people and as JSON.
 
 use super::{Error, ErrorReport};
 use crate::balance;
@@ -9,7 +9,7 @@ use bryant_runtime::program::{ErrorKind, Finding, Header, Job, RunError};
 use serde_json::json;
 use std::path::PathBuf;
 
-/// The table and all that is known about the run, for programs. `engine` is its name on the command line.
+/// The table and all information about the run as JSON. `engine` is its name on the command line.
 pub fn json(
     engine: &str,
     job: &Job,
@@ -71,7 +71,7 @@ pub fn json(
     value
 }
 
-/// An error if the run reached its end but cannot be trusted: since when, why, and what to do.
+/// Fails if the run reached its end but cannot be trusted; the error says since when, why, and what the user can do.
 pub fn doubtful(recording: &Recording) -> Result<(), Error> {
     let Some(first) = recording.doubts.first() else {
         return Ok(());
@@ -83,7 +83,7 @@ pub fn doubtful(recording: &Recording) -> Result<(), Error> {
             .iter()
             .map(|doubt| format!("  {}", doubt.message)),
     );
-    // only the first cause needs a remedy: the others follow from it
+    // the first cause has a remedy; the others follow from it
     lines.push(format!("  help: {}", first.remedy));
     Err(Error::Run(RunError {
         kind: ErrorKind::Run,
@@ -94,7 +94,7 @@ pub fn doubtful(recording: &Recording) -> Result<(), Error> {
     }))
 }
 
-/// Why a run cannot be trusted, as JSON.
+/// The doubts about a run as JSON.
 fn doubts(doubts: &[Finding]) -> serde_json::Value {
     let doubt = |doubt: &Finding| {
         json!({
@@ -109,7 +109,7 @@ fn doubts(doubts: &[Finding]) -> serde_json::Value {
     doubts.iter().map(doubt).collect()
 }
 
-/// What the run took, in one line.
+/// The cost of the run, in one line.
 pub fn report(recording: &Recording) -> String {
     let Ok(report) = &recording.result else {
         return String::new();
@@ -138,7 +138,7 @@ pub fn report(recording: &Recording) -> String {
     )
 }
 
-/// The failure of the run: time, element, cause, and how far the samples go.
+/// The failure of the run: its time, element and cause, and the time of the last sample.
 pub fn failure(error: &RunError, recording: &Recording) -> String {
     let what = error
         .message
@@ -175,7 +175,7 @@ pub fn failure(error: &RunError, recording: &Recording) -> String {
     lines.join("\n")
 }
 
-/// The element or reference joint that has the failing coordinate or velocity.
+/// The element or reference joint of the failing coordinate or velocity.
 fn element(error: &RunError) -> Option<&str> {
     let (owner, _) = error.coordinate.as_deref()?.rsplit_once('.')?;
     Some(owner)
@@ -190,7 +190,7 @@ fn duration(seconds: f64) -> String {
         0.0 => return "0 s".into(),
         s => (s * 1e9, "ns"),
     };
-    // Times on a busy machine are not more precise than three digits.
+    // on a busy machine, times are not more precise than three digits
     let decimals = (2 - libm::log10(value).floor() as i32).clamp(0, 3) as usize;
     let text = format!("{value:.decimals$}");
     match text.contains('.') {
@@ -210,7 +210,7 @@ fn ratio(ratio: f64) -> String {
     }
 }
 
-/// The cause of the length of a step, with the names of the model.
+/// The reason for the length of a step, with the names of the model.
 fn cause(cause: Cause, header: &Header) -> String {
     let named = |names: &[String], index: usize| names.get(index).cloned().unwrap_or_default();
     match cause {

@@ -1,4 +1,5 @@
-//! What is said of a run beside its results: of its start, of what its model declares in vain, of switches that did not fire.
+//! Remarks about a run beside its results: about its start, declarations without effect, and switches that did not
+//! fire.
 
 use super::super::caution::start::{self, Start};
 use super::super::model_argument::Found;
@@ -8,7 +9,7 @@ use crate::simulation::Recording;
 use bryant_generator::model::Model;
 use bryant_runtime::program::Job;
 
-/// The pose where a run ended, as far as it was sampled.
+/// The pose at the last sample of a run.
 fn last_pose(model: &Model, job: &Job, recording: &Recording) -> Option<Pose> {
     let layout = Layout::new(model, &recording.coordinates).ok()?;
     let last = recording.instants.last()?;
@@ -16,7 +17,8 @@ fn last_pose(model: &Model, job: &Job, recording: &Recording) -> Option<Pose> {
     Pose::new(model, &layout, &parameters, last.time, &last.coordinates)
 }
 
-/// Names a ball joint that is turned by nearly 90° as the cause of a failure: it makes all forces look stiff.
+/// If a ball joint is rotated by nearly 90°, names it as the cause of a failure, because it makes all forces look
+/// stiff.
 pub fn look_for_right_angle(model: &Model, job: &Job, recording: &mut Recording) {
     let pose = last_pose(model, job, recording);
     let found = pose.and_then(|pose| start::near_right_angle(model, &pose));
@@ -25,7 +27,7 @@ pub fn look_for_right_angle(model: &Model, job: &Job, recording: &mut Recording)
     }
 }
 
-/// Adds words about the start, about what the model declares in vain, and about switches that did not fire.
+/// Adds remarks about the start, about declarations without effect, and about switches that did not fire.
 pub fn remark(found: &Found, job: &Job, recording: &mut Recording) {
     let model = &found.model;
     let parameters = recording.parameters(job);
@@ -53,7 +55,7 @@ pub fn remark(found: &Found, job: &Job, recording: &mut Recording) {
     recording.notes.splice(0..0, notes);
 }
 
-/// Where a run starts that begins at the start of its model, by itself or by a state of that time.
+/// The start of a run; `None` if the run starts with a state from within a motion, that is, at a time other than 0.
 fn start_of<'a>(
     model: &'a Model,
     parameters: &'a [f64],
@@ -64,7 +66,7 @@ fn start_of<'a>(
         return Start::of_model(model, parameters);
     };
     if read.t != 0.0 {
-        // a state from within a motion
+        // the state is from within a motion
         return None;
     }
     let layout = Layout::new(model, &recording.coordinates).ok()?;

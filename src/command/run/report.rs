@@ -19,10 +19,10 @@ use bryant_runtime::program::{Header, History};
 use bryant_signal::unit;
 use serde_json::{Value, json};
 
-/// A report has at most this many poses: more than one for each picture of a screen in ten seconds.
+/// Largest number of poses in a report: more than the pictures of a screen in ten seconds.
 const MOST_POSES: usize = 600;
 
-/// The table of a report has at most this many rows: a page of some megabytes.
+/// Largest number of rows in the table of a report: a page of some megabytes.
 pub const MOST_ROWS: f64 = 2e4;
 
 /// The page of a run.
@@ -118,7 +118,7 @@ pub fn html(
     Ok(page(&title, &data))
 }
 
-/// Times of the rows \[s\].
+/// The times of the rows \[s\].
 pub(super) fn seconds(recording: &Recording) -> Vec<f64> {
     let Some(time) = recording.table.columns.first() else {
         return Vec::new();
@@ -138,7 +138,7 @@ pub(super) fn output_curves(recording: &Recording, responses: &Responses) -> Vec
     curves(&seconds(recording), &outputs.collect::<Vec<_>>())
 }
 
-/// Works of effects over time.
+/// The works of effects over time.
 fn works(header: &Header, history: &History) -> Value {
     let times: Vec<Value> = history.times.iter().map(|t| short(*t)).collect();
     let effects = header.powers.iter().enumerate().map(|(index, name)| {
@@ -148,7 +148,7 @@ fn works(header: &Header, history: &History) -> Value {
     json!({ "times": times, "effects": effects.collect::<Vec<_>>() })
 }
 
-/// At most [`MOST_POSES`] of the instants of a run, evenly spread and with the last one.
+/// At most about [`MOST_POSES`] samples of a run, evenly spread, with the last one.
 pub(super) fn kept(recording: &Recording) -> Vec<Instant> {
     let stride = recording.instants.len().div_ceil(MOST_POSES).max(1);
     let last = recording.instants.len().saturating_sub(1);
@@ -157,7 +157,7 @@ pub(super) fn kept(recording: &Recording) -> Vec<Instant> {
     kept.map(|(_, instant)| instant.clone()).collect()
 }
 
-/// The responses in the form that the page reads.
+/// The responses in the form that the script of the page reads.
 fn told(responses: &Value) -> Value {
     let each = responses.as_array().into_iter().flatten().map(|response| {
         json!({
@@ -169,7 +169,7 @@ fn told(responses: &Value) -> Value {
     each.collect()
 }
 
-/// The command line that makes this page.
+/// The command line that made this page.
 fn command(arguments: &Arguments) -> String {
     let words = std::env::args().skip(1).map(|word| quoted(&word));
     let words: Vec<String> = words.collect();

@@ -1,6 +1,6 @@
-//! The responses of a run: one number for a whole signal, as in a study.
+//! The responses of a run: each is one number for a whole signal, as in a study.
 //!
-//! They are read off samples of their own, so that they do not depend on the rows of the table.
+//! Responses are computed from samples of their own, so they do not depend on the rows of the table.
 
 use super::criteria::Criteria;
 use super::result::Peak;
@@ -24,15 +24,15 @@ use serde_json::{Value, json};
 
 /// The responses of a run.
 pub struct Responses {
-    /// The requested responses, followed by those of the criteria.
+    /// The requested responses, then those of the criteria.
     asked: Vec<Requested>,
     /// The number of requested responses.
     own: usize,
     /// The criteria that the run is judged by.
     criteria: Option<Criteria>,
-    /// The index of the first signal that the criteria keep.
+    /// The index of the first signal that is kept for the criteria.
     kept: usize,
-    /// The index of the kept signal of each output; those after the last one that is needed have none.
+    /// For each of the first outputs, the index of its kept signal; other outputs have none.
     signals: Vec<usize>,
     /// The units in which responses and outputs are shown.
     pub units: Units,
@@ -40,19 +40,20 @@ pub struct Responses {
     every: f64,
     /// The responses as a request to the runtime.
     pub reading: Reading,
-    /// How the run differs from those of the study whose responses it has, in words.
+    /// The differences between the settings of the run and those of the study whose responses it uses, in words.
     otherwise: Option<String>,
 }
 
-/// A report has the works of effects at no more than about this many times.
+/// About the largest number of times in a report for which works of effects are kept.
 const WORKS: f64 = 300.0;
-/// The peaks of at most so many outputs are told.
+/// Largest number of outputs whose peaks are printed.
 const MOST_PEAKS: usize = 5;
-/// At most about so many samples of outputs are kept for a report: 160 MB.
+/// About the largest number of samples of outputs that are kept for a report: 160 MB.
 const MOST_KEPT: usize = 20_000_000;
-/// Samples for each row of the table that peaks are read off, if nothing else needs samples. Between them a peak is that of a parabola's.
+/// Number of samples for each row of the table, if only peaks need samples. A peak between samples is that of a
+/// parabola through them.
 const BETWEEN_ROWS: f64 = 5.0;
-/// Differences below this share are rounding errors.
+/// A smaller relative difference is a rounding error.
 const ROUNDING: f64 = 1e-12;
 /// Significant digits of a response, as in the summary of a study.
 const DIGITS: i32 = 4;
@@ -61,8 +62,8 @@ impl Responses {
     /// The requested responses for a run that begins at `start` \[s\].
     ///
     /// # Errors
-    /// A response cannot be read off this run, two have the same name, there are too many samples, or a time between samples is given
-    /// without a response.
+    /// A response cannot be computed from this run, two responses have the same name, there are too many samples, or a
+    /// time between samples is given without a response.
     pub fn of(arguments: &Arguments, found: &Found, start: f64) -> Result<Self, Error> {
         let model = &found.model;
         let facts = ModelFacts::of(&found.scene);
@@ -94,13 +95,13 @@ impl Responses {
         let silent = asked.is_empty() && kept.is_empty() && model.outputs.is_empty();
         let intervals = match end > start && !silent {
             true => intervals(sampling, end - start, &asked, size_of::<f64>())?,
-            // the run itself will report this
+            // the run itself reports this error
             false => 1,
         };
         if !classes.is_empty() && end > start && intervals < MEAN {
             return Err(response::too_short(end - start));
         }
-        // a report shows all outputs between rows, as far as memory allows
+        // a report shows samples of all outputs between rows, as far as memory allows
         let shown = match arguments.report {
             Some(_) => (MOST_KEPT / intervals).max(MOST_PEAKS),
             None => MOST_PEAKS,
@@ -129,7 +130,7 @@ impl Responses {
         self.asked.iter().filter_map(|one| one.caution.as_deref())
     }
 
-    /// The samples of an output; none if they are not kept, or the run did not reach its end.
+    /// The samples of an output; `None` if they are not kept, or the run did not reach its end.
     pub fn samples<'a>(&self, recording: &'a Recording, output: usize) -> Option<Samples<'a>> {
         let values = recording.kept.get(*self.signals.get(output)?)?;
         (!values.is_empty()).then_some(Samples {
@@ -139,7 +140,7 @@ impl Responses {
         })
     }
 
-    /// The peaks of the first outputs; none if the run did not reach its end.
+    /// The peaks of the first outputs; empty if the run did not reach its end.
     pub fn peaks(&self, recording: &Recording) -> Vec<Peak> {
         let first = recording.header.outputs.iter().enumerate().take(MOST_PEAKS);
         let peak = |(index, output): (usize, &OutputHeader)| {
@@ -158,7 +159,8 @@ impl Responses {
         first.filter_map(peak).collect()
     }
 
-    /// The verdict about the run. The outer value is `None` if no criteria are requested.
+    /// The verdict on the run. The outer `None`: no criteria are requested. The inner `None`: the run does not allow a
+    /// verdict.
     pub fn verdict(&self, recording: &Recording) -> Option<Option<Verdict>> {
         let criteria = self.criteria.as_ref()?;
         Some(criteria.verdict(recording, [self.own, self.kept], self.every))
@@ -188,7 +190,7 @@ impl Responses {
             })
     }
 
-    /// The responses for people, a line each, after an empty line; empty if none are requested.
+    /// The responses for people, a line for each, after an empty line; empty if no responses are requested.
     pub fn text(&self, recording: &Recording, errors: &ErrorReport) -> String {
         if self.own == 0 {
             return String::new();
@@ -230,7 +232,7 @@ impl Responses {
         text
     }
 
-    /// `[{"response", "value", "unit", "difference"}, …]`; an unknown value is `null`.
+    /// The responses as JSON: `[{"response", "value", "unit", "difference"}, …]`; an unknown value is `null`.
     pub fn json(&self, recording: &Recording, errors: &ErrorReport) -> Value {
         let each = self
             .values(recording, errors)
@@ -246,17 +248,17 @@ impl Responses {
     }
 }
 
-/// The responses that the user requests, by a study and one by one.
+/// The requested responses: those of a study, and single ones.
 struct Requests {
     responses: Vec<Requested>,
-    /// Time between the samples, if it is given \[s\].
+    /// Time between the samples \[s\], if the user gives one.
     sampling: Option<f64>,
-    /// How the run differs from those of the study, in words.
+    /// The differences between the settings of the run and those of the study, in words.
     otherwise: Option<String>,
 }
 
 impl Requests {
-    /// For a run from one time to another \[s\].
+    /// The requests for a run that lasts from the first to the second time of `span` \[s\].
     fn of(arguments: &Arguments, facts: &ModelFacts, span: [f64; 2]) -> Result<Self, Error> {
         let [_, end] = span;
         let mut requests = Requests {
@@ -306,7 +308,7 @@ impl Requests {
     }
 }
 
-/// The outputs that have a filter of their own and are shown filtered.
+/// The filtered signals of outputs that have a filter and are shown filtered.
 fn filtered(model: &Model) -> Vec<Kept> {
     let outputs = model.outputs.iter().enumerate();
     let filtered = outputs.filter(|(_, output)| output.filter.is_some());
@@ -317,7 +319,7 @@ fn filtered(model: &Model) -> Vec<Kept> {
     kept.collect()
 }
 
-/// The index of the signal of each of the first outputs, which is kept for this if it is not yet.
+/// The indices of the signals of the first outputs; a signal that is not kept yet is added to `kept`.
 fn signals(outputs: usize, kept: &mut Vec<Kept>) -> Vec<usize> {
     let mut index_of = |output: usize| {
         let known = kept.iter().position(|one| one.in_place_of == Some(output));
@@ -332,7 +334,7 @@ fn signals(outputs: usize, kept: &mut Vec<Kept>) -> Vec<usize> {
     (0..outputs).map(&mut index_of).collect()
 }
 
-/// A number with four digits; a larger number is printed as an integer.
+/// A number with four digits; a large number as an integer.
 fn digits(value: f64) -> String {
     let size = value.abs();
     match size {

@@ -1,4 +1,5 @@
-//! The result of a run on one screen: the peaks of its first outputs, responses, criteria, and how far it can be trusted.
+//! The result of a run on one screen: peaks of the first outputs, responses, criteria, and how far the run can be
+//! trusted.
 
 use super::responses::Responses;
 use super::{Done, ErrorReport};
@@ -10,9 +11,9 @@ use bryant_runtime::response::{Response, reduce};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-/// Characters of a line where the width of the terminal is not known.
+/// Width of lines in characters, if that of the terminal is not known.
 const WIDTH: usize = 80;
-/// From this length on, times are in seconds \[s\].
+/// Length of a run from which times are in seconds instead of milliseconds \[s\].
 const LONG: f64 = 10.0;
 
 /// The largest magnitude of an output, with its sign, and its time.
@@ -22,14 +23,15 @@ pub struct Peak {
     pub name: String,
     /// Unit of the output.
     pub unit: String,
-    /// In that unit.
+    /// The value in this unit.
     pub value: f64,
-    /// \[s\]
+    /// Its time \[s\].
     pub time: f64,
 }
 
 impl Peak {
-    /// The peak of a signal whose samples are `every` \[s\] apart, the first of them at `start` \[s\]. `None` if there is none, as of a signal without samples.
+    /// The peak of a signal whose samples are `every` \[s\] apart, with the first at `start` \[s\]. `None` if the
+    /// signal has no peak, for example no samples.
     pub fn of(
         (name, unit): (&str, &str),
         samples: &[f64],
@@ -51,7 +53,7 @@ impl Peak {
     }
 }
 
-/// The result as text, with an empty line before it. Lines are at most `width` characters long, where names allow it.
+/// The result as text, after an empty line. Lines have at most `width` characters, unless names are longer.
 pub fn text(done: &Done<'_>, width: Option<usize>) -> String {
     let Done {
         found,
@@ -61,7 +63,7 @@ pub fn text(done: &Done<'_>, width: Option<usize>) -> String {
         ..
     } = *done;
     let mut text = String::new();
-    // a run that broke off has a message instead
+    // a run that failed has a message instead
     if recording.result.is_ok() {
         let model = &found.model;
         let title = match model.title.as_str() {
@@ -112,7 +114,8 @@ pub fn text(done: &Done<'_>, width: Option<usize>) -> String {
     text
 }
 
-/// The same for a report: peaks, the number of outputs without one, how far energy is conserved and outputs are known.
+/// The result for a report: peaks, the number of outputs without a peak, how far energy is conserved, and how well
+/// outputs are known.
 pub fn json(responses: &Responses, recording: &Recording, errors: &ErrorReport) -> Value {
     let peaks = responses.peaks(recording);
     let [energy, trust] = trust(recording, errors);
@@ -124,20 +127,20 @@ pub fn json(responses: &Responses, recording: &Recording, errors: &ErrorReport) 
     })
 }
 
-/// `[{"output", "value", "unit", "time_s"}, …]`
+/// The peaks as JSON: `[{"output", "value", "unit", "time_s"}, …]`
 pub fn json_of_peaks(peaks: &[Peak]) -> Value {
     let peak = |peak: &Peak| json!({ "output": peak.name, "value": peak.value, "unit": peak.unit, "time_s": peak.time });
     peaks.iter().map(peak).collect()
 }
 
-/// How far energy is conserved, and how far outputs are known; `None` of a run that did not reach its end.
+/// How far energy is conserved, and how well outputs are known; `None` for a run that did not reach its end.
 fn trust(recording: &Recording, errors: &ErrorReport) -> [Option<String>; 2] {
     let done = recording.result.is_ok();
     let energy = recording.energy.as_ref().filter(|_| done);
     [energy.map(balance::closes), done.then(|| errors.summary())]
 }
 
-/// A line for each peak; `more` outputs have none.
+/// A line for each peak, and one that says that `more` outputs have none.
 fn of_peaks(peaks: &[Peak], more: usize, end: f64) -> String {
     let (scale, unit) = match end < LONG {
         true => (1e3, "ms"),

@@ -1,7 +1,8 @@
-//! A note on rings of belts whose resistance, not their friction, rules the tensions.
+//! Notes about rings of belts in which the resistance to slip, and not friction, determines the tensions.
 //!
-//! The tension on the tight side of a ring is E T₋ + c s': E = e^(μθ) is that of the friction, and c s' is the resistance c times the rate of slip. The
-//! default of c is made for webbing of some kilonewtons. On a light rope it may hold back more than the friction does.
+//! The tension on the tight side of a ring is E T₋ + c s', with E = e^(μθ) due to friction, and the resistance c times
+//! the rate of slip s'. The default of c is made for webbing with some kilonewtons. On a light rope it may take more of
+//! the tension than friction.
 
 use crate::equations;
 use crate::simulation::Recording;
@@ -10,13 +11,14 @@ use bryant_generator::model::{
 };
 use bryant_runtime::program::Job;
 
-/// The resistance of a ring that writes none \[N s/m\].
+/// The resistance of a ring for which the model gives none \[N s/m\].
 const DEFAULT: f64 = 50.0;
-/// The share of the tension on the tight side that is told of, and the share that a resistance has that is proposed.
+/// Shares of the tension on the tight side: a note is written if the resistance takes more than the first, and proposes
+/// one that takes the second.
 const SHARE: f64 = 0.1;
 const PROPOSED: f64 = 0.001;
 
-/// A note for each ring with the default resistance that takes a large share of the tension where the run ended.
+/// A note for each ring whose default resistance takes a large share of the tension at the end of the run.
 pub fn notes(model: &Model, job: &Job, recording: &Recording) -> Vec<String> {
     let mut rings = Vec::new();
     let mut asked = model.clone();
@@ -68,7 +70,7 @@ pub fn notes(model: &Model, job: &Job, recording: &Recording) -> Vec<String> {
         let resistance = DEFAULT * rates[index].abs();
         let tight = sides.iter().copied().fold(0.0, f64::max);
         (resistance > SHARE * tight).then(|| {
-            // one digit, as a person would write it
+            // one digit suffices
             let proposed = DEFAULT * PROPOSED * tight / resistance;
             format!(
                 "belt {belt}, ring {ring}: at t = {t} s its resistance to slip, 50 N*s/m by default, takes {:.0} % of the {tight:.3} N on the \

@@ -1,4 +1,4 @@
-//! The scene of a run, with the forces between its bodies: outputs for them are computed at its states.
+//! The scene of a run, with forces between bodies. These are computed at the states of the run, by additional outputs.
 
 use super::super::model_argument::Found;
 use super::super::prepare::{Prepared, prepare_model};
@@ -13,30 +13,30 @@ use bryant_runtime::dynamics::Family;
 use bryant_runtime::program::Job;
 use std::cell::{OnceCell, RefCell};
 
-/// Outputs are the same within this share of the largest of them, or this, in SI.
+/// An output counts as equal if it differs by at most `SAME` times the largest value plus `SMALL` \[SI\].
 const SAME: f64 = 1e-3;
 const SMALL: f64 = 1e-9;
 
-/// Why there are no forces.
+/// The note that there are no forces.
 const APART: &str = "forces between bodies are not shown: other outputs, computed beside them, differ from those of the run";
 
-/// What scenes of runs of one model are made with.
+/// Makes scenes of runs of one model.
 pub struct Shown<'a> {
     /// The model.
     pub found: &'a Found,
     /// The run.
     pub job: &'a Job,
     model: Model,
-    /// Its meshes, once a scene needs them.
+    /// Its meshes, read when a scene first needs them.
     meshes: OnceCell<Vec<Mesh>>,
-    /// What is to be known of meshes and forces and is not told yet.
+    /// Notes about meshes and forces that were not printed yet.
     notes: RefCell<Vec<String>>,
-    /// Its equations, once a scene needs them.
+    /// Its equations, prepared when a scene first needs them.
     engine: OnceCell<Prepared>,
 }
 
 impl<'a> Shown<'a> {
-    /// Nothing is computed yet.
+    /// Nothing is read or prepared yet.
     pub fn new(found: &'a Found, job: &'a Job) -> Self {
         Shown {
             found,
@@ -48,7 +48,8 @@ impl<'a> Shown<'a> {
         }
     }
 
-    /// The scene at these instants of a run; without forces, and with a note, if the outputs at a state are not those of the run.
+    /// The scene at these instants of a run. If outputs at a state differ from those of the run, the scene has no
+    /// forces, and a note says so.
     ///
     /// # Errors
     /// The equations cannot be prepared, or a user function fails.
@@ -62,15 +63,15 @@ impl<'a> Shown<'a> {
         self.scene_of(recording, instants, &forces)
     }
 
-    /// The same without forces, which is quicker.
+    /// The scene without forces, which is faster.
     ///
     /// # Errors
-    /// The recording is one of another model.
+    /// The recording is that of another model.
     pub fn bare(&self, recording: &Recording, instants: &[Instant]) -> Result<Scene, Error> {
         self.scene_of(recording, instants, &[])
     }
 
-    /// Tells what is to be known of meshes and forces, once.
+    /// Prints the notes about meshes and forces, once.
     pub fn tell(&self, terminal: &mut Terminal) {
         let notes = self.notes.take();
         notes.iter().for_each(|note| terminal.note(note));
@@ -97,7 +98,8 @@ impl<'a> Shown<'a> {
         Ok(scene)
     }
 
-    /// A column for each output that the scene has to know.
+    /// The additional outputs that the scene needs, one column for each; empty if the forces would not be those of the
+    /// run.
     fn forces(
         &self,
         recording: &Recording,
@@ -124,7 +126,7 @@ impl<'a> Shown<'a> {
                 continue;
             }
             model.outputs(instant.time, &instant.state, &mut outputs);
-            // rather no forces than those of other equations; what the run has found is shown in any case
+            // shows no forces rather than those of different equations; the motion of the run is shown in any case
             if !self.is_of_run(recording, instant.time, &outputs[..own]) {
                 let mut notes = self.notes.borrow_mut();
                 if !notes.iter().any(|note| note == APART) {
@@ -140,7 +142,8 @@ impl<'a> Shown<'a> {
         Ok(forces)
     }
 
-    /// Whether the run has the same outputs at this time. Equations with other outputs beside them round differently. Outputs that are filtered are not compared.
+    /// True if the run has the same outputs at this time, within rounding, which differs because these equations have
+    /// more outputs. Filtered outputs are not compared.
     fn is_of_run(&self, recording: &Recording, time: f64, outputs: &[f64]) -> bool {
         let [times, columns @ ..] = recording.table.columns.as_slice() else {
             return true;

@@ -1,14 +1,15 @@
-//! Why a model slides away instead of coming to rest: laws that carry it on its way, and hold nothing for long.
+//! Finds out why a model slides instead of coming to rest: which contacts and belts carry load but give way.
 
 use bryant_generator::model::{ForceKind, Model};
 use bryant_runtime::Info;
 
-/// Times beyond this are those of switches that have not fired \[s\].
+/// A switch whose time of firing is larger has not fired \[s\].
 const EVER: f64 = 1e9;
-/// At most this many are said, those that carried most.
+/// Largest number of reasons; those with the largest forces are kept.
 const MOST: usize = 4;
 
-/// A sentence for each contact and belt that carried load on the way, by names and largest forces \[N\], and gives way under any load.
+/// A sentence for each contact and belt that gives way under any load and carried load during the search. `carried` has
+/// names and largest forces \[N\].
 pub fn reasons(
     model: &Model,
     info: &Info,

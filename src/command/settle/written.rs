@@ -1,4 +1,4 @@
-//! A state of rest as `start:` of the systems of a model.
+//! Writes a state of rest as `start:` of the systems of a model.
 
 use crate::orientation::WithoutCharts;
 use crate::pose::{Layout, Pose, Vec3};
@@ -80,7 +80,7 @@ pub fn start(
     Ok(text)
 }
 
-/// The three Bryant angles of a rotation \[rad\].
+/// The Bryant angles of a rotation, which is given by rows \[rad\].
 fn bryant([first, second, third]: [Vec3; 3]) -> Vec3 {
     [
         libm::atan2(-second[2], third[2]),
@@ -94,7 +94,7 @@ fn list(values: &[f64]) -> String {
     format!("[{}]", values.join(", "))
 }
 
-/// A number with all its digits, in a form that a model takes.
+/// A number with all its digits, as a model may contain it.
 fn plain(value: f64) -> String {
     format!("{:?}", value + 0.0)
 }

@@ -1,4 +1,4 @@
-//! The columns of every table.
+//! The texts of cells, for all tables.
 
 use bryant_hard::{Bound, Check, Found};
 
@@ -21,7 +21,7 @@ pub fn measured(check: &Check) -> String {
     }
 }
 
-/// The distance from the bound: "× 31" on the good side, "missed" on the other.
+/// The margin to the bound: "× 31" if the bound is kept, else "missed".
 pub fn margin(check: &Check) -> String {
     if !check.holds() {
         return "missed".to_owned();
@@ -40,13 +40,13 @@ fn with_unit(value: f64, unit: &str) -> String {
     }
 }
 
-/// A number with three digits, in the shorter notation.
+/// A number with three digits, in the shorter of two notations.
 fn number(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
-    // zeros at the end of 1.00 or 1.00e-5 are removed
+    // removes zeros at the end, as of 1.00 or 1.00e-5
     let short = |text: &str| match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text.to_owned(),

@@ -1,4 +1,4 @@
-//! The table for programs.
+//! The table as JSON.
 
 use crate::stability::Outcome;
 use bryant_hard::{Bound, Check, Found};

@@ -5,15 +5,16 @@ use crate::stability::Outcome;
 use bryant_hard::{Bound, Check, Found, Group};
 use std::fmt::Write as _;
 
-/// A page of its own.
+/// A page and its file.
 pub struct Page {
-    /// Name of its file, in the folder that has the name of the summary without its ending.
+    /// Name of its file, in the folder of pages, whose name is that of the summary without extension.
     pub file: String,
     /// Its text.
     pub text: String,
 }
 
-/// The summary, and the page of each group. `folder` is the path of the groups' pages as the summary links to them, `summary` that of the summary as they do.
+/// The summary, and the page of each group. `folder` is the path from the summary to the folder of pages; `summary` is
+/// the path from these pages to the summary.
 pub fn pages(
     outcomes: &[Outcome],
     command: &str,
@@ -70,7 +71,7 @@ pub fn file(group: Group) -> String {
     format!("{}.md", group.title().to_lowercase().replace(' ', "-"))
 }
 
-/// All of it as one text.
+/// Summary and pages as one text.
 pub fn whole(outcomes: &[Outcome], command: &str) -> String {
     let (summary, pages) = pages(outcomes, command, ["", ""]);
     let pages = pages.into_iter().map(|page| page.text);
@@ -80,7 +81,7 @@ pub fn whole(outcomes: &[Outcome], command: &str) -> String {
         .join("\n")
 }
 
-/// The check of an error whose margin is smallest: one that is missed, if there is one.
+/// Of the checks of errors, the one with the smallest margin; a missed one if there is any.
 fn nearest<'a>(outcomes: &[&'a Outcome]) -> Option<(&'a Outcome, &'a Check)> {
     let errors = outcomes.iter().flat_map(|outcome| {
         let errors = outcome.checks.iter().filter(|check| {
@@ -102,7 +103,7 @@ fn nearest<'a>(outcomes: &[&'a Outcome]) -> Option<(&'a Outcome, &'a Check)> {
     errors.min_by(|(_, a), (_, b)| margin(a).total_cmp(&margin(b)))
 }
 
-/// A case: its law, and a table of its checks.
+/// Writes a case: its law, and a table of its checks.
 fn case(page: &mut String, outcome: &Outcome) {
     let case = &outcome.case;
     let _ = write!(page, "\n## {}\n\n{}\n\n", capital(case.name), case.law);
@@ -126,7 +127,7 @@ fn case(page: &mut String, outcome: &Outcome) {
     }
 }
 
-/// Text in a cell of a table.
+/// Text as the cell of a table.
 fn plain(cell: &str) -> String {
     cell.replace('|', "\\|").replace('\n', " ")
 }

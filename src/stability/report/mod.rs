@@ -1,4 +1,4 @@
-//! The table of hard cases: for a terminal, for a page, for programs.
+//! The table of hard cases: as text, as pages, as JSON.
 
 mod cells;
 pub mod json;

@@ -4,10 +4,10 @@ use super::cells;
 use crate::stability::Outcome;
 use std::fmt::Write as _;
 
-/// Largest number of characters of a criterion with its variant, and of a measured statement.
+/// Largest width of a criterion with its variant, and of the observation of a statement, in characters.
 const WIDTHS: [usize; 2] = [64, 48];
 
-/// Groups, cases, checks; at the end how many held.
+/// The table as text: groups, cases and checks, then a summary.
 pub fn text(outcomes: &[Outcome], laws: bool) -> String {
     let mut text = String::new();
     let mut group = None;
@@ -68,7 +68,7 @@ fn cut(text: String, width: usize) -> String {
     }
 }
 
-/// "41 cases, 130 checks, all bounds kept", or the number of bounds that were missed.
+/// A line such as "41 cases, 130 checks, all bounds kept", or with the number of bounds that were missed.
 pub fn summary(outcomes: &[Outcome]) -> String {
     let checks = || outcomes.iter().flat_map(|outcome| &outcome.checks);
     let missed = checks().filter(|check| !check.holds()).count();

@@ -1,8 +1,9 @@
-//! Which channels of a test, or outputs of a model, are at the places of a dummy.
+//! Finds the channels of a test, or the outputs of a model, that measure at the places of a dummy.
 //!
-//! All of them belong to one occupant: test object and position, the first two characters of a channel code. All of one part of the dummy
-//! are of one sensor: characters 3 to 12. Several that fit are not chosen from but reported, and a channel whose file casts doubt on its
-//! data fills a place only if the user names it.
+//! All channels that are used belong to one occupant: they agree in test object and position, the first two characters
+//! of a channel code. All channels of one part of the dummy belong to one sensor: they agree in characters 3 to 12. If
+//! several sensors fit a place, none is used and all are reported. A channel whose file casts doubt on its data fills a
+//! place only if the user names it.
 
 use super::{PLACES, Place, fits};
 use std::collections::BTreeMap;
@@ -14,64 +15,65 @@ pub struct Candidate<'a> {
     pub name: &'a str,
     /// Its channel code; "" if it has none.
     pub code: &'a str,
-    /// What casts doubt on its data.
+    /// The reason to doubt its data; `None` if there is none.
     pub doubt: Option<&'a str>,
 }
 
-/// What the user says.
+/// The user's instructions.
 #[derive(Clone, Debug, Default)]
 pub struct Asked {
     /// The candidates that the user names for places.
     pub named: Vec<(String, usize)>,
     /// Patterns of codes, with `?` for any character and `*` for any at the end, for places or parts such as `head`.
     pub patterns: Vec<(String, String)>,
-    /// Test object and position.
+    /// Test object and position of the occupant.
     pub occupant: Option<String>,
-    /// How the user says this, for messages: `--occupant`.
+    /// The option or key for the occupant, for messages: `--occupant`.
     pub how: &'static str,
 }
 
-/// What is at a place.
+/// The candidates that were found for a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Found {
-    /// The candidate that the user names.
+    /// The one that the user names.
     Named(usize),
-    /// One sensor: its candidates, which differ by their filters alone.
+    /// Candidates of one sensor; they differ only in their filters.
     Coded(Vec<usize>),
-    /// There are only candidates whose files cast doubt on them.
+    /// Only candidates whose files cast doubt on their data.
     Doubtful(Vec<usize>),
-    /// Several sensors fit.
+    /// Candidates of several sensors, or with equal codes.
     Several(Vec<usize>),
 }
 
-/// What is at the places of a dummy.
+/// The candidates that were found for all places of a dummy.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Choice {
     /// Test object and position; `None` if no code says it.
     pub occupant: Option<String>,
-    /// The places at which something is.
+    /// The places for which candidates were found.
     pub found: Vec<(&'static str, Found)>,
 }
 
 impl Choice {
-    /// What is at a place.
+    /// The candidates that were found for a place; `None` if there are none.
     pub fn at(&self, place: &str) -> Option<&Found> {
         let found = self.found.iter().find(|(name, _)| *name == place);
         found.map(|(_, found)| found)
     }
 }
 
-/// Whether a name is a pattern of codes.
+/// True if a name contains wild cards, as a pattern of codes does.
 pub fn is_pattern(name: &str) -> bool {
     name.contains(['?', '*'])
 }
 
-/// Says that several candidates fit a place.
+/// The message that several candidates fit a place.
 pub fn ambiguous(place: &str, names: &[&str]) -> String {
     format!("several channels could be {place}: {}", names.join(", "))
 }
 
-/// The seat of an occupant in words; "" if the position says none [ISO/TS 13499 RED B 1.6.2, as in the program pyisomme].
+/// The seat of an occupant in words; "" if the position says none [ISO/TS 13499 RED B 1.6.2, as in the program
+/// pyisomme].
 pub fn seat(occupant: &str) -> &'static str {
     match occupant.chars().nth(1) {
         Some('1') => "front left",
@@ -87,7 +89,7 @@ pub fn seat(occupant: &str) -> &'static str {
     }
 }
 
-/// Chooses what is at each place.
+/// Chooses the candidates for each place.
 ///
 /// # Errors
 /// Several occupants have channels, an occupant has none, or a pattern fits nothing.
@@ -109,7 +111,7 @@ pub fn choose(candidates: &[Candidate<'_>], asked: &Asked) -> Result<Choice, Str
         let is_sound = |index: &&usize| candidates[**index].doubt.is_none();
         let sound: Vec<usize> = coded.iter().filter(is_sound).copied().collect();
         let part = part(place.name);
-        // a resultant beside its components is not used
+        // a resultant is not compared with the sensors of its components, because it is not used beside them
         let others = at.iter().filter(|(other, _)| {
             self::part(other.name) == part && (place.name == part || other.name != part)
         });
@@ -126,8 +128,8 @@ pub fn choose(candidates: &[Candidate<'_>], asked: &Asked) -> Result<Choice, Str
     Ok(Choice { occupant, found })
 }
 
-/// The candidates that fit each place by their codes and the user's patterns. If the user names a resultant, its components are not looked
-/// for.
+/// The candidates that fit each place by their codes and the user's patterns. Components of a resultant that the user
+/// names get no candidates.
 fn fitting(
     candidates: &[Candidate<'_>],
     asked: &Asked,
@@ -158,7 +160,7 @@ fn fitting(
     }
 }
 
-/// The occupant: the one that the user says, that of the named channels, or the only one.
+/// The occupant: the one that the user names, else that of the named channels, else the only one.
 fn occupant(
     candidates: &[Candidate<'_>],
     asked: &Asked,
@@ -225,7 +227,7 @@ fn occupant(
     }
 }
 
-/// Test object and position of a code; "" of what is no code.
+/// Test object and position of a channel code; "" if the text is not a channel code.
 fn occupant_of(code: &str) -> &str {
     let is_code = code.len() == 16
         && code
@@ -237,7 +239,7 @@ fn occupant_of(code: &str) -> &str {
     }
 }
 
-/// Whether this is a place, or a part if `of` is a pattern of codes.
+/// Checks that `place` is the name of a place; the name of a part is allowed, too, if `of` is a pattern of codes.
 ///
 /// # Errors
 /// There is no such place.
@@ -255,7 +257,8 @@ pub fn known(place: &str, of: &str) -> Result<(), String> {
     }
 }
 
-/// The part of the dummy whose channels belong together: that of `head-x` is `head`.
+/// The part of the dummy that a place belongs to, such as `head` for `head-x`; the channels of a part belong to one
+/// sensor.
 pub fn part(place: &str) -> &str {
     match place {
         "head-excursion" | "chest-deflection" | "femur-left" | "femur-right" => place,
@@ -276,14 +279,14 @@ fn sensors(candidates: &[Candidate<'_>], all: &[usize]) -> usize {
     sensors.len()
 }
 
-/// Whether two have the same code.
+/// True if two of the candidates have the same code.
 fn has_twins(candidates: &[Candidate<'_>], all: &[usize]) -> bool {
     let code = |index: &usize| candidates[*index].code;
     let twin = |(i, index)| all[..i].iter().any(|other| code(other) == code(index));
     all.iter().enumerate().any(twin)
 }
 
-/// Whether a code matches a pattern.
+/// True if a code matches a pattern.
 fn matches(code: &str, pattern: &str) -> bool {
     let pattern = pattern.trim().to_ascii_uppercase();
     let (begin, is_long_enough) = match pattern.split_once('*') {

@@ -1,4 +1,4 @@
-//! The criteria of a model: the outputs that they are read off.
+//! Finds the criteria of a model, and the outputs from which they are computed.
 
 use super::choice::{Asked, Candidate, Found, ambiguous, choose, is_pattern, known};
 use super::limits::{self, Limits};
@@ -15,15 +15,16 @@ pub struct Judged {
     pub criterion: &'static Criterion,
     /// Its limit, in the criterion's unit; `None` if it has no limit.
     pub limit: Option<f64>,
-    /// How it is read off a run \[SI\], or why it is not.
+    /// The response that computes its value \[SI\], or the reason why there is none.
     pub response: Result<Response, Missing>,
     /// A remark on it.
     pub detail: String,
-    /// The outputs that it is read off, with their codes, by their places.
+    /// The places that it uses, each with the name and channel code of the output there.
     pub channels: Vec<(String, String)>,
 }
 
-/// The criteria of a model by a regulation: all criteria that the regulation limits, and the criteria at places for which it limits none.
+/// The criteria of a model by a regulation: all criteria that the regulation limits, and those criteria without a limit
+/// that can be computed and share no output with a limited one.
 ///
 /// # Errors
 /// There is no such regulation or dummy, no such place or output, or an output has a unit of another quantity.
@@ -67,7 +68,7 @@ pub fn judge(facts: &ModelFacts, asked: &CriteriaFact) -> Result<(Limits, Vec<Ju
     Ok((limits, all))
 }
 
-/// The outputs of a response with their codes, by their places.
+/// The places that a response uses, each with the name and channel code of the output there.
 fn channels(
     facts: &ModelFacts,
     response: &Response,
@@ -86,7 +87,7 @@ fn channels(
     each.collect()
 }
 
-/// How a criterion is read off a run, with a remark on it; `found` are the outputs at the available places.
+/// The response that computes a criterion, with a remark on it; `found` are the available places with their outputs.
 fn response(
     criterion: &Criterion,
     facts: &ModelFacts,
@@ -101,7 +102,7 @@ fn response(
         .iter()
         .map(|index| facts.outputs[*index].name.as_str());
     let of = names.collect::<Vec<_>>().join(", ");
-    // independent of the filter that the column of an output has
+    // the filter of the criterion, not the one that the output has in tables
     let filter = criterion
         .class(limits)
         .map(|class| Filter { class, standard });
@@ -168,12 +169,12 @@ pub fn named(facts: &ModelFacts, name: &str) -> Result<Response, String> {
     }
 }
 
-/// The part of the dummy that a place belongs to: `head` of `head-wx`.
+/// The region of the body that a place belongs to: `head` for `head-wx`.
 fn stem(place: &str) -> &str {
     place.split('-').next().unwrap_or(place)
 }
 
-/// The SI unit for the unit in which a criterion is shown.
+/// The SI unit of the same quantity as the unit in which a criterion is shown.
 fn si(shown: &str) -> &str {
     match shown {
         "g" => "m/s^2",
@@ -182,7 +183,8 @@ fn si(shown: &str) -> &str {
     }
 }
 
-/// Refuses an output that would be judged as what it is not: an acceleration that no instrument reads, or a load of the neck in the axes of the model.
+/// Refuses an output that differs from the reading of an instrument: an acceleration that no instrument can measure, or
+/// a load of the neck in the axes of the model.
 fn is_a_reading(output: &OutputFact, place: &Place) -> Result<(), String> {
     let name = &output.name;
     if let Some(why) = &output.unread {
@@ -203,8 +205,8 @@ fn is_a_reading(output: &OutputFact, place: &Place) -> Result<(), String> {
     }
 }
 
-/// The outputs at the places of a dummy, by the names of the places: outputs that the user names, else outputs with the channel code of the
-/// place.
+/// The places of a dummy, each with the index of its output: the output that the user names, else the output with the
+/// channel code of the place.
 fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str, usize)>, String> {
     for (name, output) in &asked.places {
         known(name, output)?;
@@ -214,7 +216,7 @@ fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str
     for place in &PLACES {
         let index = match choice.iter().find(|(name, _)| *name == place.name) {
             Some((_, Found::Named(index))) => *index,
-            // outputs that differ by their filters in a file are the same in a run
+            // the candidates differ only in their filters, which do not matter here: a run has unfiltered outputs
             Some((_, Found::Coded(all) | Found::Doubtful(all))) => all[0],
             Some((_, Found::Several(all))) => {
                 let names = all.iter().map(|index| facts.outputs[*index].name.as_str());
@@ -262,7 +264,7 @@ fn outputs(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str
     Ok(found)
 }
 
-/// What is at each place.
+/// The candidates for each place.
 fn choice(facts: &ModelFacts, asked: &CriteriaFact) -> Result<Vec<(&'static str, Found)>, String> {
     let mut said = Asked {
         occupant: asked.occupant.clone(),

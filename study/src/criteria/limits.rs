@@ -14,7 +14,7 @@ pub struct Limits {
     pub dummy: String,
     /// The source of the numbers.
     pub source: String,
-    /// The dummy in channel codes, characters 11 and 12; `None` if that is not known.
+    /// The code of the dummy, characters 11 and 12 of channel codes; `None` if it is not known.
     pub code: Option<String>,
     /// Filter classes by criterion where they differ from those of SAE J211-1.
     #[serde(default)]
@@ -31,7 +31,7 @@ pub struct Limits {
     pub tibia: Option<[f64; 2]>,
 }
 
-/// [`Neck`] in the form of the file.
+/// The critical values of the neck as `limits.json` has them.
 #[derive(Deserialize)]
 #[serde(remote = "Neck", deny_unknown_fields)]
 struct WrittenNeck {
@@ -41,7 +41,7 @@ struct WrittenNeck {
     extension: f64,
 }
 
-/// [`Chest`] in the form of the file.
+/// The dimensions of the chest as `limits.json` has them.
 #[derive(Deserialize)]
 #[serde(remote = "Chest", deny_unknown_fields)]
 struct WrittenChest {
@@ -64,7 +64,7 @@ fn chest<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Chest>, D::Error> 
 /// The limits of all regulations.
 ///
 /// # Panics
-/// Never: a test reads the file.
+/// Never: a test reads `limits.json`.
 pub fn all() -> Vec<Limits> {
     let read = serde_json::from_str(include_str!("limits.json"));
     read.unwrap_or_else(|error| unreachable!("limits.json: {error}"))

@@ -1,10 +1,11 @@
-//! Injury criteria: their names, the places of a dummy that they use, their filters and formulas, and the limits of regulations.
+//! Injury criteria: their names, the places of a dummy that they use, their filters and formulas, and the limits of
+//! regulations.
 //!
 //! | file | what |
 //! |---|---|
 //! | `limits` | limits by regulation and dummy, `limits.json` |
 //! | `places` | the places where a dummy measures, and their channel codes |
-//! | `choice` | which channels or outputs are at these places: of one occupant, none that failed, none by chance |
+//! | `choice` | finds the channels or outputs that measure at these places |
 //! | `judge` | the criteria of a model |
 //!
 //! The filter is applied to what a sensor measures, before a resultant is formed.
@@ -31,12 +32,13 @@ pub struct Criterion {
     pub unit: &'static str,
     /// SI value of that unit.
     pub scale: f64,
-    /// The filter of its signals by SAE J211-1, if they are filtered; [`Criterion::class`] is that of a regulation.
+    /// Filter class of its signals by SAE J211-1, if they are filtered; a regulation may have another, see
+    /// [`Criterion::class`].
     filter: Option<Class>,
     measure: Measure,
 }
 
-/// How a criterion is formed from its signals, which are given by the names of their places.
+/// How a criterion is computed from signals, which are named by their places.
 enum Measure {
     /// A response of a resultant acceleration.
     Resultant(&'static str, What),
@@ -44,11 +46,11 @@ enum Measure {
     Of(&'static str, Combination, What),
     /// The neck injury criterion.
     Nij,
-    /// The moment about the joint of head and neck that bends the head back.
+    /// The moment about the joint of head and neck that bends the head backwards.
     NeckExtension,
     /// The viscous criterion of the chest's deflection.
     Viscous,
-    /// The tibia index; the name is the beginning of the names of its places.
+    /// The tibia index; the text is the common beginning of the names of its places.
     Tibia(&'static str),
     /// A criterion of the angular velocity of the head.
     Rotation,
@@ -75,8 +77,8 @@ const PURE: (&str, f64) = ("", 1.0);
 const MM: (&str, f64) = ("mm", 1e-3);
 const CLIP: What = What::Clip { duration: 3e-3 };
 
-/// Critical angular velocities of BrIC \[rad/s\]: the means of the values by two measures of strain \[Takhounts 2013, as in the program
-/// pyisomme\].
+/// Critical angular velocities of BrIC \[rad/s\]: the means of the values by two measures of strain \[Takhounts 2013,
+/// as in the program pyisomme\].
 const ROTATION: [f64; 3] = [66.25, 56.45, 42.87];
 
 /// All criteria.
@@ -158,13 +160,15 @@ impl Criterion {
         own.or(self.filter)
     }
 
-    /// Whether a signal that was filtered by this class before can be judged, although the class of the criterion is a wider one: tables of
-    /// SAE J211-1 and ISO 6487 differ for deflections of the chest, and tests have them by either class.
+    /// True if a signal that was filtered by the class `before` may be judged, although its class is narrower than that
+    /// of the criterion. SAE J211-1 and ISO 6487 have different classes for deflections of the chest, and tests use
+    /// either.
     pub fn allows(&self, before: Class) -> bool {
         self.name == "chest deflection" && before == Class::Cfc180
     }
 
-    /// The signals of the criterion. `has` says which places are available; nothing moves along y if the motion is `planar`.
+    /// The signals of the criterion. `has` is true for available places; if the motion is `planar`, components along y
+    /// are not needed.
     ///
     /// # Errors
     /// A place is not available, or the regulation has no critical values.

@@ -1,6 +1,7 @@
 //! The places where a dummy measures.
 
-/// A place: its name, the channel codes of ISO-MME that belong to it, with `?` for any character and `|` between two, and its SI unit.
+/// A place: its name, the channel codes of ISO-MME that belong to it, with `?` for any character and `|` between two,
+/// and its SI unit.
 pub struct Place {
     /// The name after `--place`; under `criteria` in a model it has `_` in place of `-`.
     pub name: &'static str,
@@ -41,18 +42,20 @@ pub const PLACES: [Place; 25] = [
     place("tibia-right-mx", "??TIBIRI????MOX?", "N*m"),
     place("tibia-right-my", "??TIBIRI????MOY?", "N*m"),
     place("tibia-right-fz", "??TIBIRI????FOZ?", "N"),
-    // only the user knows which accelerometer of a vehicle is meant
+    // a vehicle may have several accelerometers; only the user knows which one is the pulse
     place("pulse", "", "m/s^2"),
 ];
 
-/// Fine locations (characters 7 to 10 of a code) that say where a sensor is. Others, such as `3C` of a 3 ms value or `AV` of an average, say
-/// how a number was computed [ISO/TS 13499 RED B 1.6.2, as in the program pyisomme].
+/// Fine locations (characters 7 to 10 of a code) that describe the place of a sensor. Others describe how a number was
+/// computed, such as `3C` for a 3 ms value or `AV` for an average \[ISO/TS 13499 RED B 1.6.2, as in the program
+/// pyisomme\].
 const LOCATIONS: [&str; 28] = [
     "00", "CG", "CX", "CY", "CZ", "UP", "LO", "LE", "RI", "MI", "FR", "RE", "IN", "OU", "TP", "BO",
     "LU", "LL", "RU", "RL", "RD", "L1", "L2", "M1", "R1", "U1", "RW", "HS",
 ];
 
-/// Whether a channel code is that of a time history that matches a pattern with wild cards, or one of several with `|` between them.
+/// True if a channel code is that of a time history and matches one of the patterns. Patterns are separated by `|`, and
+/// `?` stands for any character.
 pub fn fits(code: &str, pattern: &str) -> bool {
     let matches = |pattern: &str| {
         let pairs = || code.chars().zip(pattern.chars());
@@ -61,14 +64,14 @@ pub fn fits(code: &str, pattern: &str) -> bool {
     !code.is_empty() && pattern.split('|').any(matches) && is_time_history(code)
 }
 
-/// Whether a code is that of a sensor's signal, and not of a number that was computed of it.
+/// True if a code is that of a sensor's signal, not of a number that was computed from one.
 fn is_time_history(code: &str) -> bool {
     let is_location = |at: std::ops::Range<usize>| {
         code.get(at).is_some_and(|two| {
             LOCATIONS.contains(&two) || two.bytes().all(|byte| byte.is_ascii_digit())
         })
     };
-    // X is the filter of a constant, 2 and 3 are those of Nij and of the combined thoracic index
+    // X marks a constant, 2 and 3 mark Nij and the combined thoracic index
     let is_signal = !code.ends_with(['X', '2', '3']);
     is_location(6..8) && is_location(8..10) && is_signal
 }

@@ -1,11 +1,11 @@
-//! Direction numbers of Sobol' sequences: Joe and Kuo's set `new-joe-kuo-6.21201`, its first 256 dimensions, as scipy 1.17
-//! ships it \[S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30, 2635 (2008)\].
+//! Direction numbers of Sobol' sequences: Joe and Kuo's set `new-joe-kuo-6.21201`, its first 256 dimensions, as scipy
+//! 1.17 ships it \[S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30, 2635 (2008)\].
 
 /// Number of dimensions that have direction numbers.
 pub const DIMENSIONS: usize = 256;
 
-/// For each dimension but the first, which is the van der Corput sequence: the primitive polynomial modulo 2, one bit for each coefficient,
-/// the leading one first; and as many odd initial numbers m as its degree.
+/// One entry for each dimension after the first, which is the van der Corput sequence. An entry has a primitive
+/// polynomial modulo 2, as bits with the leading coefficient first, and as many odd initial numbers m as its degree.
 #[rustfmt::skip]
 pub const DIRECTIONS: [(u32, &[u32]); DIMENSIONS - 1] = [
     (3, &[1]),

@@ -1,4 +1,5 @@
-//! The values of a row. They depend only on the study and the row's index, so that any row may be run anywhere and at any time.
+//! The values of a row. They depend only on the study and the row's index, so that any row may be run anywhere and at
+//! any time.
 //!
 //! ```text
 //! row ─design→ u ∈ (0, 1)^d ─quantiles→ parameters        row ─mixed radix→ grid        row → list
@@ -14,13 +15,13 @@ use crate::study::{Plan, RandomDesign, Study};
 use permutation::Permutation;
 use sobol::Sobol;
 
-/// Streams of random numbers: the purpose is stored above the index of the parameter.
+/// Streams of random numbers. The index of the parameter is added in the lower bits.
 const JITTER: u64 = 1 << 32;
 const PERMUTATION: u64 = 2 << 32;
 const INDEPENDENT: u64 = 3 << 32;
 
-/// A point of a Latin hypercube falls into the middle of one of this many parts of a stratum: so few that rounding never moves u out of its
-/// stratum, with up to 2³² rows.
+/// Number of parts of a stratum. A point of a Latin hypercube is in the middle of one of them. With so few parts,
+/// rounding never moves u out of its stratum, for up to 2³² rows.
 const PARTS: f64 = (1 << 20) as f64;
 
 /// Draws the rows of a study.
@@ -62,7 +63,8 @@ impl<'a> Sampler<'a> {
     /// A sampler for a study.
     ///
     /// # Errors
-    /// There are more parameters than Sobol' sequences have numbers for; a study that was read from a file does not have this error.
+    /// There are more parameters than Sobol' sequences have numbers for; a study that was read from a file does not
+    /// have this error.
     pub fn new(study: &'a Study) -> Result<Self, TooManyParameters> {
         let d = study.varied.len();
         let points = match &study.plan {
@@ -118,7 +120,8 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// The point of the unit cube for a row, if its design is random.
+    /// The point of the unit cube for a row, and the distributions of the parameters; `None` if the design is not
+    /// random.
     pub fn point(&self, row: u64, point: &mut [f64]) -> Option<&'a [Distribution]> {
         let Plan::Random {
             design,

@@ -1,5 +1,5 @@
-//! A pseudo-random permutation of 0 … n−1 without a table: a Feistel network over the next power of four, walked along its
-//! cycle until it is back among n \[J. Black, P. Rogaway, CT-RSA 2002\].
+//! A pseudo-random permutation of 0 … n−1 without a table: a Feistel network over the next power of four, which is
+//! applied again until the result is below n (cycle walking) \[J. Black, P. Rogaway, CT-RSA 2002\].
 
 use crate::hash;
 

@@ -1,19 +1,20 @@
 //! Scrambled Sobol' sequences.
 //!
-//! Point i has the bits x = ⊕ v_k over the ones k of the Gray code of i, with the direction numbers v of [`directions`]. Then each bit is
-//! flipped or not, depending on a hash of the bits above it. This is Owen's nested uniform scrambling, which keeps the balance of the
-//! sequence and makes each point uniform \[A. B. Owen, 1995; P. Bratley, B. L. Fox, ACM TOMS 14, 88 (1988)\].
+//! Point i is x = ⊕ v_k over the ones k of the Gray code of i, with the direction numbers v of [`directions`]. Then
+//! each bit of x is flipped or not, depending on a hash of the bits above it. This is Owen's nested uniform scrambling,
+//! which keeps the balance of the sequence and makes each point uniform \[A. B. Owen, 1995; P. Bratley, B. L. Fox, ACM
+//! TOMS 14, 88 (1988)\].
 
 use super::directions::{self, DIRECTIONS};
 use crate::hash;
 
-/// Number of bits of a coordinate; there are 2^`BITS` points.
+/// Number of bits of a coordinate; a sequence has 2^`BITS` points.
 const BITS: usize = 32;
 
-/// A sequence with a number of dimensions.
+/// A Sobol' sequence.
 #[derive(Clone, Debug)]
 pub struct Sobol {
-    /// For each dimension, starting with the highest bit.
+    /// Direction numbers of each dimension, starting with the highest bit.
     directions: Vec<[u32; BITS]>,
 }
 
@@ -72,7 +73,7 @@ fn numbers(polynomial: u32, initial: &[u32]) -> [u32; BITS] {
 fn scrambled(x: u32, seed: u64, dimension: u64) -> u32 {
     let mut flips = 0;
     for bit in (0..BITS as u32).rev() {
-        // the bits above, behind a leading one that gives their number
+        // the bits above this one, with a leading one in front so that their number counts, too
         let above = (1u64 << BITS | u64::from(x)) >> (bit + 1);
         flips |= ((hash::bits(seed, dimension, above) >> 63) as u32) << bit;
     }

@@ -1,4 +1,4 @@
-//! `design`, `runs`, `seed`, `parameters`: the rows of a study.
+//! Reads `design`, `runs`, `seed` and `parameters`, which define the rows of a study.
 
 use super::distribution;
 use super::reader::{self, Reader, optional};
@@ -70,7 +70,7 @@ pub fn read(
     }
 }
 
-/// The parameter with this name; otherwise a problem that suggests the nearest name is added.
+/// The parameter with this name; if there is none, adds a problem that suggests the nearest name.
 pub fn known<'f>(
     reader: &Reader,
     at: At<'_>,

@@ -1,4 +1,4 @@
-//! The value of a parameter in `parameters`: an interval, a distribution, or some values.
+//! Reads the value of a parameter in `parameters`: an interval, a distribution, or a list of values.
 
 use super::reader::{Reader, optional};
 use crate::distribution::Distribution;
@@ -215,7 +215,7 @@ fn bell(reader: &Reader, at: At<'_>, fact: &ParameterFact, kind: &str) -> Option
     };
     let ends = distribution.ends();
     let empty = kind == "lognormal" && max.is_some_and(|max| max <= 0.0);
-    // below this, shares of the probability cannot be resolved
+    // a smaller probability is lost in rounding
     let mass = normal::between(ends[0], ends[1]);
     if empty || mass.is_nan() || mass < 1e-290 {
         let message = format!(
@@ -228,7 +228,7 @@ fn bell(reader: &Reader, at: At<'_>, fact: &ParameterFact, kind: &str) -> Option
     Some(distribution)
 }
 
-/// Whether all possible values lie within the bounds of the parameter.
+/// Checks that all possible values lie within the bounds of the parameter.
 fn inside(reader: &Reader, at: At<'_>, fact: &ParameterFact, found: [f64; 2]) -> bool {
     if fact.allows(found) {
         return true;
@@ -267,7 +267,7 @@ fn inside(reader: &Reader, at: At<'_>, fact: &ParameterFact, found: [f64; 2]) ->
     false
 }
 
-/// Whether all these values lie within the bounds of the parameter.
+/// Checks that all `values` lie within the bounds of the parameter.
 fn allowed(reader: &Reader, at: At<'_>, fact: &ParameterFact, values: &[f64]) -> bool {
     let mut sound = true;
     for (index, value) in values.iter().enumerate() {

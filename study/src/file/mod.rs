@@ -75,14 +75,15 @@ impl StudyFile {
         }
     }
 
-    /// The file with the rows of a list, as the study names it; `None` if the rows are in the study itself or there is no list.
+    /// The CSV file with the rows of a list, as the study names it; `None` if the study has no list or contains the
+    /// rows itself.
     pub fn rows_from(&self) -> Option<String> {
         let rows = optional(self.source.at(), "rows")?;
         Reader::default().text(optional(rows, "csv")?)
     }
 
-    /// The responses of the study and the time between their samples, for one run of a model that is `duration` long \[s\]. `sampling`
-    /// replaces that of the study. The rest of the study is ignored.
+    /// The responses of the study and the time between their samples \[s\], for one run of a model with this duration
+    /// \[s\]. `sampling` overrides that of the study. The rest of the study is ignored.
     ///
     /// # Errors
     /// All problems of `run` and `responses` at once.

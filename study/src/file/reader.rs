@@ -9,10 +9,10 @@ use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::{Diagnostic, Diagnostics};
 use std::cell::RefCell;
 
-/// Up to this number, every integer has a distinct f64.
+/// Number up to which an `f64` represents every integer exactly.
 const EXACT: f64 = (1u64 << 53) as f64;
 
-/// Reads values and collects what is wrong with them.
+/// Reads values and collects problems with them.
 #[derive(Debug, Default)]
 pub struct Reader(RefCell<Vec<Diagnostic>>);
 
@@ -22,7 +22,7 @@ impl Reader {
         self.0.borrow_mut().push(problem);
     }
 
-    /// Whether there is no problem so far.
+    /// True if there is no problem so far.
     pub fn is_sound(&self) -> bool {
         self.0.borrow().is_empty()
     }
@@ -34,7 +34,7 @@ impl Reader {
         Diagnostics { problems }
     }
 
-    /// Checks that a value is a mapping and has no other keys than these.
+    /// Checks that a value is a mapping with no other keys than `keys`.
     pub fn record(&self, at: At<'_>, what: &str, keys: &[&str]) -> bool {
         let Kind::Map(entries) = &at.node.kind else {
             let message = format!("here stands {}, but {what} is a mapping", at.node.article());
@@ -184,12 +184,12 @@ impl Reader {
         }
     }
 
-    /// One of some words.
+    /// One of `words`.
     pub fn word<'w>(&self, at: At<'_>, what: &str, words: &[&'w str]) -> Option<&'w str> {
         self.word_or(at, what, words, |_| None)
     }
 
-    /// The same; `meant` knows which of them other words stand for.
+    /// One of `words`; `meant` translates synonyms into one of them.
     pub fn word_or<'w>(
         &self,
         at: At<'_>,
@@ -217,13 +217,14 @@ pub fn optional<'a>(at: At<'a>, key: &str) -> Option<At<'a>> {
     Some(at.key(key))
 }
 
-/// A varied parameter whose values stand in these nodes: it is shown in the unit of the first number that has one.
+/// A varied parameter whose values are in these nodes. It is shown in the unit of the first number that is written with
+/// one.
 pub fn varied<'n>(fact: &ParameterFact, values: impl IntoIterator<Item = &'n Node>) -> Varied {
     let stated = values.into_iter().find_map(|node| stated(node, &fact.unit));
     shown_in(fact, stated)
 }
 
-/// A varied parameter that is shown in this unit.
+/// A varied parameter that is shown in `unit`, or in its SI unit if `unit` does not fit.
 pub fn shown_in(fact: &ParameterFact, unit: Option<&str>) -> Varied {
     let measures = |unit: &&str| {
         !fact.unit.is_empty() && strict(&format!("1 {unit}"), &fact.unit).is_ok_and(|one| one > 0.0)
@@ -236,7 +237,7 @@ pub fn shown_in(fact: &ParameterFact, unit: Option<&str>) -> Varied {
     }
 }
 
-/// The unit behind the first number of a node that has one.
+/// The unit of the first number in a node that is written with one.
 fn stated<'n>(node: &'n Node, unit: &str) -> Option<&'n str> {
     match &node.kind {
         Kind::Scalar { text, .. } => {

@@ -1,4 +1,4 @@
-//! `responses`: the numbers that are read off each run.
+//! Reads `responses`: the numbers that are computed from each run.
 
 use super::reader::{Reader, optional};
 use crate::criteria;
@@ -33,7 +33,7 @@ pub fn read(reader: &Reader, root: At<'_>, facts: &ModelFacts, run: &RunSettings
 /// The word for all available criteria.
 const ALL: &str = "all";
 
-/// Responses that are injury criteria of a model that names its regulation.
+/// The responses for injury criteria, of a model that names its regulation.
 fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) -> Vec<Response> {
     if !reader.record(at, "a criterion", &["criterion", "name"]) {
         return Vec::new();
@@ -47,7 +47,7 @@ fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) 
             let there = all.into_iter().filter_map(|one| one.response.ok());
             there.collect::<Vec<_>>()
         }),
-        // any name gives the message about what is missing
+        // for `all`, any name gives the message about what is missing
         _ => criteria::named(
             facts,
             match word.as_str() {
@@ -142,7 +142,7 @@ fn response(
         }
     };
     let si = what.unit(&output.unit);
-    // an integral over time, for one, has another unit than the output
+    // the output's unit fits only if the response keeps it; an integral over time, for one, does not
     let shown = output.shown.clone().filter(|_| si == output.unit);
     let (unit, size) = shown.unwrap_or_else(|| (si.clone(), 1.0));
     let response = Response {
@@ -157,7 +157,7 @@ fn response(
     sampled(reader, at.key("what"), word, &response, facts, run).then_some(response)
 }
 
-/// The time of a response as it is written, with its key.
+/// The key of a response's time and its value as written.
 fn written_time(at: At<'_>) -> Option<(&'static str, String)> {
     ["at", "duration"]
         .into_iter()
@@ -167,7 +167,7 @@ fn written_time(at: At<'_>) -> Option<(&'static str, String)> {
         })
 }
 
-/// A kind of response with its time, if it needs one.
+/// A kind of response, with its time if it needs one.
 fn timed(
     reader: &Reader,
     at: At<'_>,
@@ -223,14 +223,16 @@ fn timed(
     })
 }
 
-/// The time between the samples of responses \[s\]: as the study says, or what the model and the filters need.
+/// The time between the samples of responses \[s\]: that of the study, else the shortest that the model and the filters
+/// need.
 pub fn sampling(run: &RunSettings, facts: &ModelFacts, responses: &[Response]) -> f64 {
     let needed = responses.iter().filter_map(Response::longest_interval);
     run.sampling
         .unwrap_or_else(|| needed.fold(facts.run.sampling, f64::min))
 }
 
-/// Whether there are enough samples: a window needs several samples, and a filter needs a minimum number.
+/// Checks that samples are close enough: a window must not be shorter than the time between samples, and each filter
+/// has a longest time between samples.
 fn sampled(
     reader: &Reader,
     at: At<'_>,

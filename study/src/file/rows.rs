@@ -1,4 +1,5 @@
-//! `rows` of `design: list`: written in the study, or in a CSV file with a heading of names such as `slack` or `slack [mm]`.
+//! Reads `rows` of `design: list`. They are written in the study, or in a CSV file with a heading of names such as
+//! `slack` or `slack [mm]`.
 
 use super::design::{Planned, known, within};
 use super::reader::{self, Reader};
@@ -19,7 +20,7 @@ use std::path::Path;
 const MOST_LISTED: usize = 10_000_000;
 /// Largest size of a CSV file in bytes.
 const MOST_BYTES: u64 = 1 << 30;
-/// Largest number of problems that are reported for a CSV file: thousands of equal messages help nobody.
+/// Largest number of problems that are reported for a CSV file.
 const MOST_PROBLEMS: usize = 20;
 
 /// Reads the rows.
@@ -59,7 +60,7 @@ pub fn read(
 /// The varied parameters, and their values row by row.
 type Read = (Vec<Varied>, Vec<f64>);
 
-/// Rows in the study itself. A parameter that a row leaves out has its default value there.
+/// Reads rows that are written in the study. A row that leaves out a parameter takes its default value.
 fn written(reader: &Reader, at: At<'_>, facts: &ModelFacts) -> Option<Read> {
     let items = reader.items(at, "`rows`");
     let mut sound = true;
@@ -181,7 +182,7 @@ impl<'r> Lines<'r> {
         let mut columns: Vec<Column<'r>> = Vec::new();
         let mut sound = true;
         for heading in table.headings(&is_unit) {
-            // a name may look as if it had a unit
+            // the name of a parameter may itself look like a name with a unit
             let whole = facts.parameter(heading.field.text);
             let (name, unit) = match whole {
                 Some(_) => (heading.field.text, None),
@@ -249,7 +250,7 @@ impl<'r> Lines<'r> {
     }
 }
 
-/// A number in a table: in the unit of its heading, in SI, or with a unit of its own.
+/// A number in a table: a bare number in the unit of the heading (SI if there is none), or a number with its own unit.
 fn cell(text: &str, fact: &ParameterFact, unit: &str) -> Result<f64, (String, String)> {
     let with_unit = match text.parse::<f64>() {
         Ok(_) if !unit.is_empty() => format!("{text} {unit}"),

@@ -1,4 +1,4 @@
-//! `fixed`, `run`, `keep`, `tables`, and the check that names are not used twice.
+//! Reads `fixed`, `run`, `keep` and `tables`, and checks that no name is used twice.
 
 use super::design::known;
 use super::reader::{Reader, optional};
@@ -92,7 +92,7 @@ pub fn run(reader: &Reader, root: At<'_>, model: &RunFact) -> RunSettings {
     settings
 }
 
-/// The share of energy and momentum that may be missing in runs with fixed steps.
+/// The largest share of energy and momentum that may be missing in runs with fixed steps.
 fn energy_limit(reader: &Reader, at: At<'_>) -> Option<f64> {
     let limit = optional(at, "energy_limit")?;
     if optional(at, "step").is_none() {

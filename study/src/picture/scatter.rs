@@ -1,4 +1,4 @@
-//! Every response over every parameter, one point for each run; a sample of the runs if there are many.
+//! Draws every response over every parameter, one point for each run; a sample of the runs if there are many.
 
 use crate::design::permutation::Permutation;
 use crate::study::Study;
@@ -8,11 +8,11 @@ use bryant_picture::chart::{self, Axes, range};
 use bryant_picture::text::{typeset, wrap};
 use bryant_picture::{Anchor, Drawing};
 
-/// Pixels of a panel, of its frame, and of the offset between their corners.
+/// Sizes of a panel and of its frame, and offset of the frame from the panel's corner, in pixels.
 const PANEL: [f64; 2] = [300.0, 240.0];
 const FRAME: [f64; 2] = [214.0, 150.0];
 const CORNER: [f64; 2] = [70.0, 46.0];
-/// Number of characters of a name in one line.
+/// Number of characters of a name that fit in one line.
 const NAME: usize = 36;
 /// Share of a range that stays empty at either end.
 const MARGIN: f64 = 0.04;

@@ -1,5 +1,5 @@
-//! The parameters that the variance of each response comes from: bars of total indices with main indices in front, and intervals of 95 % as
-//! lines; the parameter with the largest total is on top.
+//! Draws the share of each parameter in the variance of each response: bars of total indices with main indices in
+//! front, and their 95 % intervals as lines. The parameter with the largest total index is on top.
 
 use crate::study::Study;
 use crate::summary::Summary;
@@ -15,7 +15,7 @@ const NAMES: f64 = 120.0;
 const LETTER: f64 = 7.4;
 /// Height of a parameter in pixels.
 const BAR: f64 = 26.0;
-/// Height of a response's title in pixels, and of its axis.
+/// Height of a response's title, and of its axis, in pixels.
 const TITLE: f64 = 52.0;
 const AXIS: f64 = 52.0;
 /// Largest number of parameters for each response: those with the largest totals.

@@ -1,4 +1,4 @@
-//! The folder of a study's results: it is opened for one study only, and its blocks are read and written.
+//! The folder of results. It belongs to one study; its blocks are read and written here.
 
 use super::identity::{Identity, Program};
 use super::part::{self, PartError};
@@ -22,7 +22,7 @@ pub struct Folder {
     responses: usize,
 }
 
-/// How the names of the files of shards' locks begin and end.
+/// Prefix and suffix of the names of the lock files of shards.
 const LOCK: [&str; 2] = ["shard-", ".lock"];
 
 /// The division of the rows into blocks.
@@ -83,7 +83,7 @@ pub enum FolderError {
         "{} is not a folder of results, and not empty\n  help: name a new folder, or an empty one", .0.display()
     )]
     Foreign(PathBuf),
-    /// Another process works in the folder.
+    /// Another process works in the folder or the shard.
     #[error(
         "{} is in use: another `bryant sweep` or `bryant merge` works in this folder\n  \
          help: wait until it ends, or name another folder by --out; shards of one study may run at once, each by its own --shard I/N", .0.display()
@@ -137,7 +137,7 @@ impl Folder {
                     at(&file, writeln!(out, "{text}"))
                 })?;
             }
-            // on Windows nobody else can read what a process has locked
+            // on Windows, other processes cannot even read a locked file
             Err(source) if cfg!(windows) && source.raw_os_error() == Some(LOCK_VIOLATION) => {
                 return Err(FolderError::Busy(path.to_owned()));
             }
@@ -151,11 +151,12 @@ impl Folder {
         })
     }
 
-    /// Reserves the blocks of a shard for this process, or all of the folder; until the result is dropped or the process ends in whatever
-    /// way, because the system keeps such locks. Where the file system has none, nothing is reserved. The file of a shard's lock goes with the lock.
+    /// Locks a shard, or the whole folder, for this process. The lock ends when the result is dropped or the process
+    /// ends in any way, because the operating system keeps it. If the file system has no locks, nothing is locked. The
+    /// lock file of a shard is removed at the end.
     ///
     /// # Errors
-    /// Another process has reserved them.
+    /// Another process has locked the shard or the folder.
     pub fn lock(&self, shard: Shard) -> Result<Lock, FolderError> {
         let busy = |_| FolderError::Busy(self.path.clone());
         let whole = shard == Shard::WHOLE;
@@ -196,7 +197,7 @@ impl Folder {
         self.path.join("blocks").join(format!("{block:08}.part"))
     }
 
-    /// Whether the file of a block exists, valid or damaged.
+    /// True if the file of a block exists, valid or damaged.
     pub fn has(&self, block: u64) -> bool {
         self.block_path(block).is_file()
     }
@@ -234,8 +235,8 @@ impl Folder {
         replace(&path, |out| at(&path, out.write_all(&bytes)))
     }
 
-    /// Removes unfinished files and locks of processes that were ended. The whole folder must be [reserved](Folder::lock): no file may be in the process of
-    /// being written.
+    /// Removes unfinished files and lock files of processes that were ended. The whole folder must be
+    /// [locked](Folder::lock), because files that are being written would be removed, too.
     ///
     /// # Errors
     /// A folder cannot be read, or a file cannot be removed.
@@ -273,33 +274,34 @@ impl Folder {
     }
 }
 
-/// What a process has reserved; see [`Folder::lock`].
+/// The locks that [`Folder::lock`] has set.
 #[derive(Debug)]
 pub struct Lock {
     _study: Option<fs::File>,
-    /// The file of a shard's lock, and its path.
+    /// The lock file of a shard, and its path.
     shard: Option<(PathBuf, fs::File)>,
 }
 
 impl Drop for Lock {
     fn drop(&mut self) {
         if let Some((path, _file)) = &self.shard {
-            // it is removed while it is locked; one that remains does no harm
+            // the file is removed while it is locked; if it remains, it does no harm
             let _ = fs::remove_file(path);
         }
     }
 }
 
-/// Another process has locked a file.
+/// Error: another process has locked the file.
 struct Locked;
 
-/// What Windows answers to the reader of a file that another process has locked.
+/// Error number of Windows for reading a file that another process has locked.
 const LOCK_VIOLATION: i32 = 33;
 
-/// How often a file is opened anew that was removed before it was locked. Beyond that the file system does not tell files apart.
+/// Largest number of attempts to lock a file. An attempt fails if the file was removed between opening and locking it;
+/// on file systems whose files cannot be told apart, every attempt would fail.
 const TRIES: usize = 16;
 
-/// The file, locked: alone, or together with others that share it. `None` where it cannot be written, or cannot be locked.
+/// Opens a file and locks it, alone or `shared`. `None` if the file cannot be written, or the file system has no locks.
 fn locked(path: &Path, shared: bool) -> Result<Option<fs::File>, Locked> {
     let mut options = fs::OpenOptions::new();
     options.write(true).create(true).truncate(false);
@@ -313,7 +315,7 @@ fn locked(path: &Path, shared: bool) -> Result<Option<fs::File>, Locked> {
         };
         match tried {
             Ok(()) if is_at(&file, path) => return Ok(Some(file)),
-            // whoever had locked it removed it between our opening and locking it
+            // the last owner of the lock removed the file after we had opened it: try again
             Ok(()) => {}
             Err(fs::TryLockError::WouldBlock) => return Err(Locked),
             // there may be file systems without locks
@@ -323,7 +325,7 @@ fn locked(path: &Path, shared: bool) -> Result<Option<fs::File>, Locked> {
     Ok(None)
 }
 
-/// Whether a file is the one that a path names.
+/// True if an open file is the one at `path`.
 #[cfg(unix)]
 fn is_at(file: &fs::File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -334,7 +336,7 @@ fn is_at(file: &fs::File, path: &Path) -> bool {
     }
 }
 
-/// Whether a file is the one that a path names.
+/// True if an open file is the one at `path`.
 #[cfg(windows)]
 fn is_at(file: &fs::File, path: &Path) -> bool {
     let one = |file: io::Result<fs::File>| index(&file.ok()?);
@@ -344,7 +346,7 @@ fn is_at(file: &fs::File, path: &Path) -> bool {
     }
 }
 
-/// The volume of a file, and its number there.
+/// The volume of a file, and the number of the file on it.
 #[cfg(windows)]
 #[expect(unsafe_code, reason = "the standard library does not tell it yet")]
 fn index(file: &fs::File) -> Option<[u32; 3]> {
@@ -353,7 +355,7 @@ fn index(file: &fs::File) -> Option<[u32; 3]> {
         BY_HANDLE_FILE_INFORMATION, GetFileInformationByHandle,
     };
     let mut about = BY_HANDLE_FILE_INFORMATION::default();
-    // SAFETY: the handle is open, and there is room for what is told.
+    // SAFETY: the handle is open, and `about` has room for the result.
     let told = unsafe { GetFileInformationByHandle(file.as_raw_handle(), &raw mut about) };
     let numbers = [
         about.dwVolumeSerialNumber,
@@ -363,13 +365,13 @@ fn index(file: &fs::File) -> Option<[u32; 3]> {
     (told != 0).then_some(numbers)
 }
 
-/// Whether a file is the one that a path names.
+/// True if there is a file at `path`; this system cannot tell whether it is the open one.
 #[cfg(not(any(unix, windows)))]
 fn is_at(_: &fs::File, path: &Path) -> bool {
     path.exists()
 }
 
-/// The parts of a study that decide about results: the keys of [`Study`] in `study.json`, and their names for a user.
+/// The parts of a study that affect its results: their keys in `study.json`, and their names for a user.
 const PARTS: [(&str, &str); 6] = [
     ("rows", "the number of runs"),
     ("varied", "the parameters that are varied"),

@@ -1,5 +1,5 @@
-//! The identity of results: SHA-256 of the checked study, of the model, of the program, of the arithmetic, and of the definition of
-//! responses. Results with different identities are never mixed.
+//! The identity of results: SHA-256 of the checked study, of the model, of the program, of the arithmetic, and of the
+//! definition of responses. Results with different identities are never mixed.
 
 use super::part;
 use crate::digest::hexadecimal;
@@ -10,9 +10,9 @@ use sha2::{Digest, Sha256};
 
 /// Largest number of rows in a block.
 const LARGEST_BLOCK: u64 = 4096;
-/// Least number of rows in a block, if the study has so many.
+/// Least number of rows in a block, if the study has that many.
 const SMALLEST_BLOCK: u64 = 16;
-/// Number of blocks of a small study, so that there is work for every thread.
+/// Number of blocks of a study if the sizes of blocks allow it: enough to give every thread work.
 const BLOCKS: u64 = 256;
 
 /// The program that computes the results, without the study.
@@ -51,7 +51,7 @@ impl Identity {
     /// # Errors
     /// The study has a number that JSON cannot hold; a study that was read from a file does not have one.
     pub fn of(study: &Study, program: &Program) -> Result<Identity, serde_json::Error> {
-        // The keys of both are in the order of declaration: the text is the same wherever it is written.
+        // Fields are stored in the order of their declaration, so the text is the same on every machine.
         let meaning = (part::MAGIC, response::REVISION);
         let text = serde_json::to_string(&(meaning, study, program))?;
         Ok(Identity {

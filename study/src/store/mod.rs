@@ -1,11 +1,11 @@
 //! The store of results: a folder that any number of processes may fill, and that never has partial results.
 //!
 //! ```text
-//! study.json            what the results are of
-//! blocks/00000017.part  results of a block of rows: whole or not there
+//! study.json            the identity of the results
+//! blocks/00000017.part  results of a block of rows; complete if the file exists
 //! series/run-….csv      time series of runs that are kept
-//! study/                what whoever runs the study keeps with it
-//! results.parquet, …    the table, when all blocks are there
+//! study/                the study and the facts about its model, kept for merging
+//! results.parquet, …    the table, once all blocks exist
 //! ```
 
 pub mod folder;

@@ -4,7 +4,7 @@
 //! magic 8 | identity 64 | first row u64 | rows u32 | responses u32
 //! status u8 × rows | steps u32 × rows | reached f64 × rows | error f64 × rows | f64 × rows, per response
 //! reason u16 × rows, 0 for none, 1 for the first of: (length u32 | UTF-8) …
-//! SHA-256 of all that 32
+//! SHA-256 of all bytes above 32
 //! ```
 //!
 //! Numbers are little-endian; all NaN have the same bytes.
@@ -19,7 +19,8 @@ pub const MAGIC: &str = "BRYPART2";
 const HEADER: usize = 8 + 64 + 8 + 4 + 4;
 /// Bytes of the digest.
 const DIGEST: usize = 32;
-/// Bytes of a row without its responses: those before them, and the number of its reason after them.
+/// Bytes of a row without its responses: status, steps, time and error before them; the number of its reason after
+/// them.
 const ROW: usize = 21;
 const REASON: usize = 2;
 
@@ -47,7 +48,7 @@ pub fn encode(identity: &str, first: u64, outcomes: &Outcomes) -> Vec<u8> {
     for response in 0..outcomes.width {
         bytes.extend((0..rows).flat_map(|row| number(outcomes.of(row)[response])));
     }
-    // in the order of their first rows
+    // reasons are numbered in the order of the rows that have them first
     let mut reasons: Vec<&str> = Vec::new();
     for reason in &outcomes.reasons {
         let number = reason.as_deref().map_or(0, |reason| {
@@ -57,7 +58,7 @@ pub fn encode(identity: &str, first: u64, outcomes: &Outcomes) -> Vec<u8> {
                 reasons.len() - 1
             })
         });
-        // a block has fewer rows than this type has numbers
+        // a block has at most 4096 rows, so the number fits
         bytes.extend((number as u16).to_le_bytes());
     }
     for reason in reasons {
@@ -69,10 +70,10 @@ pub fn encode(identity: &str, first: u64, outcomes: &Outcomes) -> Vec<u8> {
     bytes
 }
 
-/// The block of these rows, if the bytes contain it.
+/// Reads a block.
 ///
 /// # Errors
-/// The bytes do not contain it.
+/// The bytes are damaged, or are another block.
 pub fn decode(
     bytes: &[u8],
     identity: &str,

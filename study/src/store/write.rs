@@ -1,4 +1,4 @@
-//! Files that are complete or not there: they are written beside their place, flushed to disk, then moved to their place.
+//! Writes files that are always complete: a file is written under another name, flushed to disk, then renamed.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -10,12 +10,12 @@ use std::path::{Path, PathBuf};
 pub struct WriteError {
     /// The file.
     pub path: PathBuf,
-    /// Why.
+    /// The reason.
     pub source: io::Error,
 }
 
 impl WriteError {
-    /// The first remedy, as the beginning of a sentence.
+    /// The remedy for the failure, as the beginning of a sentence that the caller completes.
     pub fn remedy(&self) -> &'static str {
         match self.source.kind() {
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
@@ -29,7 +29,8 @@ impl WriteError {
 /// Prefix of the names of unfinished files.
 pub const UNFINISHED: &str = ".unfinished-";
 
-/// Replaces a file by the output of `content`; after a failure, or the end of the process, the old file or none remains.
+/// Replaces a file by the output of `content`. If this fails or the process ends, the old file remains, or none if
+/// there was none.
 ///
 /// # Errors
 /// The directory does not exist or cannot be written to, or the disk is full.
@@ -60,7 +61,7 @@ pub fn replace<E: From<WriteError>>(
     temporary
         .persist(path)
         .map_err(|error| failed(error.error))?;
-    // The new name, too, must survive a loss of power; if directories cannot be opened, the system ensures this.
+    // The new name must survive a loss of power, too. Where directories cannot be opened, the system ensures this.
     if cfg!(unix) {
         File::open(directory)
             .and_then(|d| d.sync_all())

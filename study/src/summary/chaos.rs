@@ -1,13 +1,14 @@
-//! Sobol' indices from a polynomial that is fitted to the runs (polynomial chaos): y = Σ c_α ψ_α, with ψ orthonormal under the distribution
-//! of the parameters, has the variance Σ_{α ≠ 0} c_α². Each term depends on its own parameters \[B. Sudret, Reliab. Eng. Syst. Saf. 93, 964
-//! (2008)\].
+//! Sobol' indices from polynomial chaos, a polynomial that is fitted to the runs: y = Σ c_α ψ_α, with ψ orthonormal
+//! under the distribution of the parameters, has the variance Σ_{α ≠ 0} c_α². Each term contributes to the parameters
+//! that it depends on \[B. Sudret, Reliab. Eng. Syst. Saf. 93, 964 (2008)\].
 //!
-//! The ψ are products of functions of one parameter each (`family`), and the c follow from least squares. The total degree is the one that
-//! predicts best the runs that are left out of the fit, one at a time; their errors are r_i/(1 − h_i) with h the diagonal of the
-//! projection. Intervals follow from leaving out one of 32 parts of the runs (jackknife).
+//! The ψ are products of functions of one parameter each (`family`), and the c follow from least squares. The total
+//! degree is chosen by cross-validation: each run is predicted by a fit without it, and the degree with the least
+//! errors is used. The error of run i is r_i/(1 − h_i), with the residual r and the diagonal h of the projection. For
+//! intervals, the fit is repeated without one of 32 parts of the runs, for each part (jackknife).
 //!
-//! If some values, or combinations of values, are rare, a term may have no run that distinguishes it from other terms, or only one run,
-//! which would be predicted from itself. Such a term is left out.
+//! If some values, or combinations of values, are rare, a term may differ from others in no run, or in a single run,
+//! which the fit would then predict from itself. Such a term is left out.
 
 use super::family::{Family, HIGHEST};
 use super::index::{Estimate, Indices, Method, Sensitivity};
@@ -17,13 +18,14 @@ use nalgebra::{DMatrix, DVector};
 
 /// Largest number of terms of a polynomial.
 const MOST_TERMS: usize = 300;
-/// Number of parts of the runs, of which one is left out.
+/// Number of parts of the runs for the jackknife.
 const PARTS: usize = 32;
-/// Stream of random numbers that assigns runs to parts.
+/// Stream of random numbers that assigns runs to parts of the jackknife.
 const PARTING: u64 = 13 << 32;
-/// Least share of its squared norm that a term must keep after projection on earlier terms; rounding of sums over the runs is smaller.
+/// A term is independent of earlier ones if at least this share of its squared norm remains after projection on them.
+/// Rounding of the sums over the runs is smaller.
 const INDEPENDENT: f64 = 1e-10;
-/// 1 − h of a run that is predicted from itself only, up to rounding.
+/// A run is predicted from itself only if 1 − h is below this; rounding is smaller.
 const ALONE: f64 = 1e-8;
 /// Half of a normal interval of 95 %, in standard deviations.
 const WIDTH: f64 = 1.959_963_984_540_054;
@@ -43,7 +45,7 @@ pub fn indices(sample: &Sample, response: usize) -> Option<Sensitivity> {
     let mean = values.mean();
     let values = values.add_scalar(-mean);
     let variance = values.norm_squared() / n as f64;
-    // a constant varies by rounding only
+    // the values of a constant differ by rounding only
     if variance <= squared(1e-14 * mean) {
         return None;
     }
@@ -105,8 +107,8 @@ struct Basis {
 }
 
 impl Basis {
-    /// All total degrees whose terms together are at most `most`; `None` if the first degree already has more. `caps` are the highest
-    /// degrees of each parameter alone.
+    /// The terms of all total degrees up to the largest for which there are at most `most` terms; `None` if the first
+    /// degree already has more. `caps` are the highest degrees of each parameter alone.
     fn new(caps: &[usize], most: usize) -> Option<Basis> {
         let mut basis = Basis {
             terms: vec![vec![0; caps.len()]],
@@ -120,7 +122,7 @@ impl Basis {
             };
             let mut next = Vec::new();
             for term in &basis.terms[begin..] {
-                // each term comes once: it raises the degree of its last parameter or of a later one
+                // each term is made once: from a term of the degree below, by raising its last parameter or a later one
                 let last = term.iter().rposition(|k| *k > 0).unwrap_or(0);
                 for parameter in (last..caps.len()).filter(|p| term[*p] < caps[*p]) {
                     let mut term = term.clone();
@@ -131,7 +133,7 @@ impl Basis {
                     return (degree > 1).then_some(basis);
                 }
             }
-            // all functions of the parameters are used
+            // all functions of the parameters are in use
             if next.is_empty() {
                 return (degree > 1).then_some(basis);
             }
@@ -155,7 +157,7 @@ impl Basis {
         self.ends.len() - 1
     }
 
-    /// All terms at a point of the unit cube.
+    /// The values of all terms at a point of the unit cube.
     fn evaluate(&self, point: &[f64], families: &[Family], values: &mut [f64]) {
         let one = |(u, family): (&f64, &Family)| family.evaluate(*u, self.highest());
         let factors: Vec<Vec<f64>> = point.iter().zip(families).map(one).collect();
@@ -169,7 +171,7 @@ impl Basis {
         }
     }
 
-    /// The degree with the least error of runs left out, and the mean square of this error.
+    /// The total degree with the least error in cross-validation, and the mean square of this error.
     fn best(&self, fit: &Fit, q: &DMatrix<f64>, values: &DVector<f64>) -> Option<(usize, f64)> {
         let n = values.len();
         let (mut residual, mut leverage) = (values.clone(), vec![0.0; n]);
@@ -214,7 +216,8 @@ impl Basis {
 
 /// Least squares by normal equations, which are well conditioned because the terms are orthonormal on average.
 struct Fit {
-    /// L of Ψ Ψᵀ = L Lᵀ; infinite on the diagonal for a term that depends linearly on earlier ones, whose coefficient is then 0.
+    /// L of Ψ Ψᵀ = L Lᵀ. Its diagonal is infinite for a term that depends linearly on earlier ones, so that the
+    /// coefficient of the term is 0.
     lower: DMatrix<f64>,
     /// L⁻¹ Ψ y
     projected: DVector<f64>,
@@ -227,7 +230,7 @@ impl Fit {
     }
 
     fn solved(gram: DMatrix<f64>, right: DVector<f64>) -> Option<Fit> {
-        // the entry of the constant term is the number of runs, which is the average for all others
+        // the constant term has the number of runs on the diagonal, which is the mean for all other terms
         let least = INDEPENDENT * gram[(0, 0)];
         let terms = gram.nrows();
         let mut lower = gram;
@@ -254,7 +257,7 @@ impl Fit {
         Some(Fit { lower, projected })
     }
 
-    /// Terms that depend linearly on earlier ones, and terms with which a run is predicted from itself only.
+    /// Terms that depend linearly on earlier ones, and terms that make the fit predict a run from itself only.
     fn lost(&self, q: &DMatrix<f64>) -> Vec<usize> {
         let mut leverage = vec![0.0; q.ncols()];
         let mut lost = Vec::new();
@@ -270,15 +273,15 @@ impl Fit {
         lost
     }
 
-    /// Coefficients of only the first terms: Lᵀ c = L⁻¹ Ψ y for the leading blocks.
+    /// Coefficients of a fit with only the first `terms` terms: Lᵀ c = L⁻¹ Ψ y for the leading blocks.
     fn coefficients(&self, terms: usize) -> Option<DVector<f64>> {
         let leading = self.lower.view((0, 0), (terms, terms));
         leading.tr_solve_lower_triangular(&self.projected.rows(0, terms))
     }
 }
 
-/// Ψ Ψᵀ of the first rows of Ψ, on and below the diagonal, and 0 above it. nalgebra multiplies large matrices by other steps on each kind of
-/// processor; here the bits are the same on all.
+/// The lower triangle of Ψ Ψᵀ for the first `terms` rows of Ψ; 0 above the diagonal. nalgebra is not used, because its
+/// products of large matrices differ in the last bits between processors.
 fn gram(matrix: &DMatrix<f64>, terms: usize) -> DMatrix<f64> {
     let mut gram = DMatrix::zeros(terms, terms);
     for column in matrix.as_slice().chunks_exact(matrix.nrows()) {
@@ -296,7 +299,7 @@ fn squared(x: f64) -> f64 {
     x * x
 }
 
-/// Half the interval of each share: fits without one part of the runs, var = (m − 1)/m Σ (θ_k − θ̄)².
+/// Half width of the interval of each share: fits without one part of the runs each, var = (m − 1)/m Σ (θ_k − θ̄)².
 fn jackknife(
     basis: &Basis,
     matrix: &DMatrix<f64>,
@@ -305,7 +308,7 @@ fn jackknife(
     shares: &[[f64; 2]],
 ) -> Option<Vec<[f64; 2]>> {
     let n = values.len();
-    // parts have the same size, but no neighbours, because designs relate neighbours to each other
+    // parts have equal sizes and are drawn at random, because designs relate neighbouring rows to each other
     let order = Permutation::new(n as u64, 0, PARTING);
     let mut parts: Vec<Vec<usize>> = vec![Vec::new(); PARTS];
     for row in 0..n {

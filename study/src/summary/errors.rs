@@ -1,11 +1,11 @@
-//! The accuracy of the rows, by their own estimates.
+//! The accuracy of the rows, by the error estimate of each.
 
 use super::sample::{is_in, quantile};
 use crate::study::Study;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// The median is taken of at most this many numbers.
+/// Largest number of estimates from which the median is computed.
 const MOST: u64 = 100_000;
 
 /// Estimated relative errors of the finished rows, see docs/studies.md.
@@ -41,7 +41,7 @@ impl Errors {
         Errors::none(asked, study.rows)
     }
 
-    /// No rows yet, of so many.
+    /// No rows yet; `rows` are to come.
     fn none(asked: Option<f64>, rows: u64) -> Errors {
         Errors {
             asked,

@@ -1,13 +1,15 @@
-//! Functions of one parameter that are orthonormal under its distribution: Legendre polynomials in u = F(x); Hermite polynomials in Φ⁻¹(u)
-//! if x is normal or lognormal; for a parameter with k discrete values, polynomials under their weights. Besides the constant there are k −
-//! 1 of these, which together represent any function of the parameter.
+//! Functions of one parameter that are orthonormal under its distribution: Legendre polynomials in u = F(x); Hermite
+//! polynomials in Φ⁻¹(u) if x is normal or lognormal; polynomials under the weights for a parameter with k discrete
+//! values. The latter are k − 1 functions besides the constant, and together they represent any function of the
+//! parameter.
 
 use crate::distribution::{Distribution, level};
 use crate::normal;
 
-/// Largest degree; the numbers of Hermite polynomials grow fast.
+/// Largest degree; the values of Hermite polynomials of higher degrees are too large.
 pub const HIGHEST: usize = 12;
-/// Least share of a product that must remain after projection on lower degrees: half of the digits of a double.
+/// A polynomial of discrete values is lost in rounding if less than this share of it remains after projection on lower
+/// degrees: half of the digits of a double.
 const LEFT: f64 = 1e-8;
 
 /// Orthonormal functions of a parameter.
@@ -47,7 +49,7 @@ impl Family {
         }
     }
 
-    /// The functions at u in (0, 1), up to a degree or to the highest one.
+    /// The functions at u in (0, 1): up to degree `highest`, or all functions of discrete values.
     pub fn evaluate(&self, u: f64, highest: usize) -> Vec<f64> {
         match self {
             Family::Legendre => legendre(2.0 * u - 1.0, highest),
@@ -82,9 +84,9 @@ fn hermite(x: f64, highest: usize) -> Vec<f64> {
     values
 }
 
-/// The functions at each given value, by Stieltjes' procedure; each is made orthogonal to all lower ones twice. If the next power of the
-/// value is lost in rounding, because some values are too close for their range, the next function is instead the indicator of the value
-/// that the lower functions separate worst from the others.
+/// The functions of each discrete value, by Stieltjes' procedure; each is made orthogonal to all lower ones twice. If
+/// values are so close that the next power is lost in rounding, the next function is instead made from the indicator of
+/// one value: the one that the lower functions represent worst.
 fn functions(values: &[f64], weights: &[f64]) -> Vec<Vec<f64>> {
     let mut levels: Vec<(f64, f64)> = Vec::new();
     let mut order: Vec<usize> = (0..values.len()).filter(|k| weights[*k] > 0.0).collect();
@@ -100,11 +102,11 @@ fn functions(values: &[f64], weights: &[f64]) -> Vec<Vec<f64>> {
     let (Some((low, _)), Some((high, _))) = (levels.first(), levels.last()) else {
         return vec![vec![1.0]; values.len()];
     };
-    // computed with halves, whose difference does not overflow
+    // halves are used, because the difference of the ends might overflow
     let x = |value: f64| (0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low);
     let sum: f64 = levels.iter().map(|(_, weight)| weight).sum();
     let roots: Vec<f64> = levels.iter().map(|(_, w)| (w / sum).sqrt()).collect();
-    // functions times the square roots of the weights are orthonormal vectors
+    // vectors of functions times square roots of weights are orthonormal
     let mut vectors = vec![roots.clone()];
     for degree in 1..levels.len().min(HIGHEST + 1) {
         let mut next: Vec<f64> = levels
@@ -114,7 +116,7 @@ fn functions(values: &[f64], weights: &[f64]) -> Vec<Vec<f64>> {
             .collect();
         let size = norm(&next);
         let left = rest(&mut next, &vectors);
-        // also false for NaN, and for values that are too close to be halved
+        // false, too, for NaN, and for values that are too close to be halved
         let told = left > LEFT * size;
         if !told {
             let known = |l: usize| vectors.iter().map(|v| v[l] * v[l]).sum::<f64>();
@@ -129,7 +131,7 @@ fn functions(values: &[f64], weights: &[f64]) -> Vec<Vec<f64>> {
     }
     let at = |level: &Option<usize>| match level {
         Some(l) => vectors.iter().map(|v| v[*l] / roots[*l]).collect(),
-        // has the probability 0
+        // a value with probability 0
         None => (0..vectors.len()).map(|k| f64::from(k == 0)).collect(),
     };
     level_of.iter().map(at).collect()
@@ -139,7 +141,7 @@ fn norm(vector: &[f64]) -> f64 {
     vector.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
-/// Makes a vector orthogonal to other vectors, which are orthonormal; returns the norm after the first projection.
+/// Makes a vector orthogonal to `others`, which are orthonormal; returns the norm after the first projection.
 fn rest(vector: &mut [f64], others: &[Vec<f64>]) -> f64 {
     let mut left = f64::NAN;
     for _ in 0..2 {

@@ -1,9 +1,9 @@
-//! Sobol' indices: the shares of a response's variance that come from a parameter alone (main), and from this parameter with all its
-//! interactions (total) \[I. M. Sobol', 1993\].
+//! Sobol' indices: the share of a response's variance that is due to a parameter alone (main), and to this parameter
+//! with all its interactions (total) \[I. M. Sobol', 1993\].
 
 use serde::Serialize;
 
-/// The parameters that the variance of a response comes from.
+/// The shares of the parameters in the variance of a response.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sensitivity {
     /// The method of estimation.
@@ -21,7 +21,7 @@ pub enum Method {
         /// Number of complete groups.
         groups: u64,
     },
-    /// From a polynomial through a sample of the runs.
+    /// From a polynomial that is fitted to a sample of the runs.
     Polynomial {
         /// Total degree.
         degree: usize,
@@ -29,7 +29,7 @@ pub enum Method {
         terms: usize,
         /// Number of runs that it was fitted to.
         runs: usize,
-        /// Share of the variance that it explains in runs that were left out of the fit, one at a time. Indices say nothing about the rest.
+        /// Share of the variance that it explains in cross-validation. The indices say nothing about the rest.
         explained: f64,
     },
 }

@@ -1,7 +1,8 @@
-//! The summary of the results: numbers about each response, and the parameters that it depends on.
+//! The summary of the results: statistics of each response, and the parameters that it depends on.
 //!
-//! The summary takes one pass over the blocks in their order, and is the same whoever makes it. Quantiles, polynomials and pictures need
-//! many values at once; if there are too many rows, they use a sample of rows that is drawn by a hash of the index.
+//! The summary takes one pass over the blocks in their order, and is the same whoever makes it. Quantiles, polynomials
+//! and pictures need many values at once; if there are too many rows, they use a sample of rows that is drawn by a hash
+//! of the index.
 
 pub mod chaos;
 pub mod errors;
@@ -30,12 +31,12 @@ pub struct Summary {
     pub identity: String,
     /// Number of runs.
     pub runs: u64,
-    /// Number of runs for each end that occurred.
+    /// Number of runs by the way in which they ended; only ways that occurred.
     pub ends: Vec<(&'static str, u64)>,
-    /// The reasons why runs have no result or cannot be trusted, with their numbers of runs; runs whose end says everything are not
-    /// included.
+    /// The reasons why runs have no result or cannot be trusted, with their numbers of runs; without runs whose status
+    /// says enough.
     pub reasons: Vec<(String, u64)>,
-    /// The first runs whose computation took too long.
+    /// The first runs that exceeded their time limit.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub slow: Vec<u64>,
     /// The accuracy of the finished rows.
@@ -44,16 +45,16 @@ pub struct Summary {
     pub responses: Vec<About>,
 }
 
-/// Numbers about a response. An undefined number is NaN, and null in JSON.
+/// Statistics of a response. An undefined number is NaN, and null in JSON.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct About {
     /// Its name.
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
-    /// Number of runs that have it.
+    /// Number of runs with a value.
     pub count: u64,
-    /// Number of runs without it.
+    /// Number of runs without a value.
     pub missing: u64,
     /// Mean.
     pub mean: f64,
@@ -63,23 +64,24 @@ pub struct About {
     pub minimum: f64,
     /// Largest value.
     pub maximum: f64,
-    /// Values with 5, 50 and 95 % of the runs below them.
+    /// Quantiles at 5, 50 and 95 %.
     pub quantiles: [f64; 3],
     /// Number of runs used for the quantiles: all, or a sample.
     pub quantiles_of: usize,
     /// Correlation with each parameter.
     pub correlations: Vec<f64>,
-    /// The parameters that its variance comes from; `None` if the design does not allow this, or the response does not vary.
+    /// The shares of the parameters in its variance; `None` if the design does not allow this, or the response does not
+    /// vary.
     pub sensitivity: Option<Sensitivity>,
 }
 
-/// Shares of runs below the quantiles.
+/// Probabilities of the quantiles.
 pub const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 
-/// Number of runs that are named if all runs of a kind are counted.
+/// Largest number of runs that are listed by their indices.
 const NAMED: usize = 5;
 
-/// Summarises results. Pictures are drawn from the sample.
+/// Summarises results; also returns the sample, from which pictures are drawn.
 ///
 /// # Errors
 /// A block cannot be read.
@@ -96,7 +98,7 @@ pub fn summarize(results: &Results<'_>) -> Result<(Summary, Sample), ResultsErro
     Ok(totals.finish(results))
 }
 
-/// What is counted and summed up in one pass over the runs.
+/// Counts and sums of one pass over the runs.
 struct Totals<'s> {
     study: &'s Study,
     /// Number of runs by [`Status`].
@@ -104,13 +106,13 @@ struct Totals<'s> {
     reasons: BTreeMap<String, u64>,
     slow: Vec<u64>,
     errors: Errors,
-    /// For each response.
+    /// One for each response.
     moments: Vec<Moments>,
-    /// For each response and each parameter, response by response.
+    /// One for each response and parameter, response by response.
     correlations: Vec<Correlation>,
     sample: Sample,
     ranks: Ranks,
-    /// For Saltelli's design.
+    /// Sums for Saltelli's design.
     groups: Option<Groups>,
 }
 
@@ -138,7 +140,7 @@ impl<'s> Totals<'s> {
         }
     }
 
-    /// Adds the run of a row: its parameters `x`, and the `k`-th of these outcomes.
+    /// Adds the run of a row: its parameters `x`, and the outcome with index `k`.
     fn add(&mut self, results: &Results<'_>, row: u64, x: &[f64], outcomes: &Outcomes, k: usize) {
         let (run, y) = (&outcomes.runs[k], outcomes.of(k));
         self.ends[run.status as usize] += 1;
@@ -169,7 +171,7 @@ impl<'s> Totals<'s> {
         }
     }
 
-    /// The numbers about a response.
+    /// The statistics of a response.
     fn about(&self, response: usize) -> About {
         let d = self.study.varied.len();
         let of = &self.study.responses[response];

@@ -1,6 +1,6 @@
 //! Mean, variance and correlation of a stream of numbers \[B. P. Welford, Technometrics 4, 419 (1962)\].
 
-/// Count, mean, variance and ends of a column.
+/// Count, mean, variance, minimum and maximum of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments {
     /// Number of values so far.
@@ -32,7 +32,7 @@ impl Moments {
         let difference = value - self.mean;
         self.mean += difference / self.count as f64;
         self.squares += difference * (value - self.mean);
-        // a NaN is replaced by a number
+        // the first value replaces NaN
         self.minimum = self.minimum.min(value);
         self.maximum = self.maximum.max(value);
     }
@@ -73,7 +73,7 @@ impl Correlation {
         self.product += before[0] * after[1];
     }
 
-    /// From −1 to 1; NaN if one of the columns does not vary.
+    /// The correlation, from −1 to 1; NaN if one of the columns does not vary.
     pub fn value(&self) -> f64 {
         let scale = self.squares[0].sqrt() * self.squares[1].sqrt();
         if scale > 0.0 {

@@ -5,8 +5,9 @@
 //! total_i = Σ (f(A) − f(AB_i))² / 2 N V         [M. J. W. Jansen, Comput. Phys. Commun. 117, 35 (1999)]
 //! ```
 //!
-//! V is the variance of all f(A) and f(B). The mean is subtracted from f, which does not change the sums on average but makes them scatter
-//! less. Sums are kept for batches of groups; intervals follow from batches drawn with replacement (bootstrap).
+//! V is the variance of all f(A) and f(B). The mean is subtracted from f: this leaves the expected sums as they are,
+//! but reduces their scatter. Sums are kept for batches of groups; intervals follow from batches that are drawn with
+//! replacement (bootstrap).
 
 use super::index::{Estimate, Indices, Method, Sensitivity};
 use super::sample::quantile;
@@ -15,7 +16,7 @@ use crate::study::Study;
 
 /// Largest number of batches.
 const BATCHES: u64 = 256;
-/// Number of times that batches are drawn.
+/// Number of draws of the bootstrap.
 const DRAWS: u64 = 1000;
 /// Stream of random numbers for the draws.
 const DRAWING: u64 = 11 << 32;
@@ -29,9 +30,9 @@ pub struct Groups {
     next: u64,
     /// Responses of the rows of the current group.
     open: Vec<f64>,
-    /// For each response the number that is subtracted from all its values, so that no digits are lost: the first value.
+    /// For each response the number that is subtracted from all its values, to save digits: its first value.
     shifts: Vec<f64>,
-    /// For each response and each batch.
+    /// Sums for each response and each batch.
     sums: Vec<Vec<Sums>>,
 }
 
@@ -72,7 +73,7 @@ impl Sums {
     fn indices(&self) -> Option<Vec<[f64; 2]>> {
         let mean = self.values / (2.0 * self.count);
         let variance = self.squares / (2.0 * self.count) - mean * mean;
-        // a constant varies by rounding only
+        // the values of a constant differ by rounding only
         let rounding = 1e-14 * self.squares / (2.0 * self.count);
         let varies = self.count >= 2.0 && variance > rounding;
         let scale = self.count * variance;
@@ -112,7 +113,7 @@ impl Groups {
         let open = std::mem::take(&mut self.open);
         for response in 0..self.width {
             let value = |row: usize| open[row * self.width + response];
-            // a group in which a run failed says nothing
+            // a group with a failed run is left out
             if !(0..self.parameters + 2).all(|row| value(row).is_finite()) {
                 continue;
             }

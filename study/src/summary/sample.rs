@@ -1,4 +1,4 @@
-//! Samples of rows, if there are too many rows: a hash of its index decides whether a row is in the sample.
+//! Samples of rows, if there are too many rows: a hash of a row's index decides whether the row is in the sample.
 
 use super::family::Family;
 use crate::design::Sampler;
@@ -6,14 +6,14 @@ use crate::distribution::Distribution;
 use crate::hash;
 use crate::study::{Plan, Study};
 
-/// Number of rows for fits of polynomials and for pictures.
+/// Size of the sample for fits of polynomials and for pictures, in rows.
 const MOST_ROWS: u64 = 8192;
-/// Number of values that are sorted for quantiles, for all responses together.
+/// Largest number of values that are sorted for quantiles, of all responses together.
 const MOST_NUMBERS: u64 = 4_000_000;
 /// Stream of the hash.
 const THINNING: u64 = 9 << 32;
 
-/// Whether a row belongs to a sample of about `most` rows.
+/// True if a row belongs to a sample of about `most` rows.
 pub fn is_in(row: u64, rows: u64, most: u64) -> bool {
     rows <= most || hash::uniform(0, THINNING, row) * (rows as f64) < most as f64
 }
@@ -95,7 +95,8 @@ impl Ranks {
         }
     }
 
-    /// Values with these shares of all values below them, interpolated between neighbours; and the number of values used.
+    /// The values with these shares of all values below them, interpolated between neighbours; and the number of values
+    /// used.
     pub fn quantiles<const N: usize>(
         &self,
         response: usize,

@@ -84,7 +84,8 @@ fn numbers(responses: &[About]) -> Vec<Vec<String>> {
     rows
 }
 
-/// A table with a row for each parameter: its shares of the variance of a response, and its correlation with the response.
+/// A table with a row for each parameter: its shares of the variance of a response, and its correlation with the
+/// response.
 fn indices(
     sensitivity: &Sensitivity,
     correlations: &[f64],
@@ -149,7 +150,7 @@ fn interval(of: Estimate) -> String {
     format!("{} to {}", share(of.low), share(of.high))
 }
 
-/// A number with few digits, with an exponent if there would be many zeros.
+/// A number with few digits; with an exponent instead of many zeros.
 fn number(value: f64) -> String {
     if !value.is_finite() {
         return "–".into();
@@ -167,7 +168,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// The first column is left-aligned, the others are right-aligned.
+/// Appends a table: the first column is left-aligned, the others are right-aligned.
 fn aligned(text: &mut String, rows: &[Vec<String>]) {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |column: usize| {

@@ -1,5 +1,5 @@
-//! The table as CSV: units are in the headings, and numbers have the fewest digits that read back exactly; a number that is not finite is
-//! an empty cell.
+//! The table as CSV: units are in the headings, and numbers have the fewest digits that read back exactly; a number
+//! that is not finite is an empty cell.
 
 use super::{TableError, numbers};
 use crate::results::Results;

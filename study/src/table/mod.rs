@@ -33,7 +33,8 @@ pub enum TableError {
     Write(#[from] WriteError),
 }
 
-/// Writes the tables that the study requests, beside the blocks, and removes unfinished files of processes that were ended.
+/// Writes the tables that the study requests into the folder of results, and removes unfinished files of processes that
+/// were ended.
 ///
 /// # Errors
 /// A file cannot be written, or a block cannot be read.

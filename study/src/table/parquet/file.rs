@@ -1,5 +1,6 @@
-//! A file of Apache Parquet by <https://parquet.apache.org/docs/file-format/>, of the simplest kind: every value exists, numbers follow one
-//! after the other, nothing is compressed. A column of a group is one page. Words, which repeat often, are indices into a dictionary.
+//! A file of Apache Parquet by <https://parquet.apache.org/docs/file-format/>, of the simplest kind: no value is
+//! missing, and nothing is compressed. A column of a group is one page. Words repeat often, so they are indices into a
+//! dictionary.
 //!
 //! ```text
 //! PAR1 | group: column: (dictionary) page … | … | footer | length of the footer | PAR1
@@ -42,10 +43,10 @@ pub enum Values<'a> {
 /// A file that is being written.
 pub struct File<W> {
     out: W,
-    /// Number of bytes written.
+    /// Position in the file: number of bytes written so far.
     at: usize,
     rows: usize,
-    /// The footer's entries for the columns, and for each group.
+    /// Entries of the footer for the columns.
     schema: Vec<Fields>,
     groups: Vec<Fields>,
 }
@@ -165,7 +166,7 @@ impl Column<'_> {
             .int(1, self.values.physical())
             .int(3, REQUIRED)
             .text(4, &self.name);
-        // Each meaning is stored twice: for readers before format 2.4, and for later ones.
+        // The logical type is stored twice: for readers before format 2.4, and for later ones.
         match self.values {
             Values::Long(_) | Values::Double(_) => schema,
             Values::Word(_) => {
@@ -191,7 +192,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// The number of the type that is stored.
+    /// The number of the physical type.
     fn physical(&self) -> i32 {
         match self {
             Values::Count(_) => 1,
@@ -219,7 +220,8 @@ impl<'a> Values<'a> {
                     });
                     runs.push((run.len() as u64, number as u16));
                 }
-                // all indices have the same number of bits, in whole bytes; each run has one index, with twice its length before it
+                // all indices have the same number of bits, in whole bytes; each run repeats one index, and begins with
+                // twice its length
                 let size = if words.len() <= 256 { 1 } else { 2 };
                 let mut bytes = vec![8 * size as u8];
                 for (length, number) in runs {

@@ -1,5 +1,5 @@
-//! The table as Apache Parquet: plain columns, with the same bytes whenever it is written. Its metadata have the units and the identity of
-//! the results (`units`, `identity`, `model`, `version`, `arithmetic`).
+//! The table as Apache Parquet: plain columns, with the same bytes whenever it is written. Its metadata have the units
+//! and the identity of the results (`units`, `identity`, `model`, `version`, `arithmetic`).
 
 mod file;
 mod thrift;
@@ -90,7 +90,7 @@ fn metadata(results: &Results<'_>) -> [(&'static str, String); 5] {
     ]
 }
 
-/// Some rows, column by column; without rows, the empty columns.
+/// The columns of some rows; empty columns if there are no rows.
 fn columns<'a>(results: &Results<'_>, batches: &'a [Batch]) -> Vec<Column<'a>> {
     let mut columns = Vec::new();
     let mut add = |name: &str, values| {
@@ -103,7 +103,7 @@ fn columns<'a>(results: &Results<'_>, batches: &'a [Batch]) -> Vec<Column<'a>> {
         batch.first..batch.first + count
     });
     add("run", Values::Long(indices.map(|row| row as i64).collect()));
-    // every `width`-th number of values that are stored row by row
+    // column `index` of values that are stored row by row, `width` in each row
     let of = |lists: &dyn Fn(&Batch) -> Vec<f64>, width: usize, index: usize| {
         let values = batches.iter().flat_map(|batch| {
             let list = lists(batch);

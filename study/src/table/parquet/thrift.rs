@@ -1,7 +1,8 @@
-//! The part of Thrift's compact protocol (<https://github.com/apache/thrift/blob/master/doc/specs/thrift-compact-protocol.md>) that the
-//! metadata of Parquet need.
+//! The part of Thrift's compact protocol
+//! (<https://github.com/apache/thrift/blob/master/doc/specs/thrift-compact-protocol.md>) that the metadata of Parquet
+//! need.
 
-/// Fields of a structure, by increasing numbers.
+/// Fields of a structure, by increasing ids.
 #[derive(Default)]
 pub struct Fields {
     bytes: Vec<u8>,
@@ -79,7 +80,7 @@ impl Fields {
         self
     }
 
-    /// Writes the step from the last field number, which is at most 15 here, and the type.
+    /// Writes the difference to the last id, which is at most 15 here, and the type.
     fn key(&mut self, id: u8, kind: u8) {
         self.bytes.push((id - self.last) << 4 | kind);
         self.last = id;
