@@ -3,10 +3,13 @@
 //! A table has a line for each row, with fields between tabs, `;` or `,`. Lines that are empty or begin with `#` are skipped, as is a byte
 //! order mark. A field may stand between quotation marks. The first line may have headings such as `ax [g]`, with the unit of the column.
 //!
+//! [`unit`] has all units, with their sizes and dimensions.
+//!
 //! What could be read in two ways is refused: a line with more or fewer fields than the first one, and a decimal comma.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod heading;
+pub mod unit;
 
 pub use heading::Heading;
 
