@@ -46,7 +46,9 @@ impl Found {
 
     /// Shows outputs in units of this system, but for those with a unit of their own; as the model says if there is none.
     pub fn show_in(&mut self, system: Option<UnitSystem>) {
-        self.model.units.system = system.unwrap_or(self.model.units.system);
+        let system = system.unwrap_or(self.model.units.system);
+        self.model.units.system = system;
+        self.scene.model.units.system = system;
     }
 
     /// Prints the notes about the import of a URDF file.

@@ -6,6 +6,7 @@ use super::Error;
 use super::model_argument::nearest;
 use crate::quantity;
 use crate::sweep::response_of;
+use bryant_generator::model::units::Unit;
 use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::response::filter::{Class, Filter, MEAN};
 use bryant_study::criteria::{self, Criterion};
@@ -16,8 +17,8 @@ use bryant_study::response::{self, NAMES, What, channel_of};
 pub struct Requested {
     /// Its name, the same as in a study.
     pub name: String,
-    /// SI unit, "" for a pure number.
-    pub unit: String,
+    /// The unit in which it is shown.
+    pub unit: Unit,
     /// The length of its window, if it has one \[s\].
     pub window: Option<f64>,
     /// The response as a request to the runtime.
@@ -104,7 +105,7 @@ impl Requested {
     pub fn of_study(response: &response::Response) -> Requested {
         Requested {
             name: response.name.clone(),
-            unit: response.si.clone(),
+            unit: response.unit.clone(),
             window: response.what.window(),
             asked: Asked {
                 channel: response.channel,
@@ -167,7 +168,7 @@ impl Requested {
                 Some(filter) => format!("{title} of {}, {filter}", of.name),
                 None => format!("{title} of {}", of.name),
             },
-            unit: what.unit(&of.unit),
+            unit: facts.unit_for(&what.unit(&of.unit), of),
             window: what.window(),
             asked: Asked {
                 channel: channel_of(output, filter.as_deref().or(of.filter.as_deref())),
@@ -370,7 +371,7 @@ mod tests {
         ] {
             let response = read(text, &model).unwrap_or_else(|error| panic!("{error:?}"));
             assert_eq!(
-                (response.name.as_str(), response.unit.as_str()),
+                (response.name.as_str(), response.unit.name.as_str()),
                 (name, unit)
             );
         }

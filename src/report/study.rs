@@ -55,7 +55,7 @@ pub fn page(
     let factor = |one: &Judged, unit: &str| unit::factor(one.unit, unit).unwrap_or(one.scale);
     let limits = study.responses.iter().map(|response| {
         let one = judged(&response.name)?;
-        Some(one.limit? * factor(one, &response.unit))
+        Some(one.limit? * factor(one, &response.unit.name))
     });
     let limits: Vec<Option<f64>> = limits.collect();
     let mut rows: Vec<Value> = Vec::new();

@@ -5,6 +5,7 @@ use crate::facts::OutputFact;
 use crate::quantity::dimension;
 use bryant_generator::description::unit::Dimension;
 use bryant_generator::diagnostic::quoted;
+use bryant_generator::model::units::Unit;
 use bryant_runtime::response::Channel;
 use bryant_runtime::response::filter::Filter;
 use serde::Serialize;
@@ -25,19 +26,9 @@ pub struct Response {
     pub of: String,
     /// The kind of response.
     pub what: What,
-    /// Unit of the number, "" if it has no unit.
-    pub unit: String,
-    /// The SI value of that unit.
-    #[serde(skip_serializing_if = "is_si")]
-    pub size: f64,
-    /// The SI unit of the same quantity.
-    #[serde(skip)]
-    pub si: String,
-}
-
-/// Whether a unit of this size is that of the SI.
-fn is_si(size: &f64) -> bool {
-    *size == 1.0
+    /// The unit of the number.
+    #[serde(flatten)]
+    pub unit: Unit,
 }
 
 impl Response {
@@ -45,15 +36,6 @@ impl Response {
     pub fn caution(&self, outputs: &[OutputFact]) -> Option<String> {
         let mut of = self.channel.outputs().iter();
         of.find_map(|index| self.what.caution(outputs.get(*index)?))
-    }
-
-    /// The number in its unit, from its SI value.
-    pub fn in_unit(&self, si: f64) -> f64 {
-        // in SI all digits stay as they are
-        match is_si(&self.size) {
-            true => si,
-            false => si / self.size,
-        }
     }
 
     /// The longest time between samples that its filter allows \[s\], if it has a filter.
