@@ -194,7 +194,7 @@ impl Arguments {
                 };
                 terminal.print(&format!(
                     "{}\n\n{sentence}\n",
-                    text::text(&study, &conclusion)
+                    text::text(&study, &conclusion, terminal.width())
                 ))
             }
         };

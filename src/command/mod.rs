@@ -24,7 +24,7 @@ mod run;
 mod settle;
 mod stability;
 mod sweep;
-mod terminal;
+pub(crate) mod terminal;
 
 use crate::{interrupt, process};
 use bryant_generator::diagnostic::Diagnostics;

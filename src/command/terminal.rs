@@ -143,7 +143,7 @@ fn message_width() -> Option<usize> {
 
 /// The text with lines of at most `width` characters. A line that is too long is broken between words; what follows hangs below its beginning, two
 /// characters further in. Lines that fit stay as they are.
-fn fitted(text: &str, width: usize) -> String {
+pub fn fitted(text: &str, width: usize) -> String {
     let mut lines = Vec::new();
     for line in text.lines() {
         if line.chars().count() <= width {
