@@ -5,8 +5,11 @@
 //! and widths, by force, one of which is there at a time: the others have the scale 0, by which glTF 2.0 (3.7.3.1) hides nodes. A camera moves with the body that the
 //! view [stays with](Scene::followed). All nodes are below one node that rotates z up into y up, as glTF requires. Units are metres and seconds.
 
+mod plate;
+
 use crate::pose::{Frame, Vec3, cross, quaternion};
 use crate::scene::{Kind, Scene, from_to, length};
+use plate::Plate;
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
@@ -389,8 +392,8 @@ impl<'a> File<'a> {
 
     fn planes(&mut self) {
         for plane in &self.scene.planes {
-            let normals = [plane.normal; 4];
-            let accessors = self.triangles(&plane.corners, &normals, &[0, 1, 2, 0, 2, 3]);
+            let plate = Plate::of(plane);
+            let accessors = self.triangles(&plate.places, &plate.normals, &plate.corners);
             let name = format!("{} plane", plane.name);
             let mesh = self.mesh(&name, accessors, OF_PLANES);
             let node = json!({ "name": name, "mesh": mesh });
