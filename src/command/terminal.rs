@@ -27,12 +27,22 @@ impl Terminal {
     pub fn new() -> Self {
         // asked before standard output is moved
         let closed = process::stdout_was_closed();
+        Self::over(guard::stdout_for_results(), closed)
+    }
+
+    fn over(output: Box<dyn guard::Output>, closed: bool) -> Self {
         Self {
-            output: BufWriter::new(guard::stdout_for_results()),
+            output: BufWriter::new(output),
             closed,
             told: false,
             begin: Instant::now(),
         }
+    }
+
+    /// One for a test, which leaves standard output where it is.
+    #[cfg(test)]
+    pub fn of_test() -> Self {
+        Self::over(Box::new(io::stdout()), false)
     }
 
     /// Prints a result.
