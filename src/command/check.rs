@@ -35,7 +35,7 @@ Examples:
   bryant check my.yaml --skeleton drag > drag.rs     the function of a user force, to be filled in
   bryant check child-seat --json")]
 pub struct Arguments {
-    /// Name of a bundled model, or path of a YAML file
+    /// Name of a bundled model, or path of a YAML or URDF file
     model: String,
 
     /// Print a first Rust file for this user force, whose file need not exist yet

@@ -54,7 +54,7 @@ Examples:
   bryant gradient child-seat --of 'HIC15 of head accelerometer' --of 'clip 3 ms of chest accelerometer' --check
   bryant gradient my.yaml --of 'value at 80 ms of head excursion' --set belt_stiffness='40 kN'")]
 pub struct Arguments {
-    /// Bundled model or YAML file
+    /// Name of a bundled model, or path of a YAML or URDF file
     model: String,
 
     /// Response to differentiate; may be repeated

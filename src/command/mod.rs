@@ -24,7 +24,9 @@ mod run;
 mod settle;
 mod stability;
 mod sweep;
-pub(crate) mod terminal;
+mod terminal;
+
+pub(crate) use terminal::fitted;
 
 use crate::{interrupt, process};
 use bryant_generator::diagnostic::Diagnostics;

@@ -1467,3 +1467,30 @@ fn a_freedom_without_inertia_has_the_remedy_that_helps() {
         );
     }
 }
+
+/// A table of times alone says nothing: what to add is said in its place, and works as it is written.
+#[test]
+fn a_model_without_outputs_says_what_to_add() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let model = "model: m\ndimension: 2\nsystems:\n  - name: p\n    elements: [{ name: b, mass: 2 kg, cg: [0, 0], inertia: 0.1 }]\nrun: { duration: 0.5 s, every: 0.25 s }\n";
+    std::fs::write(here.join("m.yaml"), model).unwrap();
+    let (told, _) = call(here, &["run", "m.yaml", "--no-files"], 0);
+    assert!(
+        told.contains("the model has no outputs") && !told.contains("0.25"),
+        "{told}"
+    );
+    let (_, added) = told.split_once("such as\n\n").unwrap();
+    let (added, _) = added.split_once("\n\n").unwrap();
+    std::fs::write(here.join("m.yaml"), format!("{model}{added}\n")).unwrap();
+    let (told, _) = call(here, &["run", "m.yaml", "--no-files"], 0);
+    assert!(told.contains("position") && told.contains("0.25"), "{told}");
+    // a reference that is none of the words
+    let wrong = model.replace("name: p\n", "name: p\n    reference: fixd\n");
+    std::fs::write(here.join("m.yaml"), wrong).unwrap();
+    let (_, told) = call(here, &["check", "m.yaml"], 2);
+    assert!(
+        told.contains("did you mean `fixed`?") && told.contains("on: VEHICLE"),
+        "{told}"
+    );
+}

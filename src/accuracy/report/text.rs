@@ -4,7 +4,7 @@ use crate::accuracy::conclusion::{Conclusion, bounded_by_stability};
 use crate::accuracy::point::{Done, Known, Measure, Point, Status};
 use crate::accuracy::setting::{Curves, Pace, Scheme, time, two_digits};
 use crate::accuracy::study::Study;
-use crate::command::terminal::fitted;
+use crate::command::fitted;
 use bryant_picture::text::wrap;
 use std::fmt::Write as _;
 

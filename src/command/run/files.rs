@@ -181,6 +181,8 @@ impl Files {
             terminal.write(|out| out.write_all(&bytes))
         } else if arguments.quiet {
             Ok(())
+        } else if table.columns.len() == 1 {
+            terminal.print(&nothing_asked(&shown.found.model))
         } else {
             let layout = Layout {
                 digits: arguments.precision.map(usize::from),
@@ -195,6 +197,23 @@ impl Files {
         let all = [&self.csv, &self.final_state, &self.picture];
         all.into_iter().flatten().any(|path| is_standard(path))
     }
+}
+
+/// In place of a table that would have times alone: what to add.
+fn nothing_asked(model: &Model) -> String {
+    let of = model.systems.iter().find_map(|system| {
+        let first = system.elements.first()?;
+        Some(format!("{}/{}", system.name, first.name))
+    });
+    let component = match model.dimension {
+        Dimension::Plane => "component: z",
+        Dimension::Space => "component: x",
+    };
+    let example = of.map_or_else(String::new, |of| {
+        format!(", such as\n\noutputs:\n  - {{ name: position, of: {of}, what: position, {component} }}\n")
+    });
+    let example = example.trim_end();
+    format!("the model has no outputs, so there is no table. Add what is to be seen{example}\n")
 }
 
 /// Refuses rows for ISO-MME whose last interval is shorter than the others.
