@@ -514,19 +514,22 @@ mod tests {
         std::fs::create_dir_all(&robot).unwrap();
         std::fs::create_dir_all(folder.join("arm/meshes")).unwrap();
         std::fs::write(folder.join("arm/meshes/a.stl"), "").unwrap();
-        let mesh = |file: &str| model::Mesh {
-            on: model::Body::Frame,
-            file: file.to_owned(),
-            source: robot.join("arm.urdf").display().to_string(),
-            line: 1,
-            at: [0.0; 3],
-            angles: [0.0; 3],
-            scale: [1.0; 3],
+        let found = |file: &str| {
+            let mesh = model::Mesh {
+                on: model::Body::Frame,
+                of: model::Triangles::File(file.to_owned()),
+                source: robot.join("arm.urdf").display().to_string(),
+                line: 1,
+                at: [0.0; 3],
+                angles: [0.0; 3],
+                scale: [1.0; 3],
+            };
+            found(&mesh, file)
         };
-        let there = found(&mesh("package://arm/meshes/a.stl")).unwrap();
+        let there = found("package://arm/meshes/a.stl").unwrap();
         assert!(there.is_file(), "{there:?}");
-        assert!(found(&mesh("../meshes/a.stl")).unwrap().is_file());
-        assert!(found(&mesh("package://leg/a.stl")).is_err());
+        assert!(found("../meshes/a.stl").unwrap().is_file());
+        assert!(found("package://leg/a.stl").is_err());
         std::fs::remove_dir_all(folder).unwrap();
     }
 }
