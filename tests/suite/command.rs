@@ -450,30 +450,6 @@ fn a_wrong_model_is_an_error_with_its_place() {
     );
 }
 
-const ARM: &str = r#"<robot name="two-arm">
-<link name="base"/>
-<link name="Upper Arm">
-  <visual><geometry><mesh filename="arm.stl"/></geometry></visual>
-  <inertial><origin xyz="0 0 -0.2"/><mass value="2"/><inertia ixx="0.03" ixy="0" ixz="0.001" iyy="0.03" iyz="0" izz="0.01"/></inertial>
-</link>
-<joint name="shoulder" type="revolute">
-  <parent link="base"/><child link="Upper Arm"/><origin xyz="0 0 1" rpy="0 0 1.5708"/><axis xyz="0 1 0"/>
-  <limit lower="-0.5" upper="0.5" effort="1" velocity="1"/>
-</joint>
-</robot>
-"#;
-
-#[test]
-fn a_missing_compiler_is_named_with_the_remedy() {
-    let directory = ball();
-    let (_, stderr) = without_a_toolchain(directory.path(), &["run", "ball.yaml"], 1);
-    assert!(
-        stderr.contains("/nonexistent/rustc") && stderr.contains("RUSTC="),
-        "{stderr}"
-    );
-    assert!(!directory.path().join("ball.csv").exists());
-}
-
 #[test]
 fn check_says_what_is_in_a_model() {
     let directory = directory();
@@ -733,4 +709,34 @@ fn a_model_without_outputs_says_what_to_add() {
         told.contains("did you mean `fixed`?") && told.contains("on: VEHICLE"),
         "{told}"
     );
+}
+
+/// Of two elements of one name the second is told, and nothing that follows from it; what else is wrong is told, too.
+#[test]
+fn two_elements_of_one_name_are_one_error() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let model = "\
+model: two
+dimension: 2
+systems:
+  - name: man
+    elements:
+      - { name: torso, mass: 2 kg, cg: [0, 0], inertia: 0.1 }
+      - { name: torso, on: torso, at: [0, 1], mass: 2 kg, cg: [0, 0], inertia: 0.1 }
+      - { name: head, on: torso, at: [0, 1], mass: 2 kg, cg: [0, 0], inertia: 0.1 }
+forces: [{ joint: man/torso, damping: 1 }]
+outputs:
+  - { name: x, of: man/torso, what: position, component: z }
+  - { name: y, of: man/torsi, what: position, component: z }
+run: { duration: 0.5 s, every: 0.25 s }
+";
+    std::fs::write(here.join("two.yaml"), model).unwrap();
+    let (_, told) = call(here, &["check", "two.yaml"], 2);
+    assert!(
+        told.contains("two elements called \"torso\"") && told.contains("two.yaml:7:"),
+        "{told}"
+    );
+    assert!(told.contains("no element \"man/torsi\""), "{told}");
+    assert_eq!(told.matches("error:").count(), 2, "{told}");
 }

@@ -1,7 +1,7 @@
 //! Functions of the user beside a model.
 
 use super::called::call;
-use super::{json, numbers};
+use super::{json, numbers, without_a_toolchain};
 
 /// The example of the documentation page: its model and its function.
 fn ball() -> tempfile::TempDir {
@@ -209,4 +209,15 @@ fn what_only_a_crate_can_call_is_said() {
         err.contains("calls crate::aero::drag") && err.contains("source: FILE.rs"),
         "{err}"
     );
+}
+
+#[test]
+fn a_missing_compiler_is_named_with_the_remedy() {
+    let directory = ball();
+    let (_, stderr) = without_a_toolchain(directory.path(), &["run", "ball.yaml"], 1);
+    assert!(
+        stderr.contains("/nonexistent/rustc") && stderr.contains("RUSTC="),
+        "{stderr}"
+    );
+    assert!(!directory.path().join("ball.csv").exists());
 }

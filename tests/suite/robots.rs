@@ -3,6 +3,19 @@
 use super::called::call;
 use super::directory;
 
+const ARM: &str = r#"<robot name="two-arm">
+<link name="base"/>
+<link name="Upper Arm">
+  <visual><geometry><mesh filename="arm.stl"/></geometry></visual>
+  <inertial><origin xyz="0 0 -0.2"/><mass value="2"/><inertia ixx="0.03" ixy="0" ixz="0.001" iyy="0.03" iyz="0" izz="0.01"/></inertial>
+</link>
+<joint name="shoulder" type="revolute">
+  <parent link="base"/><child link="Upper Arm"/><origin xyz="0 0 1" rpy="0 0 1.5708"/><axis xyz="0 1 0"/>
+  <limit lower="-0.5" upper="0.5" effort="1" velocity="1"/>
+</joint>
+</robot>
+"#;
+
 #[test]
 fn a_robot_is_imported_and_runs() {
     let directory = directory();
