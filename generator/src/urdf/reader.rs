@@ -337,7 +337,11 @@ impl<'a> Reader<'a> {
                     scale: scale.map_or([1.0; 3], Option::unwrap_or_default),
                 }]
             }
-            "box" => vec![solid(Solid::Box, self.numbers(shape, "size")?, frame)],
+            "box" => {
+                let size = shape.attribute("size")?.split_whitespace();
+                let size: Vec<f64> = size.map_while(|word| word.parse().ok()).collect();
+                vec![solid(Solid::Box, size.try_into().ok()?, frame)]
+            }
             "sphere" => vec![solid(Solid::Sphere, [2.0 * number("radius")?; 3], frame)],
             form @ ("cylinder" | "capsule") => {
                 let (across, length) = (2.0 * number("radius")?, number("length")?);
