@@ -7,7 +7,7 @@ use bryant_generator::model::units::{Unit, UnitSystem};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// The SI unit of time.
-const TIME: &str = "s";
+pub const TIME: &str = "s";
 
 /// The units of the columns of a run's table.
 #[derive(Clone, Debug)]
@@ -34,18 +34,6 @@ impl Units {
     /// There is no such output.
     pub fn output(&self, index: usize) -> &Unit {
         &self.outputs[index].2
-    }
-
-    /// The unit of a response in this SI unit that is read off these outputs.
-    pub fn response(&self, si: &str, outputs: &[usize]) -> Unit {
-        let [output] = outputs else {
-            return UnitSystem::Si.unit(si);
-        };
-        match &self.outputs[*output] {
-            (_, of_output, unit) if of_output == si => unit.clone(),
-            _ if si == TIME => self.time.clone(),
-            _ => UnitSystem::Si.unit(si),
-        }
     }
 
     /// The names of the table's columns with their units.
@@ -92,6 +80,12 @@ impl Units {
             ],
         }
     }
+}
+
+/// A number as people write it: without the last digits, which a conversion may change.
+pub fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    format!("{}", rounded + 0.0)
 }
 
 /// A system of units, by its name.

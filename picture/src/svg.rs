@@ -3,12 +3,16 @@
 use super::drawing::{Anchor, Drawing, Item, Shape};
 use std::fmt::Write as _;
 
-/// The text of the SVG file of a drawing.
+/// Where a screen is dark, light and dark change places, and hues stay.
+const IN_THE_DARK: &str =
+    "@media screen and (prefers-color-scheme:dark){svg{filter:invert(.9) hue-rotate(180deg)}}\n";
+
+/// The file of a drawing.
 pub fn text(drawing: &Drawing) -> String {
     let ([w, h], title, style) = (drawing.size, escape(&drawing.title), &drawing.style);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
-         role=\"img\">\n<title>{title}</title>\n<style>\n{style}</style>\n\
+         role=\"img\">\n<title>{title}</title>\n<style>\n{style}{IN_THE_DARK}</style>\n\
          <rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>\n"
     );
     for item in &drawing.items {

@@ -53,7 +53,7 @@ Examples:
   bryant accuracy child-seat --set friction=0 --duration '120 ms' --out results
   bryant accuracy child-seat --picture cost.png --markdown cost.md --no-files")]
 pub struct Arguments {
-    /// Name of a bundled model, or path of a YAML file
+    /// Name of a bundled model, or path of a YAML or URDF file
     model: String,
 
     /// Methods, separated by commas [default: all of them]
@@ -194,7 +194,7 @@ impl Arguments {
                 };
                 terminal.print(&format!(
                     "{}\n\n{sentence}\n",
-                    text::text(&study, &conclusion)
+                    text::text(&study, &conclusion, terminal.width())
                 ))
             }
         };

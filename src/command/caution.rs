@@ -36,8 +36,7 @@ pub fn meshes(scene: &Scene) -> Vec<String> {
         };
         let why = match scene.model.shown.iter().any(|other| match other {
             Shown::Mesh(used) => {
-                (used.line, &used.source, &used.file)
-                    == (written.line, &written.source, &written.file)
+                (used.line, &used.source, &used.of) == (written.line, &written.source, &written.of)
             }
             _ => false,
         }) {

@@ -5,9 +5,11 @@ use super::caution::cautions;
 use super::model_argument::{find, find_without_sources, nearest};
 use super::progress::Progress;
 use super::terminal::Terminal;
+use crate::units::{self, TIME, short};
 use bryant_generator::dynamics::{self, derive_with};
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
+use bryant_generator::model::units::UnitSystem;
 use bryant_generator::model::{
     Coordinates, Dimension, ForceKind, Model, Parameter, Reference, Scene, System,
 };
@@ -33,7 +35,7 @@ Examples:
   bryant check my.yaml --skeleton drag > drag.rs     the function of a user force, to be filled in
   bryant check child-seat --json")]
 pub struct Arguments {
-    /// Name of a bundled model, or path of a YAML file
+    /// Name of a bundled model, or path of a YAML or URDF file
     model: String,
 
     /// Print a first Rust file for this user force, whose file need not exist yet
@@ -47,6 +49,10 @@ pub struct Arguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
+
+    /// Units of parameters, outputs and times: SI, or engineering (mm, g, kN, °, kPa, ms) [default: as the model says]
+    #[arg(long, value_name = "SYSTEM", value_parser = units::system())]
+    units: Option<UnitSystem>,
 }
 
 impl Arguments {
@@ -55,7 +61,8 @@ impl Arguments {
         if let Some(force) = &self.skeleton {
             return terminal.print(&skeleton(&find_without_sources(&self.model)?, force)?);
         }
-        let found = find(&self.model)?;
+        let mut found = find(&self.model)?;
+        found.show_in(self.units);
         found.tell(terminal);
         if self.long {
             return terminal.print(&found.scene.long_form);
@@ -238,7 +245,11 @@ fn as_text(model: &Model, costs: &Costs) -> String {
         let _ = writeln!(text, "  switch      {}", switch.name);
     }
     for parameter in &model.parameters {
-        let _ = writeln!(text, "  parameter   {}", describe(parameter));
+        let _ = writeln!(
+            text,
+            "  parameter   {}",
+            describe(parameter, model.units.system)
+        );
     }
     for output in &model.outputs {
         let unit = match model.unit_of(output).name.as_str() {
@@ -250,11 +261,14 @@ fn as_text(model: &Model, costs: &Costs) -> String {
     if model.outputs.is_empty() {
         text.push_str("  outputs     none\n");
     }
+    let time = model.units.system.unit(TIME);
+    let times = [model.run.duration, model.run.every].map(|si| short(time.of_si(si)));
     let _ = writeln!(
         text,
-        "  run         {} s, a row every {} s",
-        short(model.run.duration),
-        short(model.run.every)
+        "  run         {} {unit}, a row every {} {unit}",
+        times[0],
+        times[1],
+        unit = time.name
     );
     let _ = writeln!(
         text,
@@ -289,8 +303,10 @@ fn indent(system: &System, mut element: usize) -> String {
     "  ".repeat(depth)
 }
 
-fn describe(parameter: &Parameter) -> String {
-    let unit = match parameter.unit.as_str() {
+fn describe(parameter: &Parameter, system: UnitSystem) -> String {
+    let shown = system.unit(&parameter.unit);
+    let short = |si: f64| short(shown.of_si(si));
+    let unit = match shown.name.as_str() {
         "" => String::new(),
         unit => format!(" {}", typeset(unit)),
     };
@@ -318,12 +334,6 @@ fn operations(count: &Count) -> String {
         let _ = write!(text, " + {}", counted(calls, "call"));
     }
     text
-}
-
-/// A number with at most ten digits.
-fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
-    format!("{}", rounded + 0.0)
 }
 
 fn as_json(scene: &Scene, costs: &Costs) -> Value {
@@ -362,7 +372,9 @@ fn as_json(scene: &Scene, costs: &Costs) -> Value {
         .parameters
         .iter()
         .map(|p| {
-            json!({ "name": p.name, "default": p.default, "min": p.min, "max": p.max, "unit": p.unit })
+            let unit = model.units.system.unit(&p.unit);
+            let [min, max] = [p.min, p.max].map(|bound| bound.map(|si| unit.of_si(si)));
+            json!({ "name": p.name, "default": unit.of_si(p.default), "min": min, "max": max, "unit": unit.name })
         })
         .collect();
     let outputs: Vec<Value> = model

@@ -51,7 +51,7 @@ Examples:
   bryant effects my.yaml --only belt --all
   bryant effects child-seat --json > effects.json")]
 pub struct Arguments {
-    /// Name of a bundled model, or path of a YAML file
+    /// Name of a bundled model, or path of a YAML or URDF file
     model: String,
 
     /// Count operations only, and time nothing

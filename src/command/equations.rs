@@ -44,7 +44,7 @@ Examples:
   bryant equations my.yaml --json                    values at the start
   echo '{\"t\": 0, \"q\": [0.1, 0, 0, 0.2], \"v\": [0, 0, 0, 1]}' | bryant equations sled-pendulum --at - --json")]
 pub struct Arguments {
-    /// Name of a bundled model, or path of a YAML file
+    /// Name of a bundled model, or path of a YAML or URDF file
     model: String,
 
     /// Print LaTeX
@@ -367,6 +367,8 @@ fn describe(curve: &Curve) -> String {
 
 /// Largest number of points of a curve that are listed.
 const POINTS_SHOWN: usize = 12;
+/// Digits of a number.
+const DIGITS: usize = 7;
 
 /// The values as text: S as a grid; the vectors as columns beside the names of the velocities.
 fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
@@ -385,7 +387,7 @@ fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
         let line = format!(
             "{:first$}  {:>14}  {}",
             variable.name,
-            number(*value),
+            number(*value, DIGITS),
             typeset(variable.unit)
         );
         let _ = writeln!(text, "{}", line.trim_end());
@@ -404,7 +406,9 @@ fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
             values.r_k[i],
             values.acceleration[i],
         ];
-        let numbers = numbers.map(|n| format!("{:>14}", number(n))).join("  ");
+        let numbers = numbers
+            .map(|n| format!("{:>14}", number(n, DIGITS)))
+            .join("  ");
         let force = if unit == "m/s" { "N" } else { "N·m" };
         let _ = writeln!(
             text,
@@ -413,7 +417,10 @@ fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
     }
     text.push_str("\nS [kg between translations, kg·m between translation and rotation, kg·m² between rotations]\n");
     for row in &values.mass_matrix {
-        let row: Vec<String> = row.iter().map(|n| format!("{:>14}", number(*n))).collect();
+        let row: Vec<String> = row
+            .iter()
+            .map(|n| format!("{:>14}", number(*n, DIGITS)))
+            .collect();
         let _ = writeln!(text, "{}", row.join(" "));
     }
     text

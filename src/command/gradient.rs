@@ -14,6 +14,8 @@ use super::terminal::Terminal;
 use crate::accuracy::check::{FAR, PROMISED};
 use crate::accuracy::conclusion::percent;
 use crate::interrupt;
+use crate::units;
+use bryant_generator::model::units::{Unit, UnitSystem};
 use bryant_generator::model::{Model, Parameter};
 use bryant_runtime::batch::rows::Job;
 use bryant_runtime::batch::{Pace, Settings};
@@ -52,7 +54,7 @@ Examples:
   bryant gradient child-seat --of 'HIC15 of head accelerometer' --of 'clip 3 ms of chest accelerometer' --check
   bryant gradient my.yaml --of 'value at 80 ms of head excursion' --set belt_stiffness='40 kN'")]
 pub struct Arguments {
-    /// Bundled model or YAML file
+    /// Name of a bundled model, or path of a YAML or URDF file
     model: String,
 
     /// Response to differentiate; may be repeated
@@ -95,6 +97,10 @@ pub struct Arguments {
     /// Print everything as JSON
     #[arg(long)]
     json: bool,
+
+    /// Units of responses and parameters: SI, or engineering (mm, g, kN, °, kPa, ms) [default: as the model says]
+    #[arg(long, value_name = "SYSTEM", value_parser = units::system())]
+    units: Option<UnitSystem>,
 }
 
 /// Largest number of steps of a run.
@@ -102,7 +108,8 @@ const MOST_STEPS: u32 = 10_000_000;
 impl Arguments {
     /// Differentiates and prints.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
-        let found = find(&self.model)?;
+        let mut found = find(&self.model)?;
+        found.show_in(self.units);
         found.tell(terminal);
         let model = &found.model;
         let set = parse_parameters(&self.set, &found.scene)?;
@@ -149,7 +156,12 @@ impl Arguments {
         let (found, checked) = result?;
         let gradients = &found.gradients;
         let done = gradients.rows.len();
+        let system = model.units.system;
+        let units = parameters.iter().map(|one| system.unit(&one.unit));
+        let units: Vec<Unit> = units.collect();
         let table = Table {
+            units: &units,
+            error: found.error,
             responses: &responses,
             parameters: &parameters[..done],
             row: &row[..done],

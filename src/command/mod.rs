@@ -26,6 +26,8 @@ mod stability;
 mod sweep;
 mod terminal;
 
+pub(crate) use terminal::fitted;
+
 use crate::{interrupt, process};
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_runtime::program::{ErrorKind, RunError};

@@ -47,7 +47,9 @@ impl Found {
     /// Shows outputs in units of this system, except those with a unit of their own. `None` keeps the system of the
     /// model.
     pub fn show_in(&mut self, system: Option<UnitSystem>) {
-        self.model.units.system = system.unwrap_or(self.model.units.system);
+        let system = system.unwrap_or(self.model.units.system);
+        self.model.units.system = system;
+        self.scene.model.units.system = system;
     }
 
     /// Prints the notes about the import of a URDF file.

@@ -7,6 +7,7 @@ use super::Error;
 use super::model_argument::nearest;
 use crate::quantity;
 use crate::sweep::response_of;
+use bryant_generator::model::units::Unit;
 use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::response::filter::{Class, Filter, MEAN};
 use bryant_study::criteria::{self, Criterion};
@@ -17,9 +18,9 @@ use bryant_study::response::{self, NAMES, What, channel_of};
 pub struct Requested {
     /// Its name, the same as in a study.
     pub name: String,
-    /// SI unit, "" for a pure number.
-    pub unit: String,
-    /// The length of its time window \[s\], if it has one.
+    /// The unit in which it is shown.
+    pub unit: Unit,
+    /// The length of its window, if it has one \[s\].
     pub window: Option<f64>,
     /// The response as a request to the runtime.
     pub asked: Asked,
@@ -106,7 +107,7 @@ impl Requested {
     pub fn of_study(response: &response::Response) -> Requested {
         Requested {
             name: response.name.clone(),
-            unit: response.si.clone(),
+            unit: response.unit.clone(),
             window: response.what.window(),
             asked: Asked {
                 channel: response.channel,
@@ -170,7 +171,7 @@ impl Requested {
                 Some(filter) => format!("{title} of {}, {filter}", of.name),
                 None => format!("{title} of {}", of.name),
             },
-            unit: what.unit(&of.unit),
+            unit: facts.unit_for(&what.unit(&of.unit), of),
             window: what.window(),
             asked: Asked {
                 channel: channel_of(output, filter.as_deref().or(of.filter.as_deref())),
@@ -374,7 +375,7 @@ mod tests {
         ] {
             let response = read(text, &model).unwrap_or_else(|error| panic!("{error:?}"));
             assert_eq!(
-                (response.name.as_str(), response.unit.as_str()),
+                (response.name.as_str(), response.unit.name.as_str()),
                 (name, unit)
             );
         }

@@ -72,7 +72,7 @@ Examples:
   bryant run child-seat --start state.json
   bryant run child-seat --report child-seat.html")]
 pub struct Arguments {
-    /// Name of a bundled model, or path of a YAML file
+    /// Name of a bundled model, or path of a YAML or URDF file
     model: String,
 
     /// Integrator [default: dopri5, and rodas5 where the scene is stiff; rk4 where --step is given]

@@ -423,7 +423,7 @@ fn plan(study: &Study, found: &Found, terminal: &mut Terminal) -> Result<(), Err
         terminal.print(&format!("and {} more\n", study.rows - SHOWN))?;
     }
     for response in &study.responses {
-        let unit = match response.unit.as_str() {
+        let unit = match response.unit.name.as_str() {
             "" => String::new(),
             unit => format!(" [{unit}]"),
         };

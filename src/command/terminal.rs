@@ -28,12 +28,22 @@ impl Terminal {
     pub fn new() -> Self {
         // must be asked before standard output is moved
         let closed = process::stdout_was_closed();
+        Self::over(guard::stdout_for_results(), closed)
+    }
+
+    fn over(output: Box<dyn guard::Output>, closed: bool) -> Self {
         Self {
-            output: BufWriter::new(guard::stdout_for_results()),
+            output: BufWriter::new(output),
             closed,
             told: false,
             begin: Instant::now(),
         }
+    }
+
+    /// One for a test, which leaves standard output where it is.
+    #[cfg(test)]
+    pub fn of_test() -> Self {
+        Self::over(Box::new(io::stdout()), false)
     }
 
     /// Prints a result.
@@ -143,9 +153,9 @@ fn message_width() -> Option<usize> {
     Some(usize::from(width.0).max(NARROWEST))
 }
 
-/// Breaks lines that have more than `width` characters between words; the rest of such a line is indented by two more
-/// characters than its beginning. Other lines are not changed.
-fn fitted(text: &str, width: usize) -> String {
+/// The text with lines of at most `width` characters. A line that is too long is broken between words; what follows hangs below its beginning, two
+/// characters further in. Lines that fit stay as they are.
+pub fn fitted(text: &str, width: usize) -> String {
     let mut lines = Vec::new();
     for line in text.lines() {
         if line.chars().count() <= width {

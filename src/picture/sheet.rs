@@ -345,6 +345,9 @@ impl Sheet {
         if any(&|f| !f.bags.is_empty()) {
             entries.push(Entry::new("bag", "airbag"));
         }
+        if any(&|f| !f.meshes.is_empty()) {
+            entries.push(Entry::new("mesh", "mesh (only shown)"));
+        }
         if any(&|f| !f.planes.is_empty()) {
             entries.push(Entry::new("plane", "contact plane (hatched behind)"));
         }
@@ -493,6 +496,16 @@ impl Entry {
                 ];
                 let [a, b, c, d] = corners;
                 drawing.polyline("face", &[a, b, c, d, a]);
+            }
+            "mesh" => {
+                let corners = [
+                    [x, y + 6.0],
+                    [x + 22.0, y + 6.0],
+                    [x + 15.0, y - 6.0],
+                    [x + 4.0, y - 4.0],
+                ];
+                let [a, b, c, d] = corners;
+                drawing.polyline(&self.class, &[a, b, c, d, a]);
             }
             "bone" => {
                 drawing.open("sample", self.opacity);

@@ -71,7 +71,50 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::page;
+    use bryant_picture::text::typeset;
     use serde_json::json;
+
+    /// The page writes units as pictures and terminals do: what its script replaces, read from its text, is what the program replaces.
+    #[test]
+    fn the_page_writes_units_as_the_program_does() {
+        let script = include_str!("common.js");
+        let mut lines = script.lines();
+        let line = lines.find_map(|line| line.strip_prefix("const typeset = (unit) => unit"));
+        let each = line.unwrap().trim_end_matches(';').split(".replace(/");
+        let each = each.skip(1).map(|one| {
+            let (pattern, by) = one.split_once("/g, \"").unwrap();
+            (pattern.replace('\\', ""), by.strip_suffix("\")").unwrap())
+        });
+        let each: Vec<(String, &str)> = each.collect();
+        assert!(each.len() > 3);
+        let by_page = |unit: &str| {
+            each.iter().fold(unit.to_owned(), |unit, (pattern, by)| {
+                unit.replace(pattern, by)
+            })
+        };
+        for unit in [
+            "",
+            "m",
+            "m/s^2",
+            "N*m",
+            "N*m*s/rad",
+            "kg*m^2",
+            "m^3",
+            "kg/m^3",
+            "m^2/s^3",
+            "deg",
+            "deg/s",
+            "rad/s^2",
+            "N*m/deg",
+            "kPa",
+            "1/s",
+            "m^4",
+            "g",
+            "mm/(N*s)",
+        ] {
+            assert_eq!(by_page(unit), typeset(unit), "{unit}");
+        }
+    }
 
     #[test]
     fn names_of_a_model_cannot_leave_their_place() {

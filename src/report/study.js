@@ -33,7 +33,9 @@ function mark(c, from, to) {
 function histogram(response) {
   const column = data.parameters.length + response, about = data.responses[response];
   const box = element("div", null, { class: "plot" }), canvas = element("canvas", null, { "aria-label": `distribution of ${about.name}` });
-  box.append(canvas);
+  const stage = element("div", null, { class: "stage" }), reading = element("div", null, { class: "reading", hidden: "" });
+  stage.append(canvas, reading);
+  box.append(stage);
   byId("curves").append(box);
   const values = runs.map((run) => run.values[column]).filter((v) => v !== null);
   const limits = about.limit === null ? [] : [about.limit];
@@ -47,6 +49,16 @@ function histogram(response) {
     return found;
   };
   const whole = counts(runs), most = 1.08 * Math.max(1, ...whole);
+  // the bar under the pointer: from where to where, and how many runs
+  canvas.addEventListener("pointermove", (e) => {
+    const x = e.clientX - canvas.getBoundingClientRect().left, { left, right } = canvas.places, bar = Math.floor(((x - left) / (right - left)) * bins);
+    reading.hidden = !(bar >= 0 && bar < bins);
+    if (reading.hidden) return;
+    const [from, to] = [bar, bar + 1].map((k) => readable(low + (k / bins) * (high - low))), of = counts(chosen())[bar];
+    const lines = [{ name: "runs", value: String(whole[bar]) }, ...(brush ? [{ name: "of them chosen", value: String(of) }] : [])];
+    showReading(reading, canvas, x, `${from} to ${to}${about.unit ? ` ${about.unit}` : ""}`, lines);
+  });
+  canvas.addEventListener("pointerleave", () => { reading.hidden = true; });
   return () => chart(canvas, [low, high], [0, most], [label(about), "runs"], (c, px, py, { top, bottom }) => {
     const bars = (of, colour, alpha) => of.forEach((count, k) => {
       const [x, y] = [px(low + (k / bins) * (high - low)), py(count)];

@@ -5,7 +5,7 @@ use bryant_signal::unit;
 use bryant_study::distribution::Distribution;
 use bryant_study::quantity::strict;
 use bryant_study::results::{Results, ResultsError};
-use bryant_study::study::{Levels, Plan, RandomDesign};
+use bryant_study::study::{Levels, Plan, RandomDesign, Study};
 use bryant_study::summary::Summary;
 use serde_json::{Value, json};
 
@@ -48,44 +48,110 @@ pub fn page(
     about: &About,
 ) -> Result<String, ResultsError> {
     let study = results.study;
-    let d = study.varied.len();
-    let stride = study.rows.div_ceil(MOST_RUNS).max(1);
-    let judged = |name: &str| about.criteria.iter().find(|one| one.name == name);
-    // the unit of a criterion in that of the results
-    let factor = |one: &Judged, unit: &str| unit::factor(one.unit, unit).unwrap_or(one.scale);
-    let limits = study.responses.iter().map(|response| {
-        let one = judged(&response.name)?;
-        Some(one.limit? * factor(one, &response.unit))
+    let runs = Runs::of(results, about)?;
+    let fixed = study.fixed.iter();
+    let mut options: Vec<String> = fixed
+        .map(|one| format!("--set {}={}", one.name, one.value))
+        .collect();
+    options.extend(study.run.duration.map(|t| format!("--duration {t}")));
+    let data = json!({
+        "title": format!("{} runs of {}", study.rows, study.model),
+        "model": study.model,
+        "version": env!("CARGO_PKG_VERSION"),
+        "digest": about.digest,
+        "identity": summary.identity,
+        "runs": study.rows,
+        "thinned": runs.stride > 1,
+        "design": design(&study.plan),
+        "kept": runs.kept,
+        "ends": summary.ends,
+        "reasons": summary.reasons,
+        "errors": summary.errors.text().trim(),
+        "parameters": parameters(study),
+        "responses": responses(summary, about, &runs.within),
+        "rows": runs.rows,
+        "fixed": options,
+        "command": format!("bryant run {} --responses {}", quoted(&about.model), quoted(&about.study)),
+        "made": about.command,
     });
-    let limits: Vec<Option<f64>> = limits.collect();
-    let mut rows: Vec<Value> = Vec::new();
-    let mut within = vec![0u64; study.responses.len()];
-    let mut kept = 0u64;
-    for batch in results.batches() {
-        let batch = batch?;
-        for (k, run) in batch.outcomes.runs.iter().enumerate() {
-            let row = batch.first + k as u64;
-            let responses = batch.outcomes.of(k);
-            let mut all = true;
-            for (count, (limit, value)) in within.iter_mut().zip(limits.iter().zip(responses)) {
-                if let Some(limit) = limit {
-                    *count += u64::from(value <= limit);
-                    // a value that is not known keeps no limit
-                    all &= value <= limit;
+    let title = format!("{} runs of {}", study.rows, study.model);
+    let scripts = [include_str!("common.js"), include_str!("study.js")];
+    Ok(filled(include_str!("study.html"), &title, &data, &scripts))
+}
+
+/// The runs of a study.
+struct Runs {
+    /// Every so many are shown.
+    stride: u64,
+    /// Those, with all digits, so that one can be made again.
+    rows: Vec<Value>,
+    /// How many keep the limit of each response.
+    within: Vec<u64>,
+    /// How many keep all limits.
+    kept: u64,
+}
+
+impl Runs {
+    fn of(results: &Results<'_>, about: &About) -> Result<Self, ResultsError> {
+        let study = results.study;
+        let d = study.varied.len();
+        let limits = study.responses.iter().map(|response| {
+            let one = about.judged(&response.name)?;
+            Some(one.limit? * one.factor(&response.unit.name))
+        });
+        let limits: Vec<Option<f64>> = limits.collect();
+        let mut runs = Runs {
+            stride: study.rows.div_ceil(MOST_RUNS).max(1),
+            rows: Vec::new(),
+            within: vec![0; study.responses.len()],
+            kept: 0,
+        };
+        for batch in results.batches() {
+            let batch = batch?;
+            for (k, run) in batch.outcomes.runs.iter().enumerate() {
+                let row = batch.first + k as u64;
+                let responses = batch.outcomes.of(k);
+                let mut all = true;
+                for (count, (limit, value)) in
+                    runs.within.iter_mut().zip(limits.iter().zip(responses))
+                {
+                    if let Some(limit) = limit {
+                        *count += u64::from(value <= limit);
+                        // a value that is not known keeps no limit
+                        all &= value <= limit;
+                    }
                 }
+                runs.kept += u64::from(all);
+                if !row.is_multiple_of(runs.stride) {
+                    continue;
+                }
+                let mut cells = vec![json!(row), json!(run.status.word()), json!(run.error)];
+                cells.extend(batch.values[k * d..][..d].iter().map(|x| json!(x)));
+                cells.extend(responses.iter().map(|y| json!(y)));
+                runs.rows.push(cells.into());
             }
-            kept += u64::from(all);
-            if !row.is_multiple_of(stride) {
-                continue;
-            }
-            let mut cells = vec![json!(row), json!(run.status.word()), json!(run.error)];
-            // all digits, so that a row can be run again
-            cells.extend(batch.values[k * d..][..d].iter().map(|x| json!(x)));
-            cells.extend(responses.iter().map(|y| json!(y)));
-            rows.push(cells.into());
         }
+        Ok(runs)
     }
-    let parameters = study.varied.iter().enumerate().map(|(index, p)| {
+}
+
+impl About {
+    /// The criterion that a response is.
+    fn judged(&self, response: &str) -> Option<&Judged> {
+        self.criteria.iter().find(|one| one.name == response)
+    }
+}
+
+impl Judged {
+    /// Its unit in that of the results.
+    fn factor(&self, unit: &str) -> f64 {
+        unit::factor(self.unit, unit).unwrap_or(self.scale)
+    }
+}
+
+/// What is varied, in the units of the study.
+fn parameters(study: &Study) -> Vec<Value> {
+    let each = study.varied.iter().enumerate().map(|(index, p)| {
         // the rows are in SI, as a command takes them
         let factor = strict(&format!("1 {}", p.shown), &p.unit).unwrap_or(1.0);
         json!({
@@ -95,9 +161,14 @@ pub fn page(
             "values": values(&study.plan, index, factor),
         })
     });
-    let responses = summary.responses.iter().zip(&within).map(|(one, within)| {
-        let judged = judged(&one.name);
-        let factor = judged.map_or(1.0, |judged| factor(judged, &one.unit));
+    each.collect()
+}
+
+/// The responses, criteria in their units. So many runs are `within` the limit of each.
+fn responses(summary: &Summary, about: &About, within: &[u64]) -> Vec<Value> {
+    let each = summary.responses.iter().zip(within).map(|(one, within)| {
+        let judged = about.judged(&one.name);
+        let factor = judged.map_or(1.0, |judged| judged.factor(&one.unit));
         let shown = |value: f64| value / factor;
         json!({
             "name": one.name,
@@ -114,34 +185,7 @@ pub fn page(
             "within": *within as f64 / one.count.max(1) as f64,
         })
     });
-    let fixed = study.fixed.iter();
-    let mut options: Vec<String> = fixed
-        .map(|one| format!("--set {}={}", one.name, one.value))
-        .collect();
-    options.extend(study.run.duration.map(|t| format!("--duration {t}")));
-    let data = json!({
-        "title": format!("{} runs of {}", study.rows, study.model),
-        "model": study.model,
-        "version": env!("CARGO_PKG_VERSION"),
-        "digest": about.digest,
-        "identity": summary.identity,
-        "runs": study.rows,
-        "thinned": stride > 1,
-        "design": design(&study.plan),
-        "kept": kept,
-        "ends": summary.ends,
-        "reasons": summary.reasons,
-        "errors": summary.errors.text().trim(),
-        "parameters": parameters.collect::<Vec<_>>(),
-        "responses": responses.collect::<Vec<_>>(),
-        "rows": rows,
-        "fixed": options,
-        "command": format!("bryant run {} --responses {}", quoted(&about.model), quoted(&about.study)),
-        "made": about.command,
-    });
-    let title = format!("{} runs of {}", study.rows, study.model);
-    let scripts = [include_str!("common.js"), include_str!("study.js")];
-    Ok(filled(include_str!("study.html"), &title, &data, &scripts))
+    each.collect()
 }
 
 /// The design in words.

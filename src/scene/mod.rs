@@ -1,20 +1,21 @@
 //! A motion as it is seen: bodies with their shapes, and what acts between them, at every time. Pictures, the page of a report and animations are made of this.
 //! What a law looks like is said by the law ([`Outputs::looks`](bryant_generator::law::Outputs::looks)).
 
+mod bodies;
 mod bones;
+mod build;
 mod camera;
 pub mod mesh;
 mod planes;
 mod route;
 
 use crate::picture::Instant;
-use crate::pose::{Frame, Layout, Mismatch, Numbers, Pose, Vec3, bryant_rotation, dot};
-use bryant_generator::law::{self, Look, Round};
-use bryant_generator::model::{
-    Active, Attachment, BeltLength, Body, Dimension, ElementId, Force, Model, Number, Output,
-    Quantity, Reference, Shown,
-};
-use planes::Planes;
+use crate::pose::{Frame, Layout, Mismatch, Numbers, Pose, Vec3, dot};
+use bryant_generator::law::{self, Look};
+use bryant_generator::model::{Active, Dimension, Force, Model, Output, Quantity, Shown};
+use build::Builder;
+
+pub use bodies::Bodies;
 
 /// A motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,94 +173,6 @@ pub fn needs_forces(model: &Model) -> bool {
     model.forces.iter().any(changes)
 }
 
-/// The columns that [`with_forces`] adds, read one after the other: each has a value for each time.
-struct Columns<'a>(std::slice::Iter<'a, Vec<f64>>);
-
-impl<'a> Columns<'a> {
-    fn next(&mut self) -> &'a [f64] {
-        self.0.next().map_or(&[], Vec::as_slice)
-    }
-
-    /// A vector for each time, if there are columns.
-    fn vector(&mut self) -> Option<impl Fn(usize) -> Vec3 + use<'a>> {
-        let columns = [self.next(), self.next(), self.next()];
-        let known = columns.iter().all(|column| !column.is_empty());
-        known.then_some(move |k| columns.map(|column: &[f64]| column[k]))
-    }
-}
-
-/// The bodies of a model in one list.
-pub struct Bodies<'a> {
-    model: &'a Model,
-    /// Index of the first body of each system; vehicles follow after all elements.
-    first: Vec<usize>,
-    elements: usize,
-}
-
-impl<'a> Bodies<'a> {
-    /// Those of a model.
-    pub fn of(model: &'a Model) -> Self {
-        let mut elements = 0;
-        let first = model.systems.iter().map(|system| {
-            elements += system.elements.len();
-            elements - system.elements.len()
-        });
-        let first = first.collect();
-        Bodies {
-            model,
-            first,
-            elements,
-        }
-    }
-
-    fn ids(&self) -> impl Iterator<Item = ElementId> + '_ {
-        let systems = self.model.systems.iter().enumerate();
-        systems.flat_map(|(system, of)| {
-            (0..of.elements.len()).map(move |element| ElementId { system, element })
-        })
-    }
-
-    fn all(&self) -> impl Iterator<Item = Body> + '_ {
-        let vehicles = (0..self.model.vehicles.len()).map(Body::Vehicle);
-        self.ids().map(Body::Element).chain(vehicles)
-    }
-
-    /// The index of a body; `None` for the frame.
-    pub fn index(&self, body: Body) -> Option<usize> {
-        match body {
-            Body::Frame => None,
-            Body::Element(id) => Some(self.first[id.system] + id.element),
-            Body::Vehicle(index) => Some(self.elements + index),
-        }
-    }
-
-    fn named(&self) -> Vec<Named> {
-        let named = |body| match body {
-            Body::Element(ElementId { system, element }) => {
-                let of = &self.model.systems[system];
-                Named {
-                    name: format!("{}/{}", of.name, of.elements[element].name),
-                    system: Some(system),
-                    parent: match (of.elements[element].parent, &of.reference) {
-                        (Some(parent), _) => Some(self.first[system] + parent),
-                        (None, Reference::Riding { vehicle, .. }) => {
-                            self.index(Body::Vehicle(*vehicle))
-                        }
-                        (None, _) => None,
-                    },
-                }
-            }
-            Body::Vehicle(index) => Named {
-                name: self.model.vehicles[index].name.clone(),
-                system: None,
-                parent: None,
-            },
-            Body::Frame => unreachable!("it is no body of the list"),
-        };
-        self.all().map(named).collect()
-    }
-}
-
 impl Scene {
     /// A motion through these instants. `coordinates` are the names of q, `parameters` the values of the run (SI, in the model's order). `forces` has a column for
     /// each output that [`with_forces`] adds, with a value for each instant, or no column.
@@ -362,189 +275,6 @@ impl Ellipsoid {
     }
 }
 
-/// A part of a scene that is not finished.
-struct Builder<'a> {
-    bodies: Bodies<'a>,
-    numbers: Numbers<'a>,
-    scene: &'a mut Scene,
-}
-
-impl Builder<'_> {
-    fn add(mut self, forces: &[Vec<f64>]) {
-        let model = self.bodies.model;
-        let mut columns = Columns(forces.iter());
-        let mut planes = Planes::default();
-        for (index, force) in model.forces.iter().enumerate() {
-            for look in force.kind.looks() {
-                self.look((index, &force.name), look, &mut columns, &mut planes);
-            }
-        }
-        for look in model.shown.iter().filter_map(Shown::look) {
-            let none = (model.forces.len(), "surface");
-            self.look(none, look, &mut columns, &mut planes);
-        }
-        debug_assert!(columns.0.len() == 0);
-        self.scene.planes = planes.finish();
-        if !self.scene.planar {
-            let scene = &mut *self.scene;
-            let ways = |line: &Line| match line.kind {
-                Kind::Belt => route::ways(scene, &line.points),
-                _ => line.ways.clone(),
-            };
-            let ways: Vec<_> = scene.lines.iter().map(ways).collect();
-            for (line, ways) in scene.lines.iter_mut().zip(ways) {
-                line.ways = ways;
-            }
-        }
-        self.points();
-    }
-
-    /// Adds a part of the force with this index and name.
-    fn look(
-        &mut self,
-        (index, name): (usize, &str),
-        look: Look<'_>,
-        columns: &mut Columns<'_>,
-        planes: &mut Planes,
-    ) {
-        match look {
-            Look::Round(round) => self.ellipsoid(round, None),
-            Look::Bag(round, _) => self.ellipsoid(round, Some(columns.next().to_vec())),
-            Look::Plane(plane, round) => {
-                planes.add(name, (plane, round), &self.bodies, self.numbers, self.scene);
-            }
-            Look::Push(round, plane) => {
-                let normal = plane.map(|plane| {
-                    let body = self.bodies.index(plane.at.on);
-                    (body, self.numbers.vector(&plane.normal))
-                });
-                if let Some(force) = columns.vector() {
-                    self.pushes(index, round, normal, force);
-                }
-            }
-            Look::Line(kind, points) => {
-                let vectors = (1..points.len()).filter_map(|_| columns.vector());
-                let vectors: Vec<_> = vectors.collect();
-                self.line(name, kind, &points, &vectors);
-            }
-        }
-    }
-
-    fn place(&self, attachment: &Attachment) -> Place {
-        Place {
-            body: self.bodies.index(attachment.on),
-            at: self.numbers.vector(&attachment.at),
-        }
-    }
-
-    fn round(&self, round: Round<'_>) -> Ellipsoid {
-        let mut semi = self.numbers.vector(round.semi_axes);
-        if self.scene.planar {
-            semi[1] = semi[0].min(semi[2]);
-        }
-        Ellipsoid {
-            center: self.place(round.center),
-            turn: bryant_rotation(self.numbers.vector(round.axes)),
-            semi,
-            degree: round.degree,
-            fill: None,
-        }
-    }
-
-    /// Adds an ellipsoid, even if several forces have it once. `volume` is that of the gas in a bag.
-    fn ellipsoid(&mut self, round: Round<'_>, volume: Option<Vec<f64>>) {
-        let mut ellipsoid = self.round(round);
-        let full = 4.0 / 3.0 * std::f64::consts::PI * ellipsoid.semi.iter().product::<f64>();
-        ellipsoid.fill = volume.map(|volume| volume.iter().map(|v| v / full).collect());
-        if !self.scene.ellipsoids.contains(&ellipsoid) {
-            self.scene.ellipsoids.push(ellipsoid);
-        }
-    }
-
-    fn line(
-        &mut self,
-        name: &str,
-        kind: law::Line<'_>,
-        points: &[&Attachment],
-        forces: &[impl Fn(usize) -> Vec3],
-    ) {
-        let points: Vec<Place> = points.iter().map(|point| self.place(point)).collect();
-        let scene = &mut *self.scene;
-        let at = |k: usize, i: usize| scene.point(k, points[i]);
-        let pulls = forces.iter().enumerate().map(|(i, force)| {
-            let pull = |k| {
-                let along = from_to(at(k, i), at(k, i + 1));
-                dot(force(k), along) / length(along).max(1e-12)
-            };
-            (0..scene.times.len()).map(pull).collect()
-        });
-        let pulls = pulls.collect();
-        let (kind, length) = match kind {
-            law::Line::Belt(belt) if !scene.times.is_empty() => {
-                let points: Vec<Vec3> = (0..points.len()).map(|i| at(0, i)).collect();
-                (
-                    Kind::Belt,
-                    Some(untensioned(self.numbers, belt, way(&points))),
-                )
-            }
-            law::Line::Belt(_) => (Kind::Belt, None),
-            law::Line::Spring => (Kind::Spring, None),
-            law::Line::Bushing => (Kind::Bushing, None),
-        };
-        scene.lines.push(Line {
-            name: name.to_owned(),
-            kind,
-            ways: vec![Vec::new(); points.len() - 1],
-            points,
-            length,
-            pulls,
-        });
-    }
-
-    /// Adds the forces on the body of an ellipsoid at all times. `normal` is that of the plane that it meets, with its body.
-    fn pushes(
-        &mut self,
-        index: usize,
-        round: Round<'_>,
-        normal: Option<(Option<usize>, Vec3)>,
-        force: impl Fn(usize) -> Vec3,
-    ) {
-        let ellipsoid = self.round(round);
-        for k in 0..self.scene.times.len() {
-            let on_body = force(k);
-            if dot(on_body, on_body) == 0.0 || !on_body.iter().all(|f| f.is_finite()) {
-                continue;
-            }
-            let normal = normal.map_or(on_body, |(body, normal)| {
-                self.scene.frame(k, body).direction(normal)
-            });
-            let at = self.scene.deepest(k, &ellipsoid, normal);
-            self.scene.pushes[k].push(Push {
-                force: index,
-                at,
-                on_body,
-            });
-        }
-    }
-
-    /// Adds the points that outputs refer to.
-    fn points(&mut self) {
-        for output in &self.bodies.model.outputs {
-            let Quantity::Point { body, at, .. } = &output.quantity else {
-                continue;
-            };
-            let place = Place {
-                body: self.bodies.index(*body),
-                at: self.numbers.vector(at),
-            };
-            if !self.scene.points.iter().any(|(_, known)| *known == place) {
-                let name = format!("point of {}", output.name);
-                self.scene.points.push((name, place));
-            }
-        }
-    }
-}
-
 impl Scene {
     /// The point of an ellipsoid that is farthest in the direction −n: c − Q n/√(nᵀQ n).
     fn deepest(&self, k: usize, ellipsoid: &Ellipsoid, normal: Vec3) -> Vec3 {
@@ -560,21 +290,6 @@ impl Scene {
         let c = self.point(k, ellipsoid.center);
         let size = squared.sqrt().max(1e-300);
         std::array::from_fn(|i| c[i] - sum[i] / size)
-    }
-}
-
-/// Untensioned length of a belt whose points are `initial` apart at the start \[m\].
-fn untensioned(numbers: Numbers<'_>, belt: &bryant_generator::model::Belt, initial: f64) -> f64 {
-    let value = |number: &Number| numbers.value(number);
-    match &belt.length {
-        BeltLength::Given(length) => value(length),
-        BeltLength::Slack(slack) => initial + value(slack),
-        BeltLength::Pretension(force) => {
-            let curve = &numbers.model.curves[belt.force.curve];
-            let ordinate = value(force) / value(&belt.force.times);
-            let elongation = value(&belt.force.stretch) * curve.inverse(ordinate);
-            initial / (1.0 + elongation)
-        }
     }
 }
 

@@ -153,7 +153,7 @@ impl Outcomes {
     pub fn show_in_units_of(&mut self, responses: &[Response]) {
         for row in self.responses.chunks_mut(self.width.max(1)) {
             for (value, response) in row.iter_mut().zip(responses) {
-                *value = response.in_unit(*value);
+                *value = response.unit.of_si(*value);
             }
         }
     }

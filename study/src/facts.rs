@@ -3,6 +3,7 @@
 
 use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::model::scene::Scene;
+use bryant_generator::model::units::{Unit, UnitSystem};
 use bryant_generator::model::{
     Body, Dimension, Field, FieldComponent, ForceKind, Model, PointQuantity, Quantity,
 };
@@ -32,7 +33,13 @@ pub struct ModelFacts {
     /// The criteria that its runs are judged by.
     #[serde(default)]
     pub criteria: Option<CriteriaFact>,
+    /// The unit in which times are shown; `None` for seconds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<Unit>,
 }
+
+/// The SI unit of time.
+const TIME: &str = "s";
 
 /// The criteria that the runs of a model are judged by.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -92,9 +99,9 @@ pub struct OutputFact {
     pub name: String,
     /// SI unit, "" for a pure number.
     pub unit: String,
-    /// The unit in which responses show it, and the SI value of that unit; `None` for the SI unit.
+    /// The unit in which it is shown; `None` for the SI unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shown: Option<(String, f64)>,
+    pub shown: Option<Unit>,
     /// Its channel code of ISO-MME.
     #[serde(default)]
     pub code: Option<String>,
@@ -139,9 +146,7 @@ impl ModelFacts {
         let outputs = model.outputs.iter().map(|output| OutputFact {
             name: output.name.clone(),
             unit: output.unit.clone(),
-            shown: Some(model.unit_of(output))
-                .filter(|unit| unit.name != output.unit)
-                .map(|unit| (unit.name, unit.size)),
+            shown: Some(model.unit_of(output)).filter(|unit| unit.name != output.unit),
             code: output.code.clone(),
             filter: output.filter.map(str::to_owned),
             resultant: match &output.quantity {
@@ -164,6 +169,7 @@ impl ModelFacts {
         ModelFacts {
             planar: model.dimension == Dimension::Plane,
             criteria,
+            time: Some(model.units.system.unit(TIME)).filter(|unit| unit.name != TIME),
             parameters: parameters.collect(),
             outputs: outputs.collect(),
             unused: scene.unused_parameters(),
@@ -190,6 +196,22 @@ impl ModelFacts {
         )
     }
 
+    /// The unit in which times are shown.
+    pub fn unit_of_time(&self) -> Unit {
+        let shown = self.time.clone();
+        shown.unwrap_or_else(|| UnitSystem::Si.unit(TIME))
+    }
+
+    /// The unit in which a response of an output is shown. One of another unit than the output, as an integral over time, is a time or is
+    /// shown in SI.
+    pub fn unit_for(&self, si: &str, output: &OutputFact) -> Unit {
+        match si {
+            si if si == output.unit => output.unit_shown(),
+            TIME => self.unit_of_time(),
+            si => UnitSystem::Si.unit(si),
+        }
+    }
+
     /// A parameter by its name.
     pub fn parameter(&self, name: &str) -> Option<&ParameterFact> {
         self.parameters.iter().find(|p| p.name == name)
@@ -204,8 +226,15 @@ impl ModelFacts {
     }
 }
 
-/// A field counts as gravity if it is constant, its slope from the vertical is at most `SLOPE`, and it is at most
-/// `LARGEST` times standard gravity.
+impl OutputFact {
+    /// The unit in which it is shown.
+    pub fn unit_shown(&self) -> Unit {
+        let shown = self.shown.clone();
+        shown.unwrap_or_else(|| UnitSystem::Si.unit(&self.unit))
+    }
+}
+
+/// A field is gravity if it is constant, points down within this slope, and has no more than this many times standard gravity.
 const SLOPE: f64 = 0.6;
 const LARGEST: f64 = 1.1;
 

@@ -6,6 +6,7 @@ use crate::facts::OutputFact;
 use crate::quantity::dimension;
 use bryant_generator::description::unit::Dimension;
 use bryant_generator::diagnostic::quoted;
+use bryant_generator::model::units::Unit;
 use bryant_runtime::response::Channel;
 use bryant_runtime::response::filter::Filter;
 use serde::Serialize;
@@ -26,19 +27,9 @@ pub struct Response {
     pub of: String,
     /// The kind of response.
     pub what: What,
-    /// Unit of the number, "" if it has no unit.
-    pub unit: String,
-    /// The SI value of that unit.
-    #[serde(skip_serializing_if = "is_si")]
-    pub size: f64,
-    /// The SI unit of the same quantity.
-    #[serde(skip)]
-    pub si: String,
-}
-
-/// True for the size of an SI unit.
-fn is_si(size: &f64) -> bool {
-    *size == 1.0
+    /// The unit of the number.
+    #[serde(flatten)]
+    pub unit: Unit,
 }
 
 impl Response {
@@ -48,16 +39,7 @@ impl Response {
         of.find_map(|index| self.what.caution(outputs.get(*index)?))
     }
 
-    /// The number in its unit, from its SI value.
-    pub fn in_unit(&self, si: f64) -> f64 {
-        // without a division, all digits stay as they are
-        match is_si(&self.size) {
-            true => si,
-            false => si / self.size,
-        }
-    }
-
-    /// The longest time between samples that its filter allows \[s\]; `None` without a filter.
+    /// The longest time between samples that its filter allows \[s\], if it has a filter.
     pub fn longest_interval(&self) -> Option<f64> {
         self.channel
             .filter

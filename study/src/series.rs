@@ -9,6 +9,7 @@ use crate::store::write::{WriteError, at, replace};
 use crate::study::Study;
 use crate::table::csv::{heading, number};
 use bryant_generator::description::load::open_file;
+use bryant_generator::model::units::Unit;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -51,9 +52,9 @@ pub(crate) fn write(
         sampler.values(row, &mut values);
         let series = worker.series(&values)?;
         at(&path, std::fs::create_dir_all(folder.path().join("series")))?;
-        let columns = columns(study, &series)?;
+        let columns = columns(study, series)?;
         replace(&path, |out| -> Result<(), WriteError> {
-            at(&path, table(out, &headings(study), &series.times, &columns))
+            at(&path, table(out, &headings(study), &columns))
         })?;
         written += 1;
     }
@@ -67,30 +68,28 @@ pub fn path(folder: &Path, row: u64) -> PathBuf {
 
 /// Headings of all columns.
 fn headings(study: &Study) -> Vec<String> {
-    let kept = study
-        .keep
-        .outputs
-        .iter()
-        .map(|output| heading(&output.name, &output.unit));
-    std::iter::once("time [s]".to_owned()).chain(kept).collect()
+    let time = study.keep.time.as_ref().map_or("s", |unit| &unit.name);
+    let kept = study.keep.outputs.iter();
+    let kept = kept.map(|output| heading(&output.name, &output.unit.name));
+    std::iter::once(heading("time", time)).chain(kept).collect()
 }
 
-/// The series of the outputs that are kept.
-fn columns<'a>(study: &Study, series: &'a Series) -> Result<Vec<&'a [f64]>, EngineError> {
-    let column = |index: usize| {
-        let values = series
-            .outputs
-            .get(index)
-            .filter(|values| values.len() == series.times.len());
-        let missing = || EngineError(format!("the engine has no series of output {index}"));
-        values.map(Vec::as_slice).ok_or_else(missing)
+/// The times and the outputs that are kept, in their units.
+fn columns(study: &Study, series: Series) -> Result<Vec<Vec<f64>>, EngineError> {
+    let Series { times, outputs } = series;
+    let shown = |unit: &Unit, si: &[f64]| si.iter().map(|si| unit.of_si(*si)).collect();
+    let kept = study.keep.outputs.iter().map(|kept| {
+        let values = outputs.get(kept.index);
+        let values = values.filter(|values| values.len() == times.len());
+        let missing = || EngineError(format!("the engine has no series of output {}", kept.index));
+        Ok(shown(&kept.unit, values.ok_or_else(missing)?))
+    });
+    let kept: Vec<Vec<f64>> = kept.collect::<Result<_, EngineError>>()?;
+    let times = match &study.keep.time {
+        Some(unit) => shown(unit, &times),
+        None => times,
     };
-    study
-        .keep
-        .outputs
-        .iter()
-        .map(|output| column(output.index))
-        .collect()
+    Ok(std::iter::once(times).chain(kept).collect())
 }
 
 /// True if the file exists with these columns. An existing file is complete, but it may be from a time when other
@@ -111,17 +110,11 @@ fn record(out: &mut dyn io::Write, fields: &[String]) -> io::Result<()> {
     writer.flush()
 }
 
-fn table(
-    out: &mut dyn io::Write,
-    headings: &[String],
-    times: &[f64],
-    columns: &[&[f64]],
-) -> io::Result<()> {
+fn table(out: &mut dyn io::Write, headings: &[String], columns: &[Vec<f64>]) -> io::Result<()> {
     let mut writer = ::csv::Writer::from_writer(out);
     writer.write_record(headings)?;
-    for (k, time) in times.iter().enumerate() {
-        let values = columns.iter().map(|column| number(column[k]));
-        writer.write_record(std::iter::once(number(*time)).chain(values))?;
+    for k in 0..columns[0].len() {
+        writer.write_record(columns.iter().map(|column| number(column[k])))?;
     }
     writer.flush()
 }

@@ -3,6 +3,7 @@
 use crate::distribution::Distribution;
 use crate::facts::ModelFacts;
 use crate::response::Response;
+use bryant_generator::model::units::Unit;
 use bryant_runtime::response::filter::{Class, Filter};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -261,7 +262,7 @@ impl Precision {
 }
 
 /// Runs whose time series are kept.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Keep {
     /// Indices of such runs, in increasing order.
     pub runs: Vec<u64>,
@@ -269,17 +270,19 @@ pub struct Keep {
     pub every: Option<u64>,
     /// The outputs that are kept.
     pub outputs: Vec<KeptOutput>,
+    /// The unit of the times; `None` for seconds.
+    pub time: Option<Unit>,
 }
 
 /// An output whose time series is kept.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct KeptOutput {
     /// Index among the model's outputs.
     pub index: usize,
     /// Its name.
     pub name: String,
-    /// SI unit, "" for a pure number.
-    pub unit: String,
+    /// The unit in which it is kept.
+    pub unit: Unit,
 }
 
 /// Formats of tables.

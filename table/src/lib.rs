@@ -4,10 +4,13 @@
 //! byte order mark are skipped. A field may be in quotation marks. The first line may have headings such as `ax [g]`,
 //! with the unit of the column.
 //!
-//! Ambiguous text is refused: a line with more or fewer fields than the first line, and a decimal comma.
+//! [`unit`] has all units, with their sizes and dimensions.
+//!
+//! What could be read in two ways is refused: a line with more or fewer fields than the first one, and a decimal comma.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod heading;
+pub mod unit;
 
 pub use heading::Heading;
 

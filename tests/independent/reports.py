@@ -380,6 +380,17 @@ def study(browser, url, results):
             at = told.index(name)
             same(told[at + 1], float(rows[index][name]) / scale, name)
             expect(told[at + 2] == unit, f"{name} is in {told[at + 2]}")
+        # a histogram reads its bars: all of them together are all runs
+        left, top, width, height = page.box("document.querySelector('#curves canvas')")
+        bars, told = 0, set()
+        for share in range(1, 200):
+            page.hover(left + width * share / 200, top + height / 2)
+            line = page.js("[...document.querySelectorAll('#curves .reading')[0].querySelectorAll('b, output')].map((e) => e.textContent)")
+            if not page.js("document.querySelectorAll('#curves .reading')[0].hidden") and line[0] not in told:
+                told.add(line[0])
+                bars += int(line[1])
+        expect(bars == len(rows), f"the bars have {bars} of {len(rows)} runs")
+        left, top, _, _ = page.box("byId('scatter')")
         page.click(left + x, top + y)
         command = page.js("byId('command').textContent")
         # commands take SI

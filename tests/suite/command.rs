@@ -7,8 +7,10 @@ mod certification;
 mod checked;
 mod comparing;
 mod continued;
+mod costs;
 mod degenerate;
 mod formulas;
+mod functions;
 mod grazing;
 mod judged;
 mod last_screen;
@@ -23,8 +25,10 @@ mod replacing;
 mod reports;
 mod responses;
 mod resting;
+mod robots;
 mod scenes;
 mod share;
+mod singular;
 mod slipping;
 mod slopes;
 mod stiff;
@@ -446,172 +450,6 @@ fn a_wrong_model_is_an_error_with_its_place() {
     );
 }
 
-const ARM: &str = r#"<robot name="two-arm">
-<link name="base"/>
-<link name="Upper Arm">
-  <visual><geometry><mesh filename="arm.stl"/></geometry></visual>
-  <inertial><origin xyz="0 0 -0.2"/><mass value="2"/><inertia ixx="0.03" ixy="0" ixz="0.001" iyy="0.03" iyz="0" izz="0.01"/></inertial>
-</link>
-<joint name="shoulder" type="revolute">
-  <parent link="base"/><child link="Upper Arm"/><origin xyz="0 0 1" rpy="0 0 1.5708"/><axis xyz="0 1 0"/>
-  <limit lower="-0.5" upper="0.5" effort="1" velocity="1"/>
-</joint>
-</robot>
-"#;
-
-#[test]
-fn a_robot_is_imported_and_runs() {
-    let directory = directory();
-    std::fs::write(directory.path().join("arm.urdf"), ARM).unwrap();
-    let (written, notes) = call(directory.path(), &["import", "arm.urdf"], 0);
-    assert!(
-        written.contains("name: upper_arm") && written.contains("# Imported from arm.urdf."),
-        "{written}"
-    );
-    assert!(written.contains("mesh: { file: \"arm.stl\","), "{written}");
-    for part in ["--stops", "--right-angles", "line 8"] {
-        assert!(notes.contains(part), "{part}\n{notes}");
-    }
-    let (nothing, _) = call(
-        directory.path(),
-        &["import", "arm.urdf", "-o", "arm.yaml"],
-        0,
-    );
-    assert!(nothing.is_empty());
-    // and a line with the checksum of all lines above
-    let kept = std::fs::read_to_string(directory.path().join("arm.yaml")).unwrap();
-    let (above, last) = kept.trim_end().rsplit_once('\n').unwrap();
-    assert_eq!(above.trim_end(), written.trim_end());
-    assert!(last.starts_with("# Written by bryant"), "{last}");
-    // the file and the model imported from it are one model
-    let table = |model| call(directory.path(), &["run", model, "--no-files"], 0).0;
-    assert_eq!(table("arm.urdf"), table("arm.yaml"));
-    assert!(table("arm.urdf").contains("shoulder"));
-    // whoever runs the file gets the notes of the import
-    for command in ["run", "check"] {
-        let (_, told) = call(directory.path(), &[command, "arm.urdf"], 0);
-        for note in notes.lines() {
-            assert!(told.contains(note), "{command}: {note}\n{told}");
-        }
-        let (_, told) = call(directory.path(), &[command, "arm.yaml"], 0);
-        assert!(!told.contains("--stops"), "{command}: {told}");
-    }
-    // an error that only the model shows has its place in the file: a hinge that moves no inertia
-    let flat = ARM.replace("0 0 -0.2", "0 0 0");
-    let flat = ["0.03", "0.001", "0.01"]
-        .into_iter()
-        .fold(flat, |text, value| {
-            text.replace(&format!("=\"{value}\""), "=\"0\"")
-        });
-    std::fs::write(directory.path().join("flat.urdf"), flat).unwrap();
-    for command in ["import", "run", "check"] {
-        let (_, wrong) = call(directory.path(), &[command, "flat.urdf"], 2);
-        assert!(
-            wrong.contains("without any inertia") && wrong.contains("flat.urdf:3:"),
-            "{command}: {wrong}"
-        );
-    }
-    // effects have the places of the links and joints
-    let (effects, _) = call(directory.path(), &["effects", "arm.urdf", "--no-time"], 0);
-    assert!(!effects.contains("arm.urdf:1 "), "{effects}");
-    let (held, _) = call(
-        directory.path(),
-        &["import", "arm.urdf", "--stops", "1e5"],
-        0,
-    );
-    assert!(
-        held.contains("stop: { from: -0.5, to: 0.5, stiffness: 1e5 }"),
-        "{held}"
-    );
-    let (_, wrong) = call(
-        directory.path(),
-        &["import", "arm.urdf", "--stops", "-1"],
-        2,
-    );
-    assert!(wrong.contains("positive"), "{wrong}");
-    std::fs::write(
-        directory.path().join("wrong.urdf"),
-        ARM.replace("0 1 0", "0 0 0"),
-    )
-    .unwrap();
-    for command in ["import", "run", "check"] {
-        let (_, wrong) = call(directory.path(), &[command, "wrong.urdf"], 2);
-        assert!(
-            wrong.contains("wrong.urdf:8:") && wrong.contains("help:"),
-            "{wrong}"
-        );
-    }
-}
-
-#[test]
-fn a_robot_is_known_by_the_content_of_its_file() {
-    let directory = directory();
-    let write = |name: &str, text: &str| std::fs::write(directory.path().join(name), text).unwrap();
-    for name in ["arm.urdf", "ARM.URDF", "arm.xml", "arm.txt"] {
-        write(name, ARM);
-    }
-    write("blank.urdf", &format!("\n {ARM}"));
-    for command in [&["run", "--no-files"][..], &["equations"]] {
-        let of = |name: &str| call(directory.path(), &[command, &[name]].concat(), 0).0;
-        for name in ["ARM.URDF", "arm.xml", "arm.txt", "blank.urdf"] {
-            assert_eq!(of(name), of("arm.urdf"), "{command:?} {name}");
-        }
-    }
-    call(directory.path(), &["check", "ARM.URDF"], 0);
-    // other encodings of XML: UTF-16 as PowerShell writes it, and ISO 8859-1 where the file says so
-    let marked = format!("\u{feff}{ARM}");
-    let utf16 = marked.encode_utf16().flat_map(u16::to_le_bytes);
-    let latin = format!("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><!-- \u{fc} -->\n{ARM}");
-    let latin = latin.chars().map(|c| c as u8);
-    for (name, bytes) in [
-        ("utf16.urdf", utf16.collect::<Vec<u8>>()),
-        ("latin.urdf", latin.collect()),
-    ] {
-        std::fs::write(directory.path().join(name), bytes).unwrap();
-        let run = |name| call(directory.path(), &["run", "--no-files", name], 0).0;
-        assert_eq!(run(name), run("arm.urdf"), "{name}");
-    }
-    // what is no robot is named by what it is, in every command that takes a model
-    write("pendulum.xml", "<mujoco model=\"pendulum\"/>");
-    write("world.sdf", "<sdf version=\"1.7\"/>");
-    for command in ["check", "run", "equations", "effects", "settle", "import"] {
-        for (name, what) in [("pendulum.xml", "MJCF"), ("world.sdf", "SDF")] {
-            let (_, wrong) = call(directory.path(), &[command, name], 2);
-            assert!(
-                wrong.contains(what) && wrong.contains("help:"),
-                "{command}: {wrong}"
-            );
-        }
-    }
-    // a file of shapes alone is refused, and repaired on demand
-    let start = ARM.find("  <inertial>").unwrap();
-    let end = ARM.find("</inertial>").unwrap() + "</inertial>".len();
-    write("shape.urdf", &[&ARM[..start], &ARM[end..]].concat());
-    let (_, wrong) = call(directory.path(), &["check", "shape.urdf"], 2);
-    assert!(wrong.contains("--repair-inertias"), "{wrong}");
-    let import = [
-        "import",
-        "shape.urdf",
-        "--repair-inertias",
-        "-o",
-        "shape.yaml",
-    ];
-    let (_, told) = call(directory.path(), &import, 0);
-    assert_eq!(told.matches("repaired: ").count(), 2, "{told}");
-    call(directory.path(), &["check", "shape.yaml"], 0);
-}
-
-#[test]
-fn a_missing_compiler_is_named_with_the_remedy() {
-    let directory = ball();
-    let (_, stderr) = without_a_toolchain(directory.path(), &["run", "ball.yaml"], 1);
-    assert!(
-        stderr.contains("/nonexistent/rustc") && stderr.contains("RUSTC="),
-        "{stderr}"
-    );
-    assert!(!directory.path().join("ball.csv").exists());
-}
-
 #[test]
 fn check_says_what_is_in_a_model() {
     let directory = directory();
@@ -803,422 +641,6 @@ fn a_parameter_that_changes_nothing_is_refused_with_the_reason() {
     );
 }
 
-/// The example of the documentation page: its model and its function.
-fn ball() -> tempfile::TempDir {
-    let page = include_str!("../../docs/forces/user.md");
-    let block = |language: &str| {
-        let begin = format!("```{language}\n");
-        let (_, rest) = page.split_once(&begin).expect("a block");
-        rest.split("```").next().expect("its end").to_owned()
-    };
-    let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("ball.yaml"), block("yaml")).unwrap();
-    std::fs::write(directory.path().join("drag.rs"), block("rust")).unwrap();
-    directory
-}
-
-/// A ball in air lands before and below a ball without drag: v_t² = 2 m g/(ρ c_d A) = 134 m²/s².
-#[test]
-fn a_force_of_the_users_own_runs_from_its_page() {
-    let directory = ball();
-    let here = directory.path();
-    let run = |arguments: &[&str]| {
-        let arguments = [&["run", "ball.yaml", "--no-files", "--json"], arguments].concat();
-        let (out, _) = call(here, &arguments, 0);
-        json(&out)["rows"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(numbers)
-            .collect::<Vec<_>>()
-    };
-    let (drawn, free) = (run(&[]), run(&["--set", "cd=0"]));
-    let last = |rows: &[Vec<f64>]| rows[rows.len() - 1].clone();
-    // without drag x = 20 t, z = 15 t − g t²/2, within the tolerance of the run
-    let (g, t) = (9.80665, 3.0);
-    let [time, x, z, drag] = last(&free)[..] else {
-        panic!("{free:?}")
-    };
-    assert!(time == t && drag == 0.0);
-    assert!((x - 20.0 * t).abs() < 1e-3 && (z - (15.0 * t - g * t * t / 2.0)).abs() < 1e-3);
-    // with drag, by steps of a tenth of a millisecond of the midpoint rule, whose error is below 1e-6 here
-    let k = 0.5 * 1.2 * 0.47 * 13e-4 / 0.05;
-    let (mut p, mut v, h) = ([0.0, 0.0], [20.0f64, 15.0], 1e-4);
-    let rate = |v: [f64; 2]| {
-        let speed = v[0].hypot(v[1]);
-        [-k * speed * v[0], -k * speed * v[1] - g]
-    };
-    for _ in 0..30_000 {
-        let a = rate(v);
-        let middle = [v[0] + h / 2.0 * a[0], v[1] + h / 2.0 * a[1]];
-        let a = rate(middle);
-        for i in 0..2 {
-            p[i] += h * middle[i];
-            v[i] += h * a[i];
-        }
-    }
-    let [_, x, z, drag] = last(&drawn)[..] else {
-        panic!("{drawn:?}")
-    };
-    assert!(
-        (x - p[0]).abs() < 1e-3 && (z - p[1]).abs() < 1e-3,
-        "{x} {z} {p:?}"
-    );
-    let expected = 0.05 * k * (v[0] * v[0] + v[1] * v[1]);
-    assert!(
-        (drag - expected).abs() < 1e-4 * expected,
-        "{drag} {expected}"
-    );
-}
-
-#[test]
-fn what_the_compiler_finds_in_a_function_is_shown_in_its_file() {
-    let directory = ball();
-    let file = directory.path().join("drag.rs");
-    let text = std::fs::read_to_string(&file).unwrap();
-    std::fs::write(&file, text.replace("* speed;", "* sped;")).unwrap();
-    let (_, err) = call(directory.path(), &["run", "ball.yaml", "--no-files"], 2);
-    assert!(err.contains("drag.rs:6:"), "{err}");
-    assert!(err.contains("cannot find value `sped`"), "{err}");
-    assert!(err.contains("similar name exists: `speed`"), "{err}");
-    assert!(!err.contains("fault of bryant"), "{err}");
-
-    // the example of the page
-    std::fs::write(
-        &file,
-        text.replace("points.centre.velocity", "points.center.velocity"),
-    )
-    .unwrap();
-    let (_, err) = call(directory.path(), &["check", "ball.yaml"], 2);
-    let page = include_str!("../../docs/forces/user.md");
-    assert!(page.contains(err.trim()), "{err}");
-}
-
-#[test]
-fn a_changed_function_is_compiled_again() {
-    let directory = ball();
-    let drag = || {
-        let (out, _) = call(
-            directory.path(),
-            &["run", "ball.yaml", "--no-files", "--json"],
-            0,
-        );
-        numbers(&json(&out)["rows"][0])[3]
-    };
-    let before = drag();
-    let file = directory.path().join("drag.rs");
-    let text = std::fs::read_to_string(&file).unwrap();
-    std::fs::write(&file, text.replace("-0.5", "-1.0")).unwrap();
-    let after = drag();
-    // the compiler may fuse other operations of the changed text
-    assert!(
-        (after / (2.0 * before) - 1.0).abs() < 1e-12,
-        "{after} after {before}"
-    );
-}
-
-#[test]
-fn a_skeleton_is_a_function_that_compiles_and_does_nothing() {
-    let directory = ball();
-    let here = directory.path();
-    std::fs::remove_file(here.join("drag.rs")).unwrap();
-    let (_, err) = call(here, &["run", "ball.yaml"], 2);
-    assert!(err.contains("there is no file \"drag.rs\""), "{err}");
-    let (out, _) = call(here, &["check", "ball.yaml", "--skeleton", "air"], 0);
-    std::fs::write(here.join("drag.rs"), &out).unwrap();
-    let (out, _) = call(here, &["run", "ball.yaml", "--no-files", "--json"], 0);
-    let rows = json(&out)["rows"].as_array().unwrap().clone();
-    assert!(rows.iter().all(|row| numbers(row)[3] == 0.0), "{out}");
-    let (_, err) = call(here, &["check", "ball.yaml", "--skeleton", "ait"], 2);
-    assert!(err.contains("did you mean \"air\"?"), "{err}");
-}
-
-/// r_k of a ball of 50 g is its weight and −½ ρ c_d A |v| v, r_s is 0, and S v̇ = r_k.
-#[test]
-fn equations_at_a_state_have_the_functions_of_the_user() {
-    let directory = ball();
-    let here = directory.path();
-    let state = |vx: f64, vz: f64| {
-        let state = format!("{{\"q\": [0, 2, 0.3], \"v\": [{vx}, {vz}, 0]}}");
-        std::fs::write(here.join("state.json"), state).unwrap();
-    };
-    let at = |cd: &str| {
-        let arguments = [
-            "equations",
-            "ball.yaml",
-            "--at",
-            "state.json",
-            "--json",
-            "--set",
-            cd,
-        ];
-        json(&call(here, &arguments, 0).0)
-    };
-    let (vx, vz) = (12.0, -5.0);
-    state(vx, vz);
-    for cd in [0.0, 0.47, 1.5] {
-        let found = at(&format!("cd={cd}"));
-        let factor = -0.5 * 1.2 * cd * 13e-4 * 13.0;
-        let expected = [factor * vx, factor * vz - 0.05 * 9.80665, 0.0];
-        let (force, rate) = (numbers(&found["r_k"]), numbers(&found["acceleration"]));
-        for i in 0..3 {
-            assert!((force[i] - expected[i]).abs() < 1e-12, "{found}");
-        }
-        for i in 0..2 {
-            assert!((0.05 * rate[i] - expected[i]).abs() < 1e-12, "{found}");
-        }
-    }
-    // as a table
-    let (out, _) = call(here, &["equations", "ball.yaml", "--at", "state.json"], 0);
-    assert!(out.contains("ball.vx"), "{out}");
-    // a function that panics reports the place
-    let file = here.join("drag.rs");
-    let text = std::fs::read_to_string(&file).unwrap();
-    let panics = text.replace(
-        "let mut output",
-        "panic!(\"no air\");\n    #[allow(unreachable_code)]\n    let mut output",
-    );
-    assert_ne!(panics, text);
-    std::fs::write(&file, panics).unwrap();
-    let arguments = ["equations", "ball.yaml", "--at", "state.json"];
-    let (_, err) = call(here, &arguments, 3);
-    assert!(
-        err.contains("panicked: no air") && err.contains("drag.rs:"),
-        "{err}"
-    );
-}
-
-#[test]
-fn what_only_a_crate_can_call_is_said() {
-    let directory = ball();
-    let here = directory.path();
-    let (out, _) = call(here, &["equations", "ball.yaml"], 0);
-    assert!(out.contains("drag_returns_centre_force_x(t, "), "{out}");
-
-    let model = std::fs::read_to_string(here.join("ball.yaml")).unwrap();
-    let lines = model.lines().filter(|line| !line.contains("source:"));
-    let lines: Vec<&str> = lines.collect();
-    let model = lines
-        .join("\n")
-        .replace("function: drag ", "function: crate::aero::drag ");
-    std::fs::write(here.join("ball.yaml"), model).unwrap();
-    let (out, _) = call(here, &["check", "ball.yaml"], 0);
-    assert!(out.contains("user        air"), "{out}");
-    let (_, err) = call(here, &["run", "ball.yaml"], 2);
-    assert!(
-        err.contains("calls crate::aero::drag") && err.contains("source: FILE.rs"),
-        "{err}"
-    );
-}
-
-/// Arguments for a study of the clock: few points, one repetition, and so much time that a pause of a busy machine does not make a point
-/// look too slow to run.
-const STUDY: [&str; 15] = [
-    "accuracy",
-    "clock.yaml",
-    "--quick",
-    "--methods",
-    "rk4,dop853",
-    "--tolerances",
-    "1e-2..1e-10",
-    "--steps",
-    "10 ms..1 ms",
-    "--repetitions",
-    "1",
-    "--budget",
-    "1 h",
-    "--no-files",
-    "--json",
-];
-
-/// The lines of a diagram with their numbers of points, and its legend: the parts that do not depend on times.
-fn structure(svg: &str) -> Vec<String> {
-    let mut parts: Vec<String> = svg
-        .lines()
-        .filter_map(|line| {
-            let class = line.strip_prefix("<polyline class=\"line")?;
-            let (class, points) = class.split_once("\" points=\"")?;
-            Some(format!("{class}: {}", points.matches(',').count()))
-        })
-        .collect();
-    // the legend has a column of its own, to the right of the frame
-    let legend = svg.lines().filter(|line| line.contains(" x=\"748\" "));
-    parts.extend(legend.filter_map(|line| Some(line.split_once('>')?.1.to_owned())));
-    parts
-}
-
-/// θ̈ = −κ sin θ swings at ω = √κ, κ = m g l/J = 2·9.81·0.5/0.6: a step that errs by the tolerance changes the end of a run of T = 1 s by
-/// at most (1 + ωT) times as much.
-#[test]
-fn errors_fall_with_the_tolerance_and_are_written_down() {
-    let directory = directory();
-    let here = directory.path();
-    let mut arguments = STUDY.to_vec();
-    arguments.extend(["--csv", "a.csv", "--picture", "a.svg", "--picture", "a.png"]);
-    arguments.extend(["--markdown", "a.md"]);
-    let (out, _) = call(here, &arguments, 0);
-    let study = json(&out);
-    let points = study["points"].as_array().unwrap();
-
-    // the reference is the closed form; the computed solution agrees with it up to the rounding of its constants
-    let epsilon = f64::EPSILON;
-    let phase = (2.0 * 9.81 * 0.5f64 / 0.6).sqrt();
-    let closed = &study["reference"]["closed_form"];
-    assert!(
-        closed["name"].as_str().unwrap().contains("pendulum"),
-        "{closed}"
-    );
-    let difference = closed["difference"].as_f64().unwrap();
-    assert!(
-        difference < (16.0 + 16.0 * phase) * epsilon,
-        "{difference:e}"
-    );
-
-    let of = |method: &str, scalar: &str, pace: &str| -> Vec<&serde_json::Value> {
-        let wanted = |p: &&serde_json::Value| {
-            p["method"] == method && p["scalar"] == scalar && p[pace].is_number()
-        };
-        points.iter().filter(wanted).collect()
-    };
-    let controlled = of("dop853", "f64", "tolerance");
-    assert_eq!(controlled.len(), 5);
-    let mut errors = Vec::new();
-    for point in controlled {
-        let [error, steps, tolerance] =
-            ["error_state", "steps", "tolerance"].map(|key| point[key].as_f64().unwrap());
-        assert!(error <= steps * tolerance * (1.0 + phase), "{point}");
-        errors.push(error);
-    }
-    // neighbours with about five steps each may have similar errors; over four decades the tolerance shows
-    let fall = errors.windows(3).all(|three| three[2] < three[0]);
-    assert!(fall, "{errors:?}");
-    // between steps of 10 ms and 1 ms, ωh = 0.04 and 0.004, the classical method has its order
-    let fixed = of("rk4", "f64", "step_s");
-    let order = fixed[1]["order"].as_f64().unwrap();
-    assert!((order - 4.0).abs() < 0.1, "{order}");
-    // the error in single precision is at least ε of it
-    for point in of("dop853", "f32", "step_s") {
-        let error = point["error_state"].as_f64().unwrap();
-        assert!(error > 0.1 * f64::from(f32::EPSILON), "{point}");
-    }
-
-    // the file has the same numbers, and the settings that they were computed with (serde_json reads a number to within a unit in the last
-    // place)
-    let same = |text: String, value: &serde_json::Value| match (text.parse::<f64>(), value.as_f64())
-    {
-        (Ok(a), Some(b)) => (a - b).abs() <= 2.0 * epsilon * b.abs(),
-        _ => false,
-    };
-    let mut table = csv::Reader::from_path(here.join("a.csv")).unwrap();
-    let headings = table.headers().unwrap().clone();
-    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
-    assert_eq!(rows.len(), points.len());
-    let cell = |row: &csv::StringRecord, name: &str| -> String {
-        let column = headings.iter().position(|h| h == name);
-        row[column.unwrap_or_else(|| panic!("{name}: {headings:?}"))].to_owned()
-    };
-    for (row, point) in rows.iter().zip(points) {
-        assert_eq!(cell(row, "status"), "done", "{row:?}");
-        for (column, key) in [
-            ("error in the state", "error_state"),
-            ("gap of energy", "energy_gap"),
-            ("wall time median [s]", "wall_median_s"),
-            ("wall time 95th percentile [s]", "wall_95_s"),
-            ("evaluations", "evaluations"),
-            ("operations", "operations"),
-            ("largest step [s]", "largest_step_s"),
-        ] {
-            let text = cell(row, column);
-            assert!(same(text.clone(), &point[key]), "{column}: {text}, {point}");
-        }
-        let swing = &point["readings"]["peak swing"]["error"];
-        assert!(same(cell(row, "error in peak swing"), swing));
-        assert_eq!(cell(row, "method"), point["method"].as_str().unwrap());
-        assert_eq!(cell(row, "model digest"), study["digest"].as_str().unwrap());
-        for column in ["bryant", "commit", "engine", "target", "CPU features"] {
-            assert!(!cell(row, column).is_empty(), "{column}");
-        }
-    }
-
-    // a picture that is drawn again has the same lines and legend, whatever the times were
-    let svg = std::fs::read_to_string(here.join("a.svg")).unwrap();
-    assert!(svg.contains("for 1 % in the worst of") && svg.contains("Pareto front"));
-    let first = structure(&svg);
-    assert!(
-        first.iter().any(|part| part.starts_with("dop853")),
-        "{first:?}"
-    );
-    let mut again = STUDY.to_vec();
-    again.extend(["--picture", "b.svg"]);
-    call(here, &again, 0);
-    let second = std::fs::read_to_string(here.join("b.svg")).unwrap();
-    assert_eq!(first, structure(&second));
-    let png = std::fs::read(here.join("a.png")).unwrap();
-    assert!(png.starts_with(b"\x89PNG\r\n"));
-    let page = std::fs::read_to_string(here.join("a.md")).unwrap();
-    let sentence = study["sentence"].as_str().unwrap();
-    assert!(
-        page.contains(&sentence[1..]) && page.contains("](a.svg)"),
-        "{page}"
-    );
-    assert!(
-        page.contains("bryant accuracy clock.yaml --methods rk4,dop853"),
-        "{page}"
-    );
-}
-
-/// A time that a `Duration` cannot hold is still a valid time.
-#[test]
-fn a_study_may_have_more_time_than_there_is() {
-    let directory = directory();
-    let mut arguments = vec!["accuracy", "clock.yaml", "--quick", "--methods", "rk4"];
-    arguments.extend(["--steps", "10 ms..1 ms", "--repetitions", "1"]);
-    arguments.extend(["--budget", "1e300 s", "--no-files", "--json"]);
-    let (out, _) = call(directory.path(), &arguments, 0);
-    let study = json(&out);
-    let points = study["points"].as_array().unwrap();
-    assert!(!points.is_empty());
-    for point in points {
-        assert!(point["error_state"].is_number(), "{point}");
-    }
-}
-
-#[test]
-fn a_study_that_cannot_be_is_refused_with_what_can() {
-    let directory = directory();
-    let here = directory.path();
-    let refused = |arguments: &[&str], words: &[&str]| {
-        let mut all = vec!["accuracy", "clock.yaml"];
-        all.extend(arguments);
-        let (_, err) = call(here, &all, 2);
-        for word in words {
-            assert!(err.contains(word), "{arguments:?}: {err}");
-        }
-    };
-    refused(&["--methods", "rk5"], &["rk4", "dop853", "rodas5"]);
-    for wrong in ["0..1e-3", "1e-3..-1e-6", "1..1e-6", "nan"] {
-        refused(&["--tolerances", wrong], &["1e-2..1e-10"]);
-    }
-    refused(&["--steps", "2 s..1 ms"], &["longer than the run of 1 s"]);
-    refused(
-        &["--steps", "500 ms..1 ms"],
-        &["between two samples", "100 ms"],
-    );
-    refused(
-        &["--of", "swings"],
-        &["swing", "bob height", "state", "worst"],
-    );
-    refused(&["--picture", "a.pdf"], &[".svg", ".png"]);
-    refused(&["--set", "gravity=-1"], &["at least 0"]);
-
-    // the scene itself cannot run to its end
-    let (_, err) = call(here, &["accuracy", "cut-short.yaml", "--quick"], 3);
-    assert!(
-        err.contains("nothing to measure errors against") && err.contains("at t = 0.05 s the rate"),
-        "{err}"
-    );
-}
-
 /// Heun's method at ωh = √(m g l/J) h = 4.04 · 0.1 gains (ωh)⁴/4 = 0.7 % of energy in each step of a small swing.
 #[test]
 fn a_run_that_cannot_be_trusted_ends_with_3_and_says_why() {
@@ -1262,208 +684,59 @@ fn a_run_that_cannot_be_trusted_ends_with_3_and_says_why() {
     call(here, &finer, 0);
 }
 
-/// A body on a joint, with a force on it or without.
-fn on_a_joint(joint: &str, force: &str) -> String {
-    format!(
-        "model: several
-dimension: 3
-systems:
-  - name: arm
-    reference: fixed
-    elements: [{{ name: hand, mass: 2 kg, cg: [0.1, 0.2, 0.3], inertia: [0.1, 0.2, 0.25], joint: {joint} }}]
-forces: [{{ field: earth, acceleration: [0, 0, -9.81] }}{force}]
-run: {{ duration: 1 s, every: 0.1 s }}
-"
-    )
-}
-
+/// A table of times alone says nothing: what to add is said in its place, and works as it is written.
 #[test]
-fn a_start_in_a_singular_position_of_a_joint_is_named() {
+fn a_model_without_outputs_says_what_to_add() {
     let directory = tempfile::tempdir().unwrap();
-    let three = "[ { hinge: z }, { hinge: y }, { hinge: x } ]";
-    let text = on_a_joint(three, "");
-    let with = |angle: &str| {
-        let start = format!("start: {{ joints: {{ hand: [0 deg, {angle}, 0 deg] }} }}\nforces");
-        text.replace("forces", &format!("    {start}"))
-    };
-    let run = |angle: &str, code: i32| {
-        std::fs::write(directory.path().join("several.yaml"), with(angle)).unwrap();
-        call(
-            directory.path(),
-            &["run", "several.yaml", "--no-files"],
-            code,
-        )
-        .1
-    };
-    for angle in ["90 deg", "-90 deg", "89.99999999 deg"] {
-        let told = run(angle, 3);
-        assert!(
-            told.contains("the joint of \"arm/hand\" is in, or close to, a singular position")
-                && told.contains("there angle-z and angle-x move the element alike"),
-            "{told}"
-        );
-    }
-    // the run can continue away from there
-    run("60 deg", 0);
-    // where rounding alone says how it leaves such a position, it is not trusted
-    let euler = "[ { hinge: z, name: a }, { hinge: x, name: b }, { hinge: z, name: c } ]";
-    let start = "    start: { joints: { hand: [0, 180 deg, 0] } }\nforces";
-    let text = on_a_joint(euler, "").replace("forces", start);
-    let run = |text: String, code: i32| {
-        std::fs::write(directory.path().join("several.yaml"), text).unwrap();
-        let arguments = ["run", "several.yaml", "--no-files", "--no-verify"];
-        call(directory.path(), &arguments, code).1
-    };
-    let told = run(text.clone(), 3);
+    let here = directory.path();
+    let model = "model: m\ndimension: 2\nsystems:\n  - name: p\n    elements: [{ name: b, mass: 2 kg, cg: [0, 0], inertia: 0.1 }]\nrun: { duration: 0.5 s, every: 0.25 s }\n";
+    std::fs::write(here.join("m.yaml"), model).unwrap();
+    let (told, _) = call(here, &["run", "m.yaml", "--no-files"], 0);
     assert!(
-        told.contains("at the start the joint of \"arm/hand\" is in a singular position")
-            && told.contains("there a and c move the element alike"),
+        told.contains("the model has no outputs") && !told.contains("0.25"),
         "{told}"
     );
-    // a rotor keeps the mass matrix regular
-    run(text.replace("name: c", "name: c, armature: 0.05"), 0);
-}
-
-#[test]
-fn check_warns_of_singular_positions_of_a_joint() {
-    let three = "[ { hinge: z }, { hinge: y }, { hinge: x } ]";
-    let stop = |to: &str| {
-        format!(
-            ", {{ joint: arm/hand, freedom: angle-y, stop: {{ from: -{to}, to: {to}, stiffness: 100 }} }}"
-        )
-    };
-    let tilted = "[ { hinge: z }, { hinge: [0, 1, 1], name: tilt }, { hinge: x } ]";
-    let polar = "[ { hinge: z, name: first }, { slider: x }, { hinge: z, name: last } ]";
-    for (joint, force, told) in [
-        (
-            three,
-            "",
-            Some(
-                "is singular at angle-y = -90° or 90°: there angle-z and angle-x move the element alike",
-            ),
-        ),
-        (
-            "free",
-            "",
-            Some("angle-y = -90° or 90°: there angle-x and angle-z move"),
-        ),
-        (
-            three,
-            &stop("85 deg"),
-            Some("comes within 10° of angle-y = -90° or 90°, where it is singular"),
-        ),
-        (three, &stop("79 deg"), None),
-        // a.(b x c) = 0 if the axis of the last joint lies in the plane of the others
-        (tilted, "", Some("is singular at tilt = -90° or 90°")),
-        (
-            polar,
-            "",
-            Some("is singular at position-x = 0 mm: there first and last move"),
-        ),
-        (
-            "[ { hinge: z, name: a, armature: 0.1 }, { hinge: x, name: b }, { hinge: z, name: c } ]",
-            "",
-            None,
-        ),
-        (
-            "[ { hinge: x, name: a }, { hinge: [1, 1e-5, 0], name: b } ]",
-            "",
-            Some("the axes of a and b of \"arm/hand\" are only 6e-4° apart"),
-        ),
-        (
-            "[ { slider: z, name: a }, { slider: [0.02, 0, -1], name: b } ]",
-            "",
-            Some("are only 1.1° apart"),
-        ),
-        (
-            "[ { hinge: x, name: a }, { hinge: [1, 0.05, 0], name: b } ]",
-            "",
-            None,
-        ),
-        (
-            "[ { hinge: x, name: a }, { slider: [1, 1e-5, 0], name: b } ]",
-            "",
-            None,
-        ),
-        ("{ universal: [x, y] }", "", None),
-        ("{ cylinder: z }", "", None),
-        ("{ planar: z }", "", None),
-        ("translation", "", None),
-        ("{ hinge: x }", "", None),
-    ] {
-        let directory = tempfile::tempdir().unwrap();
-        std::fs::write(
-            directory.path().join("several.yaml"),
-            on_a_joint(joint, force),
-        )
-        .unwrap();
-        let (_, stderr) = call(directory.path(), &["check", "several.yaml"], 0);
-        match told {
-            Some(told) => assert!(stderr.contains(told), "{joint}: {stderr}"),
-            None => assert!(
-                !stderr.contains("singular") && !stderr.contains("apart"),
-                "{joint}: {stderr}"
-            ),
-        }
-    }
-}
-
-#[test]
-fn an_axis_of_parameters_needs_a_direction() {
-    let directory = tempfile::tempdir().unwrap();
-    let scene = on_a_joint("{ hinge: [a, 0, b] }", "")
-        .replace("dimension: 3", "dimension: 3\nparameters: { a: 1, b: 1 }");
-    std::fs::write(directory.path().join("axis.yaml"), scene).unwrap();
-    let run = |set: [&str; 2], code: i32| {
-        let arguments = [
-            "run",
-            "axis.yaml",
-            "--no-files",
-            "--set",
-            set[0],
-            "--set",
-            set[1],
-        ];
-        call(directory.path(), &arguments, code).1
-    };
-    // squares that overflow, vanish, or keep few digits; no direction; no number
-    for set in [
-        ["a=1e200", "b=1"],
-        ["a=1e-200", "b=0"],
-        ["a=1e-162", "b=0"],
-        ["a=0", "b=0"],
-    ] {
-        let told = run(set, 2);
-        assert!(
-            told.contains("`joint` of arm/hand must have an axis with a direction"),
-            "{set:?}: {told}"
-        );
-    }
-    for set in [["a=1e100", "b=1"], ["a=1e-100", "b=0"], ["a=0", "b=-3"]] {
-        run(set, 0);
-    }
-}
-
-#[test]
-fn a_freedom_without_inertia_has_the_remedy_that_helps() {
-    let twice = on_a_joint("[ { hinge: z, name: a }, { hinge: z, name: b } ]", "");
-    let light = on_a_joint("{ hinge: z }", "").replace(
-        "cg: [0.1, 0.2, 0.3], inertia: [0.1, 0.2, 0.25]",
-        "cg: [0, 0, 0.3], inertia: [0.1, 0.1, 0]",
+    let (_, added) = told.split_once("such as\n\n").unwrap();
+    let (added, _) = added.split_once("\n\n").unwrap();
+    std::fs::write(here.join("m.yaml"), format!("{model}{added}\n")).unwrap();
+    let (told, _) = call(here, &["run", "m.yaml", "--no-files"], 0);
+    assert!(told.contains("position") && told.contains("0.25"), "{told}");
+    // a reference that is none of the words
+    let wrong = model.replace("name: p\n", "name: p\n    reference: fixd\n");
+    std::fs::write(here.join("m.yaml"), wrong).unwrap();
+    let (_, told) = call(here, &["check", "m.yaml"], 2);
+    assert!(
+        told.contains("did you mean `fixed`?") && told.contains("on: VEHICLE"),
+        "{told}"
     );
-    for (scene, help) in [
-        (twice, "whatever its mass: remove one of them"),
-        (
-            light,
-            "give what it carries mass or moments of inertia there",
-        ),
-    ] {
-        let directory = tempfile::tempdir().unwrap();
-        std::fs::write(directory.path().join("several.yaml"), scene).unwrap();
-        let (_, stderr) = call(directory.path(), &["check", "several.yaml"], 2);
-        assert!(
-            stderr.contains("without any inertia") && stderr.contains(help),
-            "{stderr}"
-        );
-    }
+}
+
+/// Of two elements of one name the second is told, and nothing that follows from it; what else is wrong is told, too.
+#[test]
+fn two_elements_of_one_name_are_one_error() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let model = "\
+model: two
+dimension: 2
+systems:
+  - name: man
+    elements:
+      - { name: torso, mass: 2 kg, cg: [0, 0], inertia: 0.1 }
+      - { name: torso, on: torso, at: [0, 1], mass: 2 kg, cg: [0, 0], inertia: 0.1 }
+      - { name: head, on: torso, at: [0, 1], mass: 2 kg, cg: [0, 0], inertia: 0.1 }
+forces: [{ joint: man/torso, damping: 1 }]
+outputs:
+  - { name: x, of: man/torso, what: position, component: z }
+  - { name: y, of: man/torsi, what: position, component: z }
+run: { duration: 0.5 s, every: 0.25 s }
+";
+    std::fs::write(here.join("two.yaml"), model).unwrap();
+    let (_, told) = call(here, &["check", "two.yaml"], 2);
+    assert!(
+        told.contains("two elements called \"torso\"") && told.contains("two.yaml:7:"),
+        "{told}"
+    );
+    assert!(told.contains("no element \"man/torsi\""), "{told}");
+    assert_eq!(told.matches("error:").count(), 2, "{told}");
 }

@@ -444,3 +444,103 @@ run: { duration: 10 ms, every: 5 ms }
     );
     assert_eq!(glb(&path.join("long.glb"))["meshes"], json["meshes"]);
 }
+
+/// Boxes, spheres, cylinders and capsules of a robot are shown as long as they are, where they are; what they say in YAML is the same.
+#[test]
+fn links_are_shown_by_their_shapes() {
+    let directory = directory();
+    let path = directory.path();
+    let visual = |shape: &str, z: f64| {
+        format!("<visual><origin xyz=\"0 0 {z}\"/><geometry>{shape}</geometry></visual>")
+    };
+    let shapes = [
+        visual("<box size=\"0.4 0.2 0.1\"/>", 0.05),
+        visual("<sphere radius=\"0.3\"/>", 1.0),
+        visual("<cylinder radius=\"0.1\" length=\"0.5\"/>", 2.0),
+        visual("<capsule radius=\"0.1\" length=\"0.5\"/>", 3.0),
+    ];
+    let urdf = format!(
+        "<robot name=\"arm\"><link name=\"base\"/><link name=\"tip\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>{}</link><joint name=\"hinge\" type=\"continuous\"><parent link=\"base\"/><child link=\"tip\"/><axis xyz=\"0 1 0\"/></joint></robot>",
+        shapes.concat()
+    );
+    fs::write(path.join("arm.urdf"), urdf).unwrap();
+    let shown = |model: &str| {
+        let run = [
+            "run",
+            model,
+            "--no-files",
+            "--animation",
+            "arm.glb",
+            "--duration",
+            "10 ms",
+            "--force",
+            "--picture",
+            "arm.svg",
+        ];
+        let (_, told) = call(path, &run, 0);
+        assert!(
+            !told.contains("not shown") && !told.contains("visual"),
+            "{told}"
+        );
+        let json = glb(&path.join("arm.glb"));
+        let meshes = json["meshes"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter_map(|mesh| {
+                let name = mesh["name"].as_str()?;
+                let solid = ["box", "sphere", "cylinder"]
+                    .iter()
+                    .any(|solid| name.ends_with(solid));
+                let places = mesh["primitives"][0]["attributes"]["POSITION"].as_u64()?;
+                let places = &json["accessors"][places as usize];
+                let bounds =
+                    ["min", "max"].map(|key| [0, 1, 2].map(|i| places[key][i].as_f64().unwrap()));
+                solid.then_some(bounds)
+            });
+        meshes.collect::<Vec<_>>()
+    };
+    let expected = [
+        [[-0.2, -0.1, 0.0], [0.2, 0.1, 0.1]],
+        [[-0.3, -0.3, 0.7], [0.3, 0.3, 1.3]],
+        [[-0.1, -0.1, 1.75], [0.1, 0.1, 2.25]],
+        // a capsule: a cylinder, and a sphere at each end
+        [[-0.1, -0.1, 2.75], [0.1, 0.1, 3.25]],
+        [[-0.1, -0.1, 2.65], [0.1, 0.1, 2.85]],
+        [[-0.1, -0.1, 3.15], [0.1, 0.1, 3.35]],
+    ];
+    let check = |found: Vec<[[f64; 3]; 2]>| {
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(expected) {
+            for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+                assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+            }
+        }
+    };
+    check(shown("arm.urdf"));
+    let svg = fs::read_to_string(path.join("arm.svg")).unwrap();
+    assert!(svg.contains("mesh (only shown)"), "{svg}");
+    call(path, &["import", "arm.urdf", "-o", "arm.yaml"], 0);
+    check(shown("arm.yaml"));
+    // what is neither, both, or of no size
+    let wrong = |mesh: &str, what: &str| {
+        let text = format!(
+            "model: m\ndimension: 3\nmesh: {{ {mesh} }}\nsystems: [{{ name: p, elements: [{{ name: b, mass: 1, cg: [0, 0, 0], inertia: [1, 1, 1] }}] }}]\nrun: {{ duration: 1, every: 0.5 }}\n"
+        );
+        fs::write(path.join("m.yaml"), text).unwrap();
+        let (_, told) = call(path, &["check", "m.yaml"], 2);
+        assert!(
+            told.contains(what) && told.contains("m.yaml:3:"),
+            "{mesh}: {told}"
+        );
+    };
+    wrong("at: [0, 0, 0]", "either a file or a shape");
+    wrong(
+        "shape: box, size: 1, file: a.stl",
+        "either a file or a shape",
+    );
+    wrong("shape: box", "has no size");
+    wrong("shape: box, size: [1, 0, 1]", "a length above 0");
+    wrong("shape: cube, size: 1", "`box`, `sphere`, `cylinder`");
+    wrong("file: a.stl, size: 1", "has its own size");
+}

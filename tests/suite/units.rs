@@ -261,13 +261,18 @@ fn studies_show_responses_in_the_same_units() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     std::fs::write(here.join("thrown.yaml"), THROWN).unwrap();
-    let study = "model: thrown.yaml\ndesign: list\nrows: [{ span: 1 s }, { span: 2 s }]\nresponses:\n  - { of: height, what: peak }\n  - { of: in SI, what: minimum }\n  - { of: speed, what: integral }\n";
+    let study = "model: thrown.yaml\ndesign: list\nrows: [{ span: 1 s }, { span: 2 s }]\nresponses:\n  - { of: height, what: peak }\n  - { of: in SI, what: minimum }\n  - { of: speed, what: integral }\n  - { of: height, what: time of peak }\nkeep: { runs: [1], outputs: [height, in SI] }\n";
     std::fs::write(here.join("study.yaml"), study).unwrap();
     call(here, &["sweep", "study.yaml"], 0);
     let summary = std::fs::read_to_string(here.join("study-results/summary.json")).unwrap();
     let summary = json(&summary);
     let height = 5.0 - 9.80665 / 8.0;
-    let expected = [("mm", 1e3 * height), ("m/s^2", -9.80665), ("m", height)];
+    let expected = [
+        ("mm", 1e3 * height),
+        ("m/s^2", -9.80665),
+        ("m", height),
+        ("ms", 500.0),
+    ];
     for (index, (unit, value)) in expected.into_iter().enumerate() {
         let found = &summary["responses"][index];
         assert_eq!(found["unit"], unit);
@@ -277,9 +282,119 @@ fn studies_show_responses_in_the_same_units() {
             "{mean} for {value} {unit}"
         );
     }
+    // a series that is kept, too
+    let series = std::fs::read_to_string(here.join("study-results/series/run-00000001.csv"));
+    let series = series.unwrap();
+    let (first, last) = (series.lines().next(), series.lines().last());
+    assert_eq!(first, Some("time [ms],height [mm],in SI [m/s^2]"));
+    let last: Vec<f64> = last
+        .unwrap()
+        .split(',')
+        .map(|n| n.parse().unwrap())
+        .collect();
+    for (found, expected) in last.iter().zip([500.0, 1e3 * height, -9.80665]) {
+        assert!((found / expected - 1.0).abs() < 1e-4, "{last:?}");
+    }
     let summary = std::fs::read_to_string(here.join("study-results/summary.txt")).unwrap();
     assert!(
         summary.contains("[mm]") && summary.contains("[m/s²]"),
         "{summary}"
+    );
+}
+
+/// A body that is thrown at 10 m/s is 5 m − fall · s²/8 high after half a second.
+#[test]
+fn derivatives_and_parameters_are_shown_in_units() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let falling = THROWN
+        .replace("[0, -9.80665]", "[0, -fall]")
+        .replace("span: 2 s", "span: 2 s, fall: { value: 1 gn, min: 0 }");
+    std::fs::write(here.join("thrown.yaml"), falling).unwrap();
+    let g = 9.80665;
+    let slope = |units: &[&str]| {
+        let arguments = ["gradient", "thrown.yaml", "--of", "final of height"];
+        let more = ["--wrt", "fall", "--check", "--json"];
+        let printed = call(here, &[&arguments[..], &more, units].concat(), 0).0;
+        let response = json(&printed)["responses"][0].clone();
+        let parameter = response["parameters"][0].clone();
+        let number = |value: &Value| value.as_f64().unwrap();
+        let text = |value: &Value| value.as_str().unwrap().to_owned();
+        let units = [
+            &response["unit"],
+            &parameter["unit"],
+            &parameter["derivative_unit"],
+        ];
+        let numbers = ["value", "derivative", "difference"].map(|key| number(&parameter[key]));
+        (
+            units.map(text),
+            [
+                number(&response["value"]),
+                numbers[0],
+                numbers[1],
+                numbers[2],
+            ],
+        )
+    };
+    for (asked, units, expected) in [
+        (
+            &[][..],
+            ["mm", "g", "mm/g"],
+            [5e3 - 1e3 * g / 8.0, 1.0, -1e3 * g / 8.0],
+        ),
+        (
+            &["--units", "SI"],
+            ["m", "m/s^2", "s^2"],
+            [5.0 - g / 8.0, g, -0.125],
+        ),
+    ] {
+        let (found, [value, parameter, derivative, difference]) = slope(asked);
+        assert_eq!(found, units);
+        for (found, expected) in [
+            (value, expected[0]),
+            (parameter, expected[1]),
+            (derivative, expected[2]),
+            (difference, expected[2]),
+        ] {
+            assert!(
+                (found / expected - 1.0).abs() < 1e-6,
+                "{found} for {expected}"
+            );
+        }
+    }
+    let arguments = [
+        "gradient",
+        "thrown.yaml",
+        "--of",
+        "final of height",
+        "--wrt",
+        "fall",
+    ];
+    let (printed, _) = call(here, &arguments, 0);
+    // five digits
+    assert!(
+        printed.contains("3774.2 mm") && printed.contains("-1225.8 mm/g"),
+        "{printed}"
+    );
+    assert!(printed.contains(" 1 g "), "{printed}");
+
+    let (text, _) = call(here, &["check", "thrown.yaml"], 0);
+    for line in [
+        "span = 2000 ms",
+        "fall = 1 g, at least 0",
+        "500 ms, a row every 250 ms",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    let (text, _) = call(here, &["check", "thrown.yaml", "--units", "SI"], 0);
+    assert!(
+        text.contains("span = 2 s") && text.contains("0.5 s, a row"),
+        "{text}"
+    );
+    let (printed, _) = call(here, &["check", "thrown.yaml", "--json"], 0);
+    let fall = json(&printed)["parameters"][1].clone();
+    assert_eq!(
+        (&fall["default"], &fall["unit"]),
+        (&1.0.into(), &"g".into())
     );
 }

@@ -3,6 +3,7 @@
 //! Beside `TEST.mme` lies a folder `Channel` with the list `TEST.chn` and a file `TEST.001`, `TEST.002`, … for each channel: lines `key :value`, and then one
 //! number in a line.
 
+use super::unit::spelled;
 use std::path::{Path, PathBuf};
 
 /// The lines of a file: those with a key, and the others with their numbers in the file.
@@ -71,23 +72,6 @@ pub fn number<'t>(list: &'t str, code: &str) -> Result<u32, Vec<&'t str>> {
         }
     }
     Err(codes)
-}
-
-/// A unit as the model's language spells it, where tests and tables spell it otherwise.
-pub fn spelled(said: &str) -> &str {
-    match said {
-        // of accelerations, not the gram
-        "g" => "gn",
-        "m/(s*s)" | "m/s2" | "m/s²" => "m/s^2",
-        "rad/(s*s)" | "rad/s2" | "rad/s²" => "rad/s^2",
-        "Nm" => "N*m",
-        "kNm" => "kN*m",
-        "°" => "deg",
-        "°/s" => "deg/s",
-        "µs" => "us",
-        "-" => "1",
-        unit => unit,
-    }
 }
 
 /// What `Data status` says of data that can be used.

@@ -11,7 +11,7 @@
 //! of parameters, so a name means one thing wherever it stands.
 
 use super::token::{Token, TokenKind, tokens};
-use super::unit::{COMMON, Dimension, Unit, unit};
+use super::unit::{COMMON, Unit, unit};
 use crate::diagnostic::{nearest, quoted};
 
 /// Longest text \[characters\].
@@ -84,21 +84,6 @@ pub struct Mistake {
     pub message: String,
     /// What would be right.
     pub help: String,
-}
-
-/// The unit that a product of units is, such as `N*m/rad` or `1/kg/s`; `None` if it is something else.
-pub fn unit_of(text: &str) -> Option<Unit> {
-    if let Some(below) = text.strip_prefix("1/") {
-        let below = unit_of(&below.replace('/', "*"))?;
-        return Some(Unit {
-            factor: 1.0 / below.factor,
-            dimension: Dimension::ONE / below.dimension,
-        });
-    }
-    match parse(&format!("1 {text}")).ok()?.kind {
-        Kind::Quantity(_, unit) => Some(unit),
-        _ => None,
-    }
 }
 
 /// Parses a text.

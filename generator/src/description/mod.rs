@@ -38,10 +38,11 @@ pub mod system;
 pub mod table;
 mod token;
 pub mod tree;
-pub mod unit;
 mod value;
 pub mod vehicle;
 pub mod what;
+
+pub use bryant_table::unit;
 
 use crate::law::LAWS;
 use shape::{Key, Record};

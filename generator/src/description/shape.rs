@@ -161,6 +161,13 @@ macro_rules! words {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum $name { $( $(#[$word_meta])* $word, )* }
 
+        impl $name {
+            /// As it is written.
+            pub fn word(self) -> &'static str {
+                match self { $( $name::$word => $text, )* }
+            }
+        }
+
         impl $crate::description::shape::Shape for $name {
             fn check(at: $crate::description::place::At<'_>, problems: &$crate::description::shape::Problems) {
                 $crate::description::shape::check_word(at, &[ $( $text, )* ], problems);
@@ -327,11 +334,20 @@ fn unknown_key(
 
 /// Reports anything but one of some words.
 pub fn check_word(at: At<'_>, words: &[&str], problems: &Problems) {
+    check_word_or(at, words, "", problems);
+}
+
+/// The same where something else may stand, too: `or` says what.
+pub fn check_word_or(at: At<'_>, words: &[&str], or: &str, problems: &Problems) {
     let all = words
         .iter()
         .map(|w| format!("`{w}`"))
         .collect::<Vec<_>>()
         .join(", ");
+    let all = match or {
+        "" => all,
+        or => format!("{all}; {or}"),
+    };
     match &at.node.kind {
         Kind::Scalar { text, .. } if words.contains(&text.as_str()) => {}
         Kind::Scalar { text, .. } => problems.add(at.problem(

@@ -4,7 +4,7 @@ use super::curve::Function;
 use super::element::{Anatomy, Element};
 use super::place::At;
 use super::quantity::{OneOrThree, Quantity};
-use super::shape::{Misfit, Named, Problems, Shape, check_record, check_word, record};
+use super::shape::{Misfit, Named, Problems, Shape, check_record, check_word_or, record};
 use super::tree::Kind;
 use serde_yaml::Value;
 
@@ -79,12 +79,15 @@ pub enum Reference {
     Riding(Riding),
 }
 
+/// What a reference joint may do besides.
+const OTHERWISE: &str = "`{ on: VEHICLE, at: [x, z] }` moves with a vehicle, and `{ acceleration: [CURVE, 0] }` (or `velocity`, `displacement`) as prescribed";
+
 impl Shape for Reference {
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
             Kind::Map(_) if at.node.get("on").is_some() => check_record::<Riding>(at, problems),
             Kind::Map(_) => check_record::<Prescribed>(at, problems),
-            _ => check_word(at, &["free", "fixed"], problems),
+            _ => check_word_or(at, &["free", "fixed"], OTHERWISE, problems),
         }
     }
 

@@ -1,8 +1,7 @@
 //! Columns of numbers in text files (CSV) and channels, as the points of curves: [`bryant_table`] says how they are read.
 
-use super::channel::spelled;
 use super::tree::MAX_BYTES;
-use super::unit::unit;
+use super::unit::{product, spelled};
 use crate::diagnostic::{Diagnostic, quoted, suggestion};
 use bryant_table::{Fault as InTable, Field, Heading};
 
@@ -92,7 +91,7 @@ impl Table {
                 "write a line `abscissa, ordinate` for each point",
             )))
         })?;
-        let headings = table.headings(&|text| is_unit(spelled(text)));
+        let headings = table.headings(&|text| product(spelled(text)).is_some());
         let first_two = [Column::Number(1), Column::Number(2)];
         let wanted = said.unwrap_or(&first_two);
         let chosen = self.chosen(wanted, &headings)?;
@@ -245,15 +244,6 @@ impl Table {
             places: [place(&fields[0]), place(&fields[1])],
         })
     }
-}
-
-/// Whether a text is a product of units, such as `N*m/rad` or `m/(s*s)`.
-pub fn is_unit(text: &str) -> bool {
-    let parts = text.split(['*', '/', '(', ')']).map(str::trim);
-    let mut parts = parts.filter(|part| !part.is_empty()).peekable();
-    let is_known =
-        |part: &str| part == "1" || unit(part.split('^').next().unwrap_or(part)).is_some();
-    parts.peek().is_some() && parts.all(is_known)
 }
 
 /// Line, column and length.

@@ -2,6 +2,7 @@
 
 use super::{Model, Output};
 use crate::description::unit::{STANDARD_GRAVITY, whole_power};
+use serde::{Deserialize, Serialize};
 
 /// A system of units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,12 +15,22 @@ pub enum UnitSystem {
 }
 
 /// A unit in which a number is shown.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Unit {
     /// As files have it: `g`, `mm`, `deg`, `N*m`; "" for a pure number.
+    #[serde(rename = "unit")]
     pub name: String,
     /// The SI value of one unit.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
     pub size: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn is_one(size: &f64) -> bool {
+    *size == 1.0
 }
 
 /// The units of a scene's outputs.

@@ -4,8 +4,10 @@ use super::inertia;
 use super::known::ROBOT;
 use super::robot::{Frame, Inertial, LeftOut, Link, Mesh, Mimic, Place, Robot, Why};
 use super::xml::{XACRO, Xml};
+use crate::description::mesh::Solid;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
-use crate::rotation::{IDENTITY, Matrix, of_quaternion, of_roll_pitch_yaw};
+use crate::model::Triangles;
+use crate::rotation::{IDENTITY, Matrix, add, apply, of_quaternion, of_roll_pitch_yaw};
 use roxmltree::Node;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -231,7 +233,7 @@ impl<'a> Reader<'a> {
             place: self.xml.place_of(node, "name"),
             inertial: inertial.and_then(|inertial| self.inertial(inertial, &name)),
             meshes: (self.xml.children(node, "visual"))
-                .filter_map(|shape| self.mesh(shape))
+                .flat_map(|shape| self.meshes(shape))
                 .collect(),
             name,
         })
@@ -307,21 +309,53 @@ impl<'a> Reader<'a> {
         nearest
     }
 
-    /// The mesh that a link is shown by; other shapes are not taken over.
-    fn mesh(&self, node: Node<'a, 'a>) -> Option<Mesh> {
+    /// What a link is shown by.
+    fn meshes(&self, node: Node<'a, 'a>) -> Vec<Mesh> {
         let geometry = self.xml.child(node, "geometry");
-        let mesh = geometry.and_then(|geometry| self.xml.child(geometry, "mesh"));
-        let Some((mesh, file)) = mesh.and_then(|mesh| Some((mesh, mesh.attribute("filename")?)))
-        else {
-            let place = self.xml.place(node);
-            self.leave_out(node, place, Why::Idle, "visual shapes that are no meshes");
-            return None;
+        let shape = geometry.and_then(|geometry| geometry.children().find(Node::is_element));
+        // what is wrong is already reported
+        shape
+            .and_then(|shape| self.meshes_of(shape, self.origin(node)))
+            .unwrap_or_default()
+    }
+
+    fn meshes_of(&self, shape: Node<'a, 'a>, frame: Frame) -> Option<Vec<Mesh>> {
+        let number = |key: &str| shape.attribute(key)?.trim().parse::<f64>().ok();
+        let solid = |of, scale, frame| Mesh {
+            of: Triangles::Solid(of),
+            frame,
+            scale,
         };
-        let scale = mesh.attribute("scale").map(|_| self.numbers(mesh, "scale"));
-        Some(Mesh {
-            file: file.to_owned(),
-            frame: self.origin(node),
-            scale: scale.map_or([1.0; 3], Option::unwrap_or_default),
+        Some(match self.xml.tag(shape) {
+            "mesh" => {
+                let scale = shape
+                    .attribute("scale")
+                    .map(|_| self.numbers(shape, "scale"));
+                vec![Mesh {
+                    of: Triangles::File(shape.attribute("filename")?.to_owned()),
+                    frame,
+                    scale: scale.map_or([1.0; 3], Option::unwrap_or_default),
+                }]
+            }
+            "box" => {
+                let size = shape.attribute("size")?.split_whitespace();
+                let size: Vec<f64> = size.map_while(|word| word.parse().ok()).collect();
+                vec![solid(Solid::Box, size.try_into().ok()?, frame)]
+            }
+            "sphere" => vec![solid(Solid::Sphere, [2.0 * number("radius")?; 3], frame)],
+            form @ ("cylinder" | "capsule") => {
+                let (across, length) = (2.0 * number("radius")?, number("length")?);
+                let mut all = vec![solid(Solid::Cylinder, [across, across, length], frame)];
+                if form == "capsule" {
+                    all.extend([-0.5, 0.5].map(|end| {
+                        let along = apply(&frame.turn, [0.0, 0.0, end * length]);
+                        let at = add(frame.at, along);
+                        solid(Solid::Sphere, [across; 3], Frame { at, ..frame })
+                    }));
+                }
+                all
+            }
+            _ => return None,
         })
     }
 

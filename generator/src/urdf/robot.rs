@@ -7,6 +7,7 @@ use super::reader::Reader;
 use super::xml::Xml;
 use crate::description::tree::MAX_BYTES;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::Triangles;
 use crate::rotation::{Matrix, Vector};
 use roxmltree::Document;
 
@@ -54,10 +55,11 @@ pub struct Link {
     pub meshes: Vec<Mesh>,
 }
 
-/// A file of triangles, in a frame of a link.
+/// Triangles, in a frame of a link.
 pub struct Mesh {
-    pub file: String,
+    pub of: Triangles,
     pub frame: Frame,
+    /// Factors on the numbers of a file, or the lengths of a shape.
     pub scale: Vector,
 }
 

@@ -3,6 +3,7 @@
 use super::Options;
 use super::robot::{Joint, Kind, Limits, Mesh, Mimic, Place, Robot};
 use super::tree::{Carried, Element, Forest, Freedom};
+use crate::model::Triangles;
 use crate::rotation::{Vector, add, apply, bryant_angles, length, product, subtract};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -410,13 +411,18 @@ impl Writer<'_> {
             let place = add(placed.at, apply(&placed.turn, mesh.frame.at));
             let size = length(place).max(length(origin));
             let angles = bryant_angles(&product(&placed.turn, &mesh.frame.turn));
-            let file = mesh
-                .file
-                .replace(['"', '\\'], "/")
-                .replace(char::is_control, " ");
-            let mut text = format!("{{ file: \"{file}\"");
-            if mesh.scale != [1.0; 3] {
-                text += &format!(", scale: {}", list(&mesh.scale));
+            let mut text = match &mesh.of {
+                Triangles::File(file) => {
+                    let file = file.replace(['"', '\\'], "/");
+                    let file = file.replace(char::is_control, " ");
+                    format!("{{ file: \"{file}\"")
+                }
+                Triangles::Solid(solid) => format!("{{ shape: {}", solid.word()),
+            };
+            match &mesh.of {
+                Triangles::Solid(_) => text += &format!(", size: {}", list(&mesh.scale)),
+                Triangles::File(_) if mesh.scale == [1.0; 3] => {}
+                Triangles::File(_) => text += &format!(", scale: {}", list(&mesh.scale)),
             }
             let at = vector(subtract(place, origin), size);
             if at != list(&[0.0; 3]) {

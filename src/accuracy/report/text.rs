@@ -4,6 +4,8 @@ use crate::accuracy::conclusion::{Conclusion, bounded_by_stability};
 use crate::accuracy::point::{Done, Known, Measure, Point, Status};
 use crate::accuracy::setting::{Curves, Pace, Scheme, time, two_digits};
 use crate::accuracy::study::Study;
+use crate::command::fitted;
+use bryant_picture::text::wrap;
 use std::fmt::Write as _;
 
 /// The mark in front of a point on the front.
@@ -15,8 +17,16 @@ type Row = Vec<String>;
 /// Number of columns with words, which are left-aligned and come before those with numbers.
 const WORDS: usize = 5;
 
-/// The study as text: head, table, and the meaning of the marks. The last line has no line end.
-pub fn text(study: &Study, conclusion: &Conclusion) -> String {
+/// Columns in the order in which they are left out where there is no room: late times, operations, order, energy gap, evaluations, simulated time
+/// over wall time. Files have all of them.
+const LEAST: [usize; 6] = [12, 10, 6, 8, 9, 13];
+/// Spaces between columns.
+const GAP: usize = 2;
+/// A cause has at least so many characters in a line.
+const NARROWEST: usize = 24;
+
+/// Head, groups and the meaning of the marks, in lines of at most `room` characters; the last line has no line end.
+pub fn text(study: &Study, conclusion: &Conclusion, room: Option<usize>) -> String {
     let mut text = head(study);
     let rows: Vec<(usize, Row)> = study
         .points
@@ -37,6 +47,7 @@ pub fn text(study: &Study, conclusion: &Conclusion) -> String {
             lengths.max().unwrap_or(0)
         })
         .collect();
+    let columns = Columns::of(&widths, room);
     for scheme in schemes(study) {
         let _ = writeln!(
             text,
@@ -45,13 +56,25 @@ pub fn text(study: &Study, conclusion: &Conclusion) -> String {
             scheme.title(),
             scheme.formula.order()
         );
-        line(&heading, &widths, &mut text);
-        line(&units, &widths, &mut text);
+        columns.line(&heading, &mut text);
+        columns.line(&units, &mut text);
         for (index, row) in &rows {
             if study.points[*index].setting.scheme() == scheme {
-                line(row, &widths, &mut text);
+                columns.line(row, &mut text);
             }
         }
+    }
+    let left_out = columns.left_out.iter().map(|column| {
+        let named = format!("{} {}", heading[*column], units[*column]);
+        named.trim_end().to_owned()
+    });
+    let left_out: Vec<String> = left_out.collect();
+    if !left_out.is_empty() {
+        let _ = write!(
+            text,
+            "\nnot shown, for want of room: {}; --csv has all columns\n",
+            left_out.join(", ")
+        );
     }
     let _ = write!(
         text,
@@ -70,7 +93,10 @@ pub fn text(study: &Study, conclusion: &Conclusion) -> String {
     if let Some(fastest) = &study.fastest {
         let _ = write!(text, "\n{}; rodas5 has no such bound", fastest.text());
     }
-    text
+    match room {
+        Some(room) => fitted(&text, room),
+        None => text,
+    }
 }
 
 /// The schemes of a study, in their usual order.
@@ -211,20 +237,67 @@ pub fn digits(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Appends a line of cells. A row with fewer cells ends in words, which may be long.
-fn line(row: &Row, widths: &[usize], text: &mut String) {
-    let whole = row.len() == widths.len();
-    let mut line = String::new();
-    for (column, (cell, width)) in row.iter().zip(widths).enumerate() {
-        let gap = if column == 0 { 0 } else { 2 };
-        // the width is in characters, not bytes
-        let _ = match column < WORDS || !whole {
-            true => write!(line, "{:gap$}{cell:<width$}", ""),
-            false => write!(line, "{:gap$}{cell:>width$}", ""),
-        };
+/// The columns that are shown.
+struct Columns {
+    /// Their indices and widths.
+    shown: Vec<(usize, usize)>,
+    /// The number of all columns.
+    all: usize,
+    /// The indices of those with content that have no room.
+    left_out: Vec<usize>,
+    room: Option<usize>,
+}
+
+impl Columns {
+    /// All columns of these widths, or those for which there is room.
+    fn of(widths: &[usize], room: Option<usize>) -> Self {
+        let mut shown: Vec<(usize, usize)> = widths.iter().copied().enumerate().collect();
+        let mut left_out = Vec::new();
+        if let Some(room) = room {
+            let too_wide = |shown: &[(usize, usize)]| {
+                let widths = shown.iter().map(|(_, width)| width + GAP);
+                widths.sum::<usize>() > room + GAP
+            };
+            for column in LEAST {
+                if too_wide(&shown) {
+                    shown.retain(|(index, _)| *index != column);
+                    left_out.push(column);
+                }
+            }
+            left_out.sort_unstable();
+        }
+        Columns {
+            shown,
+            all: widths.len(),
+            left_out,
+            room,
+        }
     }
-    text.push_str(line.trim_end());
-    text.push('\n');
+
+    /// Cells side by side; a shorter row ends in words, which may be long and go on below their beginning.
+    fn line(&self, row: &Row, text: &mut String) {
+        let whole = row.len() == self.all;
+        let mut line = String::new();
+        for (place, (column, width)) in self.shown.iter().enumerate() {
+            let gap = if place == 0 { 0 } else { GAP };
+            // Padding counts characters, not bytes.
+            let _ = match row.get(*column) {
+                Some(cell) if *column < WORDS => write!(line, "{:gap$}{cell:<width$}", ""),
+                Some(cell) if whole => write!(line, "{:gap$}{cell:>width$}", ""),
+                _ => break,
+            };
+        }
+        if let (false, Some(words)) = (whole, row.get(WORDS)) {
+            let begin = line.chars().count() + GAP;
+            let room = self
+                .room
+                .map_or(usize::MAX, |room| room.saturating_sub(begin).max(NARROWEST));
+            let words = wrap(words, room).join(&format!("\n{:begin$}", ""));
+            let _ = write!(line, "{:GAP$}{words}", "");
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
 }
 
 #[cfg(test)]
@@ -245,20 +318,56 @@ mod tests {
         assert_eq!(known(below), "≤1.2e-10");
     }
 
+    fn lines(rows: &[&[&str]], widths: &[usize], room: Option<usize>) -> String {
+        let columns = Columns::of(widths, room);
+        let mut text = String::new();
+        for row in rows {
+            let row = row.iter().map(|cell| cell.to_string()).collect();
+            columns.line(&row, &mut text);
+        }
+        text
+    }
+
     #[test]
     fn numbers_are_right_aligned_and_words_left() {
-        let widths = [1, 6, 3, 3, 3, 8];
-        let cells = |row: &[&str]| row.iter().map(|c| c.to_string()).collect::<Row>();
-        let mut text = String::new();
-        line(
-            &cells(&["*", "1e-3", "f64", "a", "", "1.5"]),
-            &widths,
-            &mut text,
-        );
-        line(&cells(&["", "1e-3", "f64", "a", ""]), &widths, &mut text);
+        let rows: [&[&str]; 2] = [
+            &["*", "1e-3", "f64", "a", "", "1.5"],
+            &["", "1e-3", "f64", "a", ""],
+        ];
         assert_eq!(
-            text,
+            lines(&rows, &[1, 6, 3, 3, 3, 8], None),
             "*  1e-3    f64  a              1.5\n   1e-3    f64  a\n"
         );
+    }
+
+    #[test]
+    fn columns_are_left_out_until_a_line_has_room() {
+        let widths = [1, 9, 3, 7, 0, 9, 5, 13, 6, 11, 10, 6, 6, 9];
+        let whole: Vec<String> = widths.iter().map(|width| "8".repeat(*width)).collect();
+        let whole: Vec<&str> = whole.iter().map(String::as_str).collect();
+        let cause = "skipped: not reached: the time was used up, and more of it would not help";
+        let short = [&whole[..WORDS], &[cause]].concat();
+        assert_eq!(Columns::of(&widths, None).left_out, [0; 0]);
+        let all = lines(&[&whole, &short], &widths, None);
+        assert!(
+            all.lines()
+                .next()
+                .is_some_and(|line| line.chars().count() > 100)
+        );
+        for room in [80, 90, 100, 200] {
+            let text = lines(&[&whole, &short], &widths, Some(room));
+            assert!(
+                text.lines().all(|line| line.chars().count() <= room),
+                "{text}"
+            );
+            // all words are there, and as many columns as there is room for
+            let words: Vec<&str> = text.split_whitespace().collect();
+            assert!(words.join(" ").ends_with(cause), "{text}");
+            let columns = Columns::of(&widths, Some(room));
+            let first = text.lines().next().map_or(0, |line| line.chars().count());
+            let last = columns.left_out.iter().map(|column| widths[*column]).max();
+            assert!(last.is_none_or(|last| first + GAP + last > room), "{text}");
+            assert_eq!(columns.left_out.is_empty(), room == 200);
+        }
     }
 }

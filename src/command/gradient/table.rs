@@ -4,8 +4,10 @@ use super::slopes::{SMALL, size};
 use crate::accuracy::conclusion::percent;
 use crate::command::response::Requested;
 use crate::quantity::dimension;
+use crate::units::short;
 use bryant_generator::description::unit::Dimension;
 use bryant_generator::model::Parameter;
+use bryant_generator::model::units::Unit;
 use bryant_picture::text::typeset;
 use serde_json::json;
 
@@ -15,6 +17,8 @@ pub(super) const AGREE: f64 = 1e-2;
 pub(super) struct Table<'a> {
     pub responses: &'a [Requested],
     pub parameters: &'a [&'a Parameter],
+    /// The units in which the parameters are shown.
+    pub units: &'a [Unit],
     /// The values of the parameters.
     pub row: &'a [f64],
     /// The values of the responses.
@@ -23,6 +27,8 @@ pub(super) struct Table<'a> {
     pub slopes: &'a [f64],
     /// The same by differences, for the first parameters or for all.
     pub checked: Option<&'a [f64]>,
+    /// The estimated error of each response and its derivatives, as a share of the largest change or of the response, if it is known.
+    pub error: Option<f64>,
 }
 
 impl Table<'_> {
@@ -37,28 +43,55 @@ impl Table<'_> {
             .copied()
     }
 
+    /// The slope of a response with respect to a parameter in the units in which both are shown, or the difference in its place.
+    fn shown(&self, slope: f64, response: usize, parameter: usize) -> f64 {
+        let [above, below] = [&self.responses[response].unit, &self.units[parameter]];
+        // in SI all digits stay as they are
+        match below.size / above.size {
+            1.0 => slope,
+            size => slope * size,
+        }
+    }
+
+    /// The estimated errors of a response and of the changes that parameters make of it.
+    fn errors(&self, response: usize) -> [Option<f64>; 2] {
+        let changes = (0..self.parameters.len())
+            .map(|i| self.slope(response, i) * size(self.parameters[i], self.row[i]));
+        let largest = changes.fold(0.0, |largest: f64, change| largest.max(change.abs()));
+        let value = self.values[response].abs();
+        [value, SMALL * value].map(|least| Some(self.error? * largest.max(least)))
+    }
+
     pub fn text(&self) -> String {
         let mut text = String::new();
         for (k, response) in self.responses.iter().enumerate() {
-            let unit = with_unit(&response.unit);
-            text += &format!("{}: {}{unit}\n", response.name, number(self.values[k]));
+            let unit = with_unit(&response.unit.name);
+            let value = self.values[k];
+            let [error, of_changes] = self.errors(k);
+            let shown = number(response.unit.of_si(value), known_digits(value, error));
+            text += &format!("{}: {shown}{unit}\n", response.name);
             let mut lines = vec![
                 ["parameter", "value", "derivative", "by 1 %", "difference"].map(String::from),
             ];
             for (i, parameter) in self.parameters.iter().enumerate() {
                 let slope = self.slope(k, i);
-                let elasticity = slope * self.row[i] / self.values[k];
+                let unit = &self.units[i];
+                let change = slope * size(parameter, self.row[i]);
+                let digits = known_digits(change, of_changes);
+                let elasticity = slope * self.row[i] / value;
                 lines.push([
                     parameter.name.clone(),
-                    number(self.row[i]) + &with_unit(&parameter.unit),
-                    number(slope) + &with_unit(&quotient(&response.unit, &parameter.unit)),
+                    short(unit.of_si(self.row[i])) + &with_unit(&unit.name),
+                    number(self.shown(slope, k, i), digits)
+                        + &with_unit(&quotient(&response.unit, unit)),
                     match elasticity {
                         // a zero has no sign
                         0.0 => "0 %".into(),
                         _ if elasticity.is_finite() => format!("{elasticity:+.4} %"),
                         _ => "-".into(),
                     },
-                    self.check(k, i).map_or_else(String::new, number),
+                    self.check(k, i)
+                        .map_or_else(String::new, |slope| number(self.shown(slope, k, i), digits)),
                 ]);
             }
             let columns = 4 + usize::from(self.checked.is_some());
@@ -126,22 +159,23 @@ impl Table<'_> {
     pub fn json(&self) -> serde_json::Value {
         let responses = self.responses.iter().enumerate().map(|(k, response)| {
             let parameters = self.parameters.iter().enumerate().map(|(i, parameter)| {
+                let unit = &self.units[i];
                 let mut value = json!({
                     "name": parameter.name,
-                    "value": self.row[i],
-                    "unit": parameter.unit,
-                    "derivative": self.slope(k, i),
-                    "derivative_unit": quotient(&response.unit, &parameter.unit),
+                    "value": unit.of_si(self.row[i]),
+                    "unit": unit.name,
+                    "derivative": self.shown(self.slope(k, i), k, i),
+                    "derivative_unit": quotient(&response.unit, unit),
                 });
                 if let Some(difference) = self.check(k, i) {
-                    value["difference"] = json!(difference);
+                    value["difference"] = json!(self.shown(difference, k, i));
                 }
                 value
             });
             let mut value = json!({
                 "response": response.name,
-                "value": self.values[k],
-                "unit": response.unit,
+                "value": response.unit.of_si(self.values[k]),
+                "unit": response.unit.name,
                 "parameters": parameters.collect::<Vec<_>>(),
             });
             if let Some(worst) = self.disagreement(k) {
@@ -153,16 +187,33 @@ impl Table<'_> {
     }
 }
 
-/// A number with seven digits.
-pub(in crate::command) fn number(value: f64) -> String {
+/// So many digits are shown where the error of a number does not say less.
+const DIGITS: usize = 5;
+
+/// The digits of a value that its error supports: at least one, and at most [`DIGITS`].
+fn known_digits(value: f64, error: Option<f64>) -> usize {
+    let Some(error) = error.filter(|error| error.is_finite()) else {
+        return DIGITS;
+    };
+    // an error of 1e-4 of the value supports four digits
+    let digits = -libm::log10(error / value.abs()).ceil();
+    match digits.is_nan() {
+        true => DIGITS,
+        false => (digits.max(1.0) as usize).min(DIGITS),
+    }
+}
+
+/// A number with so many digits.
+pub(in crate::command) fn number(value: f64, digits: usize) -> String {
     let size = value.abs();
+    let behind = digits.saturating_sub(1);
     match size {
         0.0 => "0".into(),
         _ if (1e-3..1e6).contains(&size) => {
-            let decimals = (6 - libm::log10(size).floor() as i32).max(0) as usize;
+            let decimals = (behind as i32 - libm::log10(size).floor() as i32).max(0) as usize;
             format!("{value:.decimals$}")
         }
-        _ => format!("{value:.6e}"),
+        _ => format!("{value:.behind$e}"),
     }
 }
 
@@ -173,25 +224,57 @@ fn with_unit(unit: &str) -> String {
     }
 }
 
-/// The SI unit of a response in one SI unit divided by a parameter in another.
-fn quotient(above: &str, below: &str) -> String {
-    let dimension = |unit: &str| dimension(unit).unwrap_or(Dimension::ONE);
-    (dimension(above) / dimension(below)).to_string()
+/// The unit of a response in one unit divided by a parameter in another.
+fn quotient(above: &Unit, below: &Unit) -> String {
+    let dimension = |unit: &Unit| dimension(&unit.name).unwrap_or(Dimension::ONE);
+    match (above.name.as_str(), below.name.as_str()) {
+        _ if above.size == 1.0 && below.size == 1.0 => {
+            (dimension(above) / dimension(below)).to_string()
+        }
+        (above, below) if above == below => String::new(),
+        (above, "") => above.to_owned(),
+        ("", below) if below.contains(['*', '/']) => format!("1/({below})"),
+        ("", below) => format!("1/{below}"),
+        (above, below) if below.contains(['*', '/']) => format!("{above}/({below})"),
+        (above, below) => format!("{above}/{below}"),
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{number, quotient};
+    use super::{known_digits, number, quotient};
+    use bryant_generator::model::units::UnitSystem;
 
     #[test]
-    fn numbers_have_seven_digits() {
-        assert_eq!(number(1234.5678), "1234.568");
-        assert_eq!(number(-0.25), "-0.2500000");
-        assert_eq!(number(1e-9), "1.000000e-9");
-        assert_eq!(quotient("N", "m"), "N/m");
-        assert_eq!(quotient("N", "N"), "");
-        assert_eq!(quotient("", "m"), "1/m");
-        assert_eq!(quotient("m/s^2", ""), "m/s^2");
-        assert_eq!(quotient("N", "N/m"), "m");
+    fn numbers_have_as_many_digits_as_are_known() {
+        assert_eq!(number(1234.5678, 7), "1234.568");
+        assert_eq!(number(1234.5678, 2), "1235");
+        assert_eq!(number(-0.25, 5), "-0.25000");
+        assert_eq!(number(1e-9, 3), "1.00e-9");
+        assert_eq!(known_digits(2.0, None), 5);
+        assert_eq!(known_digits(2.0, Some(0.0)), 5);
+        assert_eq!(known_digits(2.0, Some(1e-3)), 3);
+        assert_eq!(known_digits(2.0, Some(1e-9)), 5);
+        // what is smaller than the error
+        assert_eq!(known_digits(1e-6, Some(1e-3)), 1);
+        assert_eq!(known_digits(2.0, Some(f64::NAN)), 5);
+    }
+
+    #[test]
+    fn units_of_slopes_are_quotients() {
+        let of = |system: UnitSystem, above: &str, below: &str| {
+            quotient(&system.unit(above), &system.unit(below))
+        };
+        for (above, below, si, engineering) in [
+            ("N", "m", "N/m", "kN/mm"),
+            ("N", "N", "", ""),
+            ("", "m", "1/m", "1/mm"),
+            ("m/s^2", "", "m/s^2", "g"),
+            ("N", "N/m", "m", "kN/(N/m)"),
+            ("N*m", "", "N*m", "N*m"),
+        ] {
+            assert_eq!(of(UnitSystem::Si, above, below), si);
+            assert_eq!(of(UnitSystem::Engineering, above, below), engineering);
+        }
     }
 }

@@ -182,6 +182,8 @@ impl Files {
             terminal.write(|out| out.write_all(&bytes))
         } else if arguments.quiet {
             Ok(())
+        } else if table.columns.len() == 1 {
+            terminal.print(&nothing_asked(&shown.found.model))
         } else {
             let layout = Layout {
                 digits: arguments.precision.map(usize::from),
@@ -198,7 +200,24 @@ impl Files {
     }
 }
 
-/// Refuses ISO-MME if the last interval between rows is shorter than the others.
+/// In place of a table that would have times alone: what to add.
+fn nothing_asked(model: &Model) -> String {
+    let of = model.systems.iter().find_map(|system| {
+        let first = system.elements.first()?;
+        Some(format!("{}/{}", system.name, first.name))
+    });
+    let component = match model.dimension {
+        Dimension::Plane => "component: z",
+        Dimension::Space => "component: x",
+    };
+    let example = of.map_or_else(String::new, |of| {
+        format!(", such as\n\noutputs:\n  - {{ name: position, of: {of}, what: position, {component} }}\n")
+    });
+    let example = example.trim_end();
+    format!("the model has no outputs, so there is no table. Add what is to be seen{example}\n")
+}
+
+/// Refuses rows for ISO-MME whose last interval is shorter than the others.
 fn has_equal_intervals(arguments: &Arguments, model: &Model) -> Result<(), Error> {
     let duration = arguments.duration.unwrap_or(model.run.duration);
     let every = arguments.every.unwrap_or(model.run.every);

@@ -171,20 +171,18 @@ impl Responses {
         &'a self,
         recording: &'a Recording,
         errors: &'a ErrorReport,
-    ) -> impl Iterator<Item = (&'a Requested, Option<f64>, String, Option<f64>)> {
+    ) -> impl Iterator<Item = (&'a Requested, Option<f64>, &'a str, Option<f64>)> {
         self.asked[..self.own]
             .iter()
             .enumerate()
             .map(|(index, response)| {
                 let answer = recording.answers.get(index).map(|answer| answer.value);
                 let apart = errors.responses().and_then(|all| all.get(index).copied());
-                let outputs = response.asked.channel.outputs();
-                let unit = self.units.response(&response.unit, outputs);
-                let value = answer.map(|si| unit.of_si(si));
+                let value = answer.map(|si| response.unit.of_si(si));
                 (
                     response,
                     value.filter(|value| value.is_finite()),
-                    unit.name,
+                    response.unit.name.as_str(),
                     apart.filter(|apart| apart.is_finite()),
                 )
             })
@@ -198,7 +196,7 @@ impl Responses {
         let lines: Vec<[String; 3]> = self
             .values(recording, errors)
             .map(|(response, value, unit, apart)| {
-                let value = match (value, unit.as_str()) {
+                let value = match (value, unit) {
                     (None, _) => "not known".to_owned(),
                     (Some(value), "") => digits(value),
                     (Some(value), unit) => format!("{} {}", digits(value), typeset(unit)),

@@ -1,8 +1,9 @@
-//! Meshes of files: STL, OBJ and glTF, as triangles in the frame of a body, and no more of them than a picture shows.
+//! Meshes of files (STL, OBJ and glTF) and of simple shapes, as triangles in the frame of a body, and no more of them than a picture shows.
 
 mod gltf;
 mod obj;
 mod outline;
+mod solid;
 mod stl;
 
 use super::Bodies;
@@ -35,7 +36,7 @@ pub struct Triangles {
 /// A mesh that is shown with a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
-    /// The name of its file, without folders.
+    /// The name of its file without folders, or of its shape.
     pub name: String,
     /// The index of the body; `None` for the frame.
     pub body: Option<usize>,
@@ -63,9 +64,8 @@ pub fn meshes(model: &Model) -> (Vec<Mesh>, Vec<String>) {
                 let corner = |n: usize| -> Vec3 {
                     std::array::from_fn(|i| if n >> i & 1 == 0 { low[i] } else { high[i] })
                 };
-                let file = mesh.file.rsplit(['/', '\\']).next();
                 meshes.push(Mesh {
-                    name: file.unwrap_or_default().to_owned(),
+                    name: name(mesh).to_owned(),
                     body: bodies.index(mesh.on),
                     corners: std::array::from_fn(corner),
                     triangles,
@@ -81,6 +81,14 @@ pub fn meshes(model: &Model) -> (Vec<Mesh>, Vec<String>) {
     (meshes, notes)
 }
 
+/// The name of its file without folders, or of its shape.
+fn name(mesh: &model::Mesh) -> &str {
+    match &mesh.of {
+        model::Triangles::File(file) => file.rsplit(['/', '\\']).next().unwrap_or_default(),
+        model::Triangles::Solid(solid) => solid.word(),
+    }
+}
+
 /// Where a mesh is named.
 pub fn place(mesh: &model::Mesh) -> String {
     match mesh.line {
@@ -91,28 +99,28 @@ pub fn place(mesh: &model::Mesh) -> String {
 
 /// Why the file of a mesh is not there.
 pub fn missing(mesh: &model::Mesh) -> Option<String> {
-    match found(mesh) {
+    let model::Triangles::File(file) = &mesh.of else {
+        return None;
+    };
+    match found(mesh, file) {
         Ok(path) if path.exists() => None,
         Ok(path) => Some(format!("there is no file {}", path.display())),
         Err(why) => Some(why),
     }
 }
 
-/// The triangles of the file of a mesh, in the frame of its body, and a note where there are fewer than in the file. `count` meshes share what a scene may have.
+/// The triangles of a mesh, in the frame of its body, and a note where there are fewer than in the file. `count` meshes share what a scene may have.
 ///
 /// # Errors
 /// Why they cannot be had, and what to do.
 fn read(mesh: &model::Mesh, count: usize) -> Result<(Triangles, Option<String>), String> {
-    let path = found(mesh)?;
-    let bytes = bytes(&path)?;
-    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    let mut triangles = match ending.as_deref() {
-        Some("stl") => stl::read(&bytes),
-        Some("obj") => obj::read(&bytes),
-        Some("glb" | "gltf") => gltf::read(&bytes, path.parent().unwrap_or(Path::new(""))),
-        _ => Err("it is none of .stl, .obj, .gltf and .glb".to_owned()),
-    }
-    .map_err(|why| format!("{} cannot be read: {why}", path.display()))?;
+    let (mut triangles, path) = match &mesh.of {
+        model::Triangles::Solid(solid) => (solid::triangles(*solid), PathBuf::new()),
+        model::Triangles::File(file) => {
+            let path = found(mesh, file)?;
+            (of_file(&path)?, path)
+        }
+    };
     let has = triangles.corners.len();
     triangles
         .corners
@@ -147,11 +155,28 @@ fn read(mesh: &model::Mesh, count: usize) -> Result<(Triangles, Option<String>),
     Ok((triangles, note))
 }
 
+/// The triangles of a file, as they stand there.
+fn of_file(path: &Path) -> Result<Triangles, String> {
+    let triangles = of_bytes(path, &bytes(path)?);
+    triangles.map_err(|why| format!("{} cannot be read: {why}", path.display()))
+}
+
+/// The triangles in the bytes of a file of this name.
+fn of_bytes(path: &Path, bytes: &[u8]) -> Result<Triangles, String> {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        Some("stl") => stl::read(bytes),
+        Some("obj") => obj::read(bytes),
+        Some("glb" | "gltf") => gltf::read(bytes, path.parent().unwrap_or(Path::new(""))),
+        _ => Err("it is none of .stl, .obj, .gltf and .glb".to_owned()),
+    }
+}
+
 /// The path of a file. That of `package://NAME/…` is below a folder NAME that contains the file that names it, or is beside one that does, or is named in
 /// `ROS_PACKAGE_PATH`.
-fn found(mesh: &model::Mesh) -> Result<PathBuf, String> {
+fn found(mesh: &model::Mesh, file: &str) -> Result<PathBuf, String> {
     let folder = Path::new(&mesh.source).parent().unwrap_or(Path::new(""));
-    let written = mesh.file.replace('\\', "/");
+    let written = file.replace('\\', "/");
     let Some(package) = written.strip_prefix("package://") else {
         let path = written.strip_prefix("file://").unwrap_or(&written);
         return Ok(folder.join(path));
@@ -325,6 +350,148 @@ mod tests {
         }))
     }
 
+    /// A tetrahedron in each format.
+    fn seeds() -> Vec<(&'static str, Vec<u8>)> {
+        let places = [
+            [0.0f32; 3],
+            [2.0, 0.0, 0.0],
+            [0.0, 3.0, 1.0],
+            [0.0, 0.0, 4.0],
+        ];
+        let faces = [[0u8, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let mut text = "solid part\n".to_owned();
+        let mut stl = vec![b' '; 80];
+        stl.extend(4u32.to_le_bytes());
+        let mut obj = String::new();
+        for [x, y, z] in places {
+            obj += &format!("v {x} {y} {z}\n");
+        }
+        for face in faces {
+            text += "facet normal 0 0 1\nouter loop\n";
+            stl.extend([0; 12]);
+            for [x, y, z] in face.map(|corner| places[usize::from(corner)]) {
+                text += &format!("vertex {x} {y} {z}\n");
+                stl.extend([x, y, z].iter().flat_map(|x| x.to_le_bytes()));
+            }
+            text += "endloop\nendfacet\n";
+            stl.extend([0; 2]);
+            let [a, b, c] = face.map(|corner| corner + 1);
+            obj += &format!("f {a}/1/1 {b}//2 -{} {c}\n", 5 - b);
+        }
+        let mut buffer: Vec<u8> = places
+            .iter()
+            .flatten()
+            .flat_map(|x| x.to_le_bytes())
+            .collect();
+        buffer.extend(faces.as_flattened());
+        let json = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1],"scale":[1,2,3]},{"mesh":0,"translation":[1,0,0],"rotation":[0,0,0,1]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},{"bufferView":1,"componentType":5121,"count":12,"type":"SCALAR"}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12}],"buffers":[{"byteLength":60@}]}"#;
+        const DIGITS: &[u8; 64] =
+            b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        let coded: String = (buffer.chunks(3))
+            .flat_map(|three| {
+                let bits = three
+                    .iter()
+                    .fold(0, |bits, byte| bits << 8 | u32::from(*byte));
+                [18, 12, 6, 0].map(|shift| char::from(DIGITS[(bits >> shift & 63) as usize]))
+            })
+            .collect();
+        let uri = format!(r#","uri":"data:application/octet-stream;base64,{coded}""#);
+        let gltf = json.replace('@', &uri);
+        let mut json = json.replace('@', "").into_bytes();
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let mut glb = b"glTF".to_vec();
+        let length = 12 + 8 + json.len() + 8 + buffer.len();
+        glb.extend(
+            [2, length as u32, json.len() as u32]
+                .iter()
+                .flat_map(|n| n.to_le_bytes()),
+        );
+        glb.extend(b"JSON");
+        glb.extend(json);
+        glb.extend((buffer.len() as u32).to_le_bytes());
+        glb.extend(b"BIN\0");
+        glb.extend(buffer);
+        vec![
+            ("a.stl", stl),
+            ("b.stl", text.into_bytes()),
+            ("c.obj", obj.into_bytes()),
+            ("d.gltf", gltf.into_bytes()),
+            ("e.glb", glb),
+        ]
+    }
+
+    /// Files that are damaged in any way are read or refused: no panic, no corner that is not there, no wait.
+    #[test]
+    fn damaged_files_are_read_or_refused() {
+        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut random = |below: usize| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as usize % below.max(1)
+        };
+        for (name, seed) in seeds() {
+            let whole = of_bytes(Path::new(name), &seed).unwrap();
+            assert!(volume(&whole) > 3.9, "{name}: {}", volume(&whole));
+            let (mut read, mut refused) = (0, 0);
+            for _ in 0..200 {
+                let mut bytes = seed.clone();
+                for _ in 0..=random(3) {
+                    let at = random(bytes.len());
+                    let end = (at + random(24)).min(bytes.len());
+                    match random(6) {
+                        0 => bytes.truncate(at),
+                        1 => drop(bytes.drain(at..end)),
+                        2 => {
+                            let part = bytes[at..end].to_vec();
+                            drop(bytes.splice(at..at, part));
+                        }
+                        3 => {
+                            let words: [&[u8]; 7] = [
+                                b"-1",
+                                b"1e999",
+                                b"4294967295",
+                                b"nan",
+                                b"{",
+                                b"\"",
+                                b"\xff\xff\xff\xff",
+                            ];
+                            let word = words[random(words.len())].to_vec();
+                            drop(bytes.splice(at..(at + word.len()).min(bytes.len()), word));
+                        }
+                        // a digit of a text becomes another: counts, offsets, indices
+                        4 => {
+                            let digits: Vec<usize> = (0..bytes.len())
+                                .filter(|i| bytes[*i].is_ascii_digit())
+                                .collect();
+                            if let Some(at) = digits.get(random(digits.len())) {
+                                bytes[*at] = b'0' + random(10) as u8;
+                            }
+                        }
+                        _ if at < bytes.len() => bytes[at] ^= 1 << random(8),
+                        _ => {}
+                    }
+                }
+                match of_bytes(Path::new(name), &bytes) {
+                    Ok(triangles) => {
+                        let count = triangles.places.len() as u32;
+                        let corners = triangles.corners.as_flattened();
+                        assert!(corners.iter().all(|corner| *corner < count), "{name}");
+                        read += 1;
+                    }
+                    Err(why) => {
+                        assert!(!why.is_empty());
+                        refused += 1;
+                    }
+                }
+            }
+            assert!(
+                read > 5 && refused > 20,
+                "{name}: {read} read, {refused} refused"
+            );
+        }
+    }
+
     #[test]
     fn a_coarser_mesh_has_the_same_surface() {
         let fine = sphere(200);
@@ -347,19 +514,22 @@ mod tests {
         std::fs::create_dir_all(&robot).unwrap();
         std::fs::create_dir_all(folder.join("arm/meshes")).unwrap();
         std::fs::write(folder.join("arm/meshes/a.stl"), "").unwrap();
-        let mesh = |file: &str| model::Mesh {
-            on: model::Body::Frame,
-            file: file.to_owned(),
-            source: robot.join("arm.urdf").display().to_string(),
-            line: 1,
-            at: [0.0; 3],
-            angles: [0.0; 3],
-            scale: [1.0; 3],
+        let found = |file: &str| {
+            let mesh = model::Mesh {
+                on: model::Body::Frame,
+                of: model::Triangles::File(file.to_owned()),
+                source: robot.join("arm.urdf").display().to_string(),
+                line: 1,
+                at: [0.0; 3],
+                angles: [0.0; 3],
+                scale: [1.0; 3],
+            };
+            found(&mesh, file)
         };
-        let there = found(&mesh("package://arm/meshes/a.stl")).unwrap();
+        let there = found("package://arm/meshes/a.stl").unwrap();
         assert!(there.is_file(), "{there:?}");
-        assert!(found(&mesh("../meshes/a.stl")).unwrap().is_file());
-        assert!(found(&mesh("package://leg/a.stl")).is_err());
+        assert!(found("../meshes/a.stl").unwrap().is_file());
+        assert!(found("package://leg/a.stl").is_err());
         std::fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -6,6 +6,7 @@ use super::{CRITERIA, Criterion, Missing, PLACES, Place};
 use crate::facts::{CriteriaFact, ModelFacts, OutputFact};
 use crate::quantity::dimension;
 use crate::response::Response;
+use bryant_generator::model::units::UnitSystem;
 use bryant_runtime::response::Channel;
 use bryant_runtime::response::filter::{Filter, Standard};
 
@@ -108,18 +109,21 @@ fn response(
         .map(|class| Filter { class, standard });
     let channel = Channel::of(&indices, filter, formed.combination);
     let channel = channel.ok_or_else(|| Missing::Unusable("it has too few places".to_owned()))?;
-    let unit = match formed.combination.keeps_unit() {
-        true => formed.what.unit(&facts.outputs[indices[0]].unit),
+    let first = &facts.outputs[indices[0]];
+    let si = match formed.combination.keeps_unit() {
+        true => formed.what.unit(&first.unit),
         false => si(criterion.unit).to_owned(),
+    };
+    let unit = match indices.as_slice() {
+        [_] => facts.unit_for(&si, first),
+        _ => UnitSystem::Si.unit(&si),
     };
     let response = Response {
         name: criterion.name.to_owned(),
         channel,
         of,
         what: formed.what,
-        si: unit.clone(),
         unit,
-        size: 1.0,
     };
     let remarks = indices
         .iter()

@@ -141,18 +141,12 @@ fn response(
             Some(reader.word(at, "filter", &words)?.to_owned())
         }
     };
-    let si = what.unit(&output.unit);
-    // the output's unit fits only if the response keeps it; an integral over time, for one, does not
-    let shown = output.shown.clone().filter(|_| si == output.unit);
-    let (unit, size) = shown.unwrap_or_else(|| (si.clone(), 1.0));
     let response = Response {
         name,
         channel: channel_of(index, filter.as_deref()),
         of: output.name.clone(),
         what,
-        unit,
-        size,
-        si,
+        unit: facts.unit_for(&what.unit(&output.unit), output),
     };
     sampled(reader, at.key("what"), word, &response, facts, run).then_some(response)
 }

@@ -143,7 +143,10 @@ pub fn keep(reader: &Reader, root: At<'_>, facts: &ModelFacts, rows: Option<u64>
     if !reader.record(at, "`keep`", &["runs", "every", "outputs"]) {
         return Keep::default();
     }
-    let mut keep = Keep::default();
+    let mut keep = Keep {
+        time: facts.time.clone(),
+        ..Keep::default()
+    };
     for at in optional(at, "runs").map_or(Vec::new(), |at| reader.items(at, "`runs`")) {
         let Some(run) = reader.whole(at, "the index of a run") else {
             continue;
@@ -166,7 +169,7 @@ pub fn keep(reader: &Reader, root: At<'_>, facts: &ModelFacts, rows: Option<u64>
     let kept = |index: usize, output: &OutputFact| KeptOutput {
         index,
         name: output.name.clone(),
-        unit: output.unit.clone(),
+        unit: output.unit_shown(),
     };
     let Some(at) = optional(at, "outputs") else {
         keep.outputs = facts

@@ -50,7 +50,7 @@ pub fn draw(study: &Study, sample: &Sample) -> Drawing {
         let axes = Axes::new([corner[0], corner[1], FRAME[0], FRAME[1]], ranges);
         let (x, y) = (&study.varied[parameter], &study.responses[response]);
         axes.draw(&mut drawing, [&heading(&x.name, &typeset(&x.unit)), ""]);
-        let lines = wrap(&heading(&y.name, &typeset(&y.unit)), NAME);
+        let lines = wrap(&heading(&y.name, &typeset(&y.unit.name)), NAME);
         for (index, line) in lines.iter().rev().enumerate() {
             let at = [corner[0] - 54.0, corner[1] - 8.0 - 14.0 * index as f64];
             drawing.label("axis", at, Anchor::Start, line);

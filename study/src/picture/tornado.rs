@@ -9,15 +9,19 @@ use bryant_picture::chart::{self, Axes};
 use bryant_picture::{Anchor, Drawing};
 
 /// Width of the bars in pixels, and least width of the names to the left of them.
-const BARS: f64 = 620.0;
+const BARS: f64 = 420.0;
 const NAMES: f64 = 120.0;
 /// Width of a character of a name in pixels.
 const LETTER: f64 = 7.4;
 /// Height of a parameter in pixels.
-const BAR: f64 = 26.0;
-/// Height of a response's title, and of its axis, in pixels.
+const BAR: f64 = 20.0;
+/// Height of a response's title in pixels, and of its axis.
 const TITLE: f64 = 52.0;
 const AXIS: f64 = 52.0;
+/// Of more responses than this, two stand side by side.
+const BELOW_EACH_OTHER: usize = 2;
+/// Half the height of the ends of an interval in pixels.
+const CAP: f64 = 2.5;
 /// Largest number of parameters for each response: those with the largest totals.
 const MOST: usize = 20;
 
@@ -36,10 +40,16 @@ pub fn draw(study: &Study, summary: &Summary) -> Option<Drawing> {
     let left = NAMES.max(LETTER * letters.max().unwrap_or(0) as f64 + 20.0);
     let panel = TITLE + BAR * shown as f64 + AXIS;
     let style = chart::style()
-        + ".total{fill:#e69f00}.main{fill:#0072b2}.interval{stroke:#000;stroke-width:1}\n";
+        + ".total{fill:#e69f00}.main{fill:#0072b2}.interval{stroke:#000;stroke-width:1;fill:none}\n";
     let title = format!("shares of the variance of {}", study.model);
-    let size = [left + BARS + 40.0, panel * known.len() as f64];
+    let columns = 1 + usize::from(known.len() > BELOW_EACH_OTHER);
+    let across = left + BARS + 40.0;
+    let size = [
+        across * columns as f64,
+        panel * known.len().div_ceil(columns) as f64,
+    ];
     let mut drawing = Drawing::new(size[0], size[1], &title, &style);
+    let names_end = left;
     for (place, (name, sensitivity)) in known.iter().enumerate() {
         let mut order: Vec<usize> = (0..study.varied.len()).collect();
         let total = |p: usize| sensitivity.parameters[p].total;
@@ -49,7 +59,8 @@ pub fn draw(study: &Study, summary: &Summary) -> Option<Drawing> {
             .iter()
             .map(|p| total(*p).high.max(total(*p).value))
             .fold(1.0, f64::max);
-        let top = panel * place as f64 + TITLE;
+        let left = names_end + across * (place % columns) as f64;
+        let top = panel * (place / columns) as f64 + TITLE;
         let height = BAR * shown as f64;
         let ranges = [0.0..1.02 * right, 0.0..shown as f64];
         let mut axes = Axes::new([left, top, BARS, height], ranges);
@@ -80,10 +91,13 @@ pub fn draw(study: &Study, summary: &Summary) -> Option<Drawing> {
             };
             bar("total", indices.total, 0.15);
             bar("main", indices.main, 0.3);
-            for (of, at) in [(indices.total, 0.22), (indices.main, 0.5)] {
+            // both within the bars, one above the other
+            for (of, at) in [(indices.total, 0.36), (indices.main, 0.64)] {
                 let y = above + at * BAR;
                 if of.low.is_finite() && of.high.is_finite() {
-                    drawing.line("interval", [x(of.low), y], [x(of.high), y]);
+                    let [low, high] = [x(of.low), x(of.high)];
+                    let cap = |x: f64| ([x, y - CAP], [x, y + CAP]);
+                    drawing.lines("interval", &[([low, y], [high, y]), cap(low), cap(high)]);
                 }
             }
             let name = &study.varied[*parameter].name;

@@ -184,7 +184,7 @@ impl<'s> Totals<'s> {
         let (quantiles, quantiles_of) = self.ranks.quantiles(response, SHARES);
         About {
             name: of.name.clone(),
-            unit: of.unit.clone(),
+            unit: of.unit.name.clone(),
             count: moments.count,
             missing: self.study.rows - moments.count,
             mean: moments.mean(),

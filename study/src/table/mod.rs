@@ -59,7 +59,7 @@ pub fn merge(results: &Results<'_>) -> Result<Vec<PathBuf>, TableError> {
 /// Columns of numbers of a study: its parameters, then its responses.
 pub fn numbers(study: &Study) -> Vec<Column> {
     let parameters = study.varied.iter().map(|p| (&p.name, &p.unit));
-    let responses = study.responses.iter().map(|r| (&r.name, &r.unit));
+    let responses = study.responses.iter().map(|r| (&r.name, &r.unit.name));
     let column = |(name, unit): (&String, &String)| Column {
         name: name.clone(),
         unit: unit.clone(),

@@ -2,6 +2,7 @@
 
 use super::keys::{Contact as Written, Ellipsoid as WrittenEllipsoid};
 use super::plane::plane;
+use crate::description::mesh::Solid;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::short::Surface;
@@ -121,13 +122,22 @@ pub enum Shown {
     Mesh(Mesh),
 }
 
-/// A file of triangles.
+/// What a mesh is made of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Triangles {
+    /// A file by its path as written: relative to the file that names it, or `package://…` as in URDF.
+    File(String),
+    /// A shape about the origin, whose length along each axis is 1.
+    Solid(Solid),
+}
+
+/// Triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// What it is shown with.
     pub on: Body,
-    /// Its path as written: relative to `source`, or `package://…` as in URDF.
-    pub file: String,
+    /// What it is made of.
+    pub of: Triangles,
     /// The file that names it.
     pub source: String,
     /// The line of that file.

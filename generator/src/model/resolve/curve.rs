@@ -11,9 +11,9 @@ use crate::description::load::{beside, channel_key};
 use crate::description::place::{At, Step};
 use crate::description::quantity::Quantity;
 use crate::description::slip;
-use crate::description::table::{Column, Columns, Fault, Table, is_unit};
+use crate::description::table::{Column, Columns, Fault, Table};
 use crate::description::tree::MAX_POINTS;
-use crate::description::unit::{Dimension, unit};
+use crate::description::unit::{Dimension, product, unit};
 use crate::diagnostic::{Diagnostic, quoted, suggestion};
 use crate::model::{Curve, Extrapolate, FieldComponent, Interpolate, Number, ScaledCurve};
 
@@ -321,7 +321,7 @@ impl Resolver<'_> {
         let Some(text) = &columns.units[axis] else {
             return Some(None);
         };
-        if !is_unit(text) {
+        if product(text).is_none() {
             self.problems.add(table.heading_problem(
                 columns,
                 axis,

@@ -7,7 +7,7 @@ use super::units::unit_shown;
 use crate::description::expression;
 use crate::description::output::Formula as Written;
 use crate::description::place::At;
-use crate::description::unit::Dimension;
+use crate::description::unit::{Dimension, product};
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Formula, Leaf, Number, Output, Quantity};
 use std::cell::RefCell;
@@ -135,7 +135,7 @@ fn output_above(
         );
         return None;
     }
-    let unit = expression::unit_of(&output.unit);
+    let unit = product(&output.unit);
     let dimension = unit.map_or(Dimension::ONE, |unit| unit.dimension);
     Some((output.quantity.clone(), dimension))
 }

@@ -1,4 +1,4 @@
-//! Meshes: which body shows which file, how large, and where on it. Files are not read here: what is shown has no influence.
+//! Meshes: which body shows which file or shape, how large, and where on it. Files are not read here: what is shown has no influence.
 
 use super::Resolver;
 use super::quantity::{ANGLE, Expected, LENGTH, PURE};
@@ -6,7 +6,7 @@ use crate::description::load::Loaded;
 use crate::description::mesh::{Mesh as Written, Meshes};
 use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
-use crate::model::{Body, Mesh, Shown};
+use crate::model::{Body, Mesh, Shown, Triangles};
 
 impl Resolver<'_> {
     /// The meshes of all bodies, at the default parameters.
@@ -42,6 +42,41 @@ impl Resolver<'_> {
     }
 
     fn mesh(&self, on: Body, written: &Written, at: At<'_>) -> Option<Mesh> {
+        let of = match (&written.file, written.shape) {
+            (Some(file), None) => Triangles::File(file.clone()),
+            (None, Some(solid)) => Triangles::Solid(solid),
+            _ => {
+                self.problems.add(at.problem(
+                    "a mesh is either a file or a shape",
+                    "write `{ file: car.stl }`, or `{ shape: box, size: [4, 1.8, 1.4] }`",
+                ));
+                return None;
+            }
+        };
+        let size = match (&written.size, &of) {
+            (Some(size), Triangles::Solid(_)) => {
+                self.three(size, [true; 3], at.key("size"), LENGTH)?
+            }
+            (None, Triangles::File(_)) => [1.0; 3],
+            (Some(_), Triangles::File(_)) => {
+                let help = "write a factor on the numbers of the file: `scale`";
+                let problem = at.key("size").key_problem("a file has its own size", help);
+                self.problems.add(problem);
+                return None;
+            }
+            (None, Triangles::Solid(_)) => {
+                let help = "write how long it is along its axes: `size: [4, 1.8, 1.4]`";
+                self.problems
+                    .add(at.problem("this shape has no size", help));
+                return None;
+            }
+        };
+        if size.iter().any(|size| *size <= 0.0) {
+            self.problems.add(at.key("size").problem(
+                "a shape has a length above 0 along each axis",
+                "write one length, or three",
+            ));
+        }
         let scale = match &written.scale {
             Some(scale) => self.three(scale, [true; 3], at.key("scale"), PURE)?,
             None => [1.0; 3],
@@ -64,12 +99,12 @@ impl Resolver<'_> {
         let told = at.problem("", "");
         Some(Mesh {
             on,
-            file: written.file.clone(),
+            of,
             source: at.source.name.clone(),
             line: told.line,
             at: place,
             angles,
-            scale,
+            scale: std::array::from_fn(|axis| scale[axis] * size[axis]),
         })
     }
 

@@ -4,14 +4,14 @@
 use super::Resolver;
 use super::name::Style;
 use super::quantity::{Expected, TIME};
-use crate::description::expression::{Kind, parse, unit_of};
+use crate::description::expression::{Kind, parse};
 use crate::description::load::Loaded;
 use crate::description::output::Output as Looked;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::short::Each;
 use crate::description::switch::{Switch as Written, Trigger as WrittenTrigger};
-use crate::description::unit::Dimension;
+use crate::description::unit::{Dimension, product};
 use crate::model::{Active, Switch, Trigger};
 
 /// The keys by which a trigger names a quantity.
@@ -160,7 +160,7 @@ fn trigger(
     let (quantity, unit) = quantity?;
     let expected = Expected {
         name: "a threshold",
-        dimension: unit_of(unit).map_or(Dimension::ONE, |unit| unit.dimension),
+        dimension: product(unit).map_or(Dimension::ONE, |unit| unit.dimension),
     };
     let shown = written_in(threshold).unwrap_or((unit.to_owned(), 1.0));
     let threshold = resolver.number(threshold, at.key(key), expected);

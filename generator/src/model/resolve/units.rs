@@ -1,10 +1,8 @@
 //! The units in which outputs are shown, as a model gives them.
 
 use super::Resolver;
-use crate::description::expression::unit_of;
 use crate::description::place::At;
-use crate::description::table::is_unit;
-use crate::description::unit::{Dimension, unit};
+use crate::description::unit::{Dimension, product, unit};
 use crate::diagnostic::quoted;
 use crate::model::units::Unit;
 
@@ -20,12 +18,12 @@ pub(super) fn unit_shown(
     at: At<'_>,
 ) {
     let text = written.trim().replace('\u{b0}', "deg");
-    let of_output = unit_of(si).map_or(Dimension::ONE, |unit| unit.dimension);
+    let of_output = product(si).map_or(Dimension::ONE, |unit| unit.dimension);
     let acceleration = Dimension::new(1, 0, -2, 0);
     // of an acceleration, g is no gram
     let found = match text.as_str() {
         GRAVITY | "gn" if of_output == acceleration => unit("gn"),
-        text => unit_of(text).filter(|_| is_unit(text)),
+        text => product(text),
     };
     let help = match si {
         "" => "give `%`, or leave the key `unit` out: the output is a pure number".to_owned(),

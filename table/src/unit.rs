@@ -235,6 +235,81 @@ pub fn unit(name: &str) -> Option<Unit> {
         })
 }
 
+/// The unit that a product of units is, such as `N*m/rad`, `m/(s*s)` or `1/kg/s`; `None` if it is something else.
+pub fn product(text: &str) -> Option<Unit> {
+    let one = Unit {
+        factor: 1.0,
+        dimension: Dimension::ONE,
+    };
+    let mut total: Option<Unit> = None;
+    let (mut rest, mut divide) = (text.trim(), false);
+    loop {
+        let (part, behind) = match rest.strip_prefix('(') {
+            Some(inside) => {
+                let (inside, behind) = inside.split_once(')')?;
+                // one pair of parentheses within another is none of a unit
+                let part = (!inside.contains('(')).then(|| product(inside))?;
+                (part?, behind.trim_start())
+            }
+            None => {
+                let end = rest.find(['*', '/']).unwrap_or(rest.len());
+                let part = match rest[..end].trim() {
+                    "1" => one,
+                    part => power(part)?,
+                };
+                (part, &rest[end..])
+            }
+        };
+        let so_far = total.unwrap_or(one);
+        total = Some(match divide {
+            true => Unit {
+                factor: so_far.factor / part.factor,
+                dimension: so_far.dimension / part.dimension,
+            },
+            false => Unit {
+                factor: so_far.factor * part.factor,
+                dimension: so_far.dimension * part.dimension,
+            },
+        });
+        divide = match behind.chars().next() {
+            None => return total,
+            Some('*') => false,
+            Some('/') => true,
+            Some(_) => return None,
+        };
+        rest = behind[1..].trim_start();
+    }
+}
+
+/// `s`, `s^2`, `s^-1`
+fn power(text: &str) -> Option<Unit> {
+    let Some((name, exponent)) = text.split_once('^') else {
+        return unit(text);
+    };
+    let exponent: i32 = exponent.trim().parse().ok()?;
+    let unit = unit(name.trim()).filter(|_| exponent.abs() <= 9)?;
+    Some(Unit {
+        factor: whole_power(unit.factor, exponent),
+        dimension: unit.dimension.power(exponent),
+    })
+}
+
+/// A unit as models have it, where tests and tables spell it otherwise.
+pub fn spelled(said: &str) -> &str {
+    match said {
+        // of accelerations, not the gram
+        "g" => "gn",
+        "m/(s*s)" | "m/s2" | "m/s²" => "m/s^2",
+        "rad/(s*s)" | "rad/s2" | "rad/s²" => "rad/s^2",
+        "Nm" => "N*m",
+        "kNm" => "kN*m",
+        "°" => "deg",
+        "°/s" => "deg/s",
+        "-" => "1",
+        unit => unit,
+    }
+}
+
 /// A whole power by products: the square of the square and so on, and the reciprocal of that where the exponent is negative.
 pub fn whole_power(base: f64, exponent: i32) -> f64 {
     let (mut square, mut left, mut power) = (base, exponent.unsigned_abs(), 1.0);
@@ -289,6 +364,36 @@ mod tests {
         assert_eq!(of("deg").to_string(), "rad");
         assert_eq!(of("%").to_string(), "");
         assert_eq!(of("rad"), Dimension::ONE);
+    }
+
+    #[test]
+    fn products_are_read_from_left_to_right() {
+        let of = |text: &str| product(text).map(|unit| (unit.factor, unit.dimension.to_string()));
+        let known = |factor: f64, si: &str| Some((factor, si.to_owned()));
+        assert_eq!(of("kN*m/rad"), known(1e3, "N*m/rad"));
+        assert_eq!(of("m/(s*s)"), known(1.0, "m/s^2"));
+        assert_eq!(of("m / s / s"), known(1.0, "m/s^2"));
+        assert_eq!(of("1/ms"), known(1e3, "1/s"));
+        assert_eq!(of("mm*s^-2"), known(1e-3, "m/s^2"));
+        assert_eq!(of("°/s"), known(std::f64::consts::PI / 180.0, "rad/s"));
+        assert_eq!(of("1"), known(1.0, ""));
+        for none in [
+            "", "furlong", "5 cm", "m//s", "m/", "(m", "m)", "((m))", "m^", "m^x", "m^10", "m s",
+            "2*m", "(s)m",
+        ] {
+            assert_eq!(of(none), None, "{none}");
+        }
+        for (said, si) in [
+            ("g", "m/s^2"),
+            ("kNm", "N*m"),
+            ("rad/s²", "rad/s^2"),
+            ("-", ""),
+        ] {
+            assert_eq!(
+                product(spelled(said)).map(|unit| unit.dimension.name()),
+                Some(si)
+            );
+        }
     }
 
     #[test]
