@@ -9,9 +9,9 @@ use crate::study::{Listed, Plan, Varied};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::open_file;
 use bryant_generator::description::place::At;
-use bryant_generator::description::table::is_unit;
 use bryant_generator::description::tree::Kind;
 use bryant_generator::diagnostic::quoted;
+use bryant_table::unit::{product, spelled};
 use std::fmt::Display;
 use std::io::Read as _;
 use std::path::Path;
@@ -181,7 +181,7 @@ impl<'r> Lines<'r> {
     ) -> Option<Vec<Column<'r>>> {
         let mut columns: Vec<Column<'r>> = Vec::new();
         let mut sound = true;
-        for heading in table.headings(&is_unit) {
+        for heading in table.headings(&|text| product(spelled(text)).is_some()) {
             // the name of a parameter may itself look like a name with a unit
             let whole = facts.parameter(heading.field.text);
             let (name, unit) = match whole {
