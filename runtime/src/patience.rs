@@ -14,7 +14,7 @@ pub(crate) struct Patience {
     limit: Option<Duration>,
     /// The time at which the run ends \[s\].
     end: f64,
-    /// When this window began on the clock, and the time of the run then \[s\].
+    /// The clock time at which the current window began, and the time of the run then \[s\].
     window: [f64; 2],
     late: Option<Late>,
 }
