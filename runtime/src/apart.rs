@@ -197,8 +197,8 @@ impl What {
     ];
 }
 
-/// How a model gets its Jacobian. Dual numbers need a second compilation of the equations, which takes longer than the
-/// first.
+/// A way to get the Jacobian of a model. Dual numbers need a second compilation of the equations, which takes longer
+/// than the first.
 pub trait Differentiate {
     /// [`Dynamics::jacobian`].
     fn jacobian<M: Model<f64>>(

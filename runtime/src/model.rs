@@ -324,7 +324,7 @@ pub struct Info {
     /// The watched curves of the state, the bearings of joints that bend, and the directions in which pairs of
     /// ellipsoids push.
     pub curves: &'static [CurveInfo],
-    /// Whether a curve of time must not be left (`extrapolate: error`).
+    /// True if a curve of time ends, and must not be left (`extrapolate: error`).
     pub time_ends: bool,
     /// Elements whose inertia may vanish in some position ("man/head").
     pub pivots: &'static [&'static str],
@@ -410,7 +410,7 @@ pub enum CurveKind {
     /// The share of the volume of an airbag that a penetrating body takes; 0 while it does not push. The law ends at
     /// [`CurveInfo::last`].
     Volume,
-    /// How hard the fading edge of a plane pushes sideways, as a share of the elastic force with which the plane pushes
+    /// The sideways force of the fading edge of a plane, as a share of the elastic force with which the plane pushes
     /// within its edges. Beyond [`CurveInfo::last`] the edge is too narrow for the depth.
     Edge,
 }
@@ -428,9 +428,9 @@ pub struct CurveInfo {
     pub ends: [f64; 2],
     /// Its continuation beyond them.
     pub extrapolate: Extrapolate,
-    /// Whether the description gives this continuation, so that it is not merely the default.
+    /// True if the description gives this continuation; false if it is the default.
     pub told: bool,
-    /// Whether it is a curve or another quantity that is watched like one.
+    /// The kind of this entry: a curve, or another quantity that is watched like one.
     pub kind: CurveKind,
 }
 
@@ -498,7 +498,7 @@ impl CurveInfo {
         }
     }
 
-    /// How far `argument` is beyond the first or the last point; 0 within.
+    /// The distance of `argument` beyond the first or the last point; 0 within.
     pub fn beyond(&self, argument: f64) -> f64 {
         (self.first - argument).max(argument - self.last).max(0.0)
     }

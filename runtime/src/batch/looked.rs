@@ -21,13 +21,13 @@ type Numbers = [f64; MOST_LANES];
 pub(super) struct Looked {
     onsets: usize,
     corners: usize,
-    /// By quarter: all gaps, then all speeds, in each lane.
+    /// For each quarter: all gaps, then all speeds, in each lane.
     quarters: [Box<[Numbers]>; QUARTERS + 1],
-    /// By look: all gaps, at each place.
+    /// For each look: all gaps, at each place.
     gaps: [Box<[Numbers]>; KEPT],
-    /// By look: the lane of each place, and the part of its step.
+    /// For each look: the lane of each place, and the part of its step.
     places: [[(u8, f64); MOST_LANES]; KEPT],
-    /// By look: the number of places.
+    /// For each look: the number of places.
     counts: [usize; KEPT],
     /// The oldest look, which is overwritten next.
     next: usize,

@@ -260,7 +260,7 @@ impl<T: Several> Run<'_, T> {
         quiet
     }
 
-    /// As [`Run::quiet`], and with the gaps in the middle of the step.
+    /// [`Run::quiet`] with the gaps in the middle of the step known, too.
     #[inline(always)]
     fn calm(&self) -> T::Mask {
         let length = self.step.h.part(0);

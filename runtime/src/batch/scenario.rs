@@ -18,7 +18,7 @@ pub trait Scenarios<S> {
         let _ = scenario;
         true
     }
-    /// Which outputs are sampled, by their index in [`Info::outputs`](crate::Info::outputs).
+    /// The outputs to sample, by their index in [`Info::outputs`](crate::Info::outputs).
     fn outputs(&self) -> &[usize];
     /// Whether the outputs are requested on both sides of each event, where they may jump, for [`Series::jumps_of`].
     /// This takes two evaluations of the outputs for each event.
@@ -40,7 +40,7 @@ pub trait Scenarios<S> {
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ended {
-    /// Whether it reached its end.
+    /// How the run ended.
     pub status: Status,
     /// Time reached \[s\].
     pub t: f64,
@@ -75,7 +75,7 @@ pub enum Doubt {
     /// The gap in the balance of energy is above the [limit](super::Settings::energy_limit), with fixed steps: the
     /// effect whose power was largest when the gap began, an index in [`Info::powers`](crate::Info::powers).
     Energy(Option<usize>),
-    /// The same for the momentum of freely moving bodies.
+    /// The gap in the balance of momentum of freely moving bodies is above the limit, with fixed steps.
     Momentum,
     /// The estimated error of fixed steps is too large: the entry of the state whose error was largest when this began.
     Error(usize),
@@ -87,7 +87,7 @@ pub enum Doubt {
 /// Whether a run reached its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// It reached its end.
+    /// The run reached its end.
     Done,
     /// The state, its derivative or an output is not finite.
     NonFinite,
@@ -95,11 +95,11 @@ pub enum Status {
     StepTooSmall,
     /// The limit on the number of steps was reached.
     TooManySteps,
-    /// It reached its end, but cannot be trusted: see [`Ended::doubt`].
+    /// The run reached its end, but cannot be trusted: see [`Ended::doubt`].
     Doubtful,
     /// The model does not allow its parameters.
     Refused,
-    /// Its computation took too long, or would have taken too long at its rate:
+    /// The computation took too long, or would have taken too long at its rate:
     /// [`Settings::time_limit`](super::Settings::time_limit).
     Slow,
 }

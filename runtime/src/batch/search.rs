@@ -88,7 +88,7 @@ impl<T: Several> Run<'_, T> {
         part
     }
 
-    /// The same for these lanes, from the values that [`Run::look_into`] found.
+    /// [`Run::hidden`] for these lanes, from the values that [`Run::look_into`] found.
     #[inline(always)]
     fn found_inside(&mut self, blind: T::Mask) -> T::Part {
         let never = T::Part::from_f64(f64::INFINITY);

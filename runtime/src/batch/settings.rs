@@ -28,9 +28,9 @@ pub struct Settings {
 /// The length of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// Of equal length between two kinks in time.
+    /// Steps of equal length between two kinks in time.
     Fixed(Fixed),
-    /// As the tolerances allow, by Dormand & Prince's pair 5(4).
+    /// Steps as long as the tolerances allow, by Dormand & Prince's pair 5(4).
     Adaptive(Tolerances),
 }
 

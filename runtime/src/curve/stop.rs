@@ -13,8 +13,8 @@
 use super::Extrapolate;
 use crate::real::{Mask, Real};
 
-/// How far v may be from 0 where it turns back, relative to the magnitudes that it was summed from: a few roundings in
-/// each of some pieces.
+/// Largest distance of v from 0, where v turns back, that counts as 0. It is relative to the magnitudes that v was
+/// summed from: a few roundings in each of some pieces.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The largest relative correction by Newton's steps, which only remove rounding. If v is so flat that they would be
@@ -213,7 +213,7 @@ impl Walk {
         })
     }
 
-    /// Where v goes through 0 between `from` and `to`.
+    /// The place where v goes through 0 between `from` and `to`.
     fn crossed(&self, piece: &Piece, from: f64, to: f64) -> Stop {
         let begin = piece.integral(from);
         let moves = |x: f64| self.sign * (self.velocity + (piece.integral(x) - begin)) > 0.0;
@@ -224,7 +224,7 @@ impl Walk {
     }
 }
 
-/// One polynomial of the curve, times the factor: an acceleration.
+/// A polynomial piece of the curve, times the factor: an acceleration.
 struct Piece {
     x: f64,
     y: f64,
@@ -244,8 +244,8 @@ impl Piece {
         self.factor * (s * (self.y + s * (m / 2.0 + s * (c2 / 3.0 + s * c3 / 4.0))))
     }
 
-    /// Where the acceleration changes its sign between `from` and `to`; `to` where it does not. Beyond the outermost
-    /// points it is a line.
+    /// The place where the acceleration changes its sign between `from` and `to`; `to` if it does not. Beyond the
+    /// outermost points the acceleration is a line.
     fn turn(&self, from: f64, to: f64) -> f64 {
         let begin = self.acceleration(from);
         if to == f64::INFINITY {

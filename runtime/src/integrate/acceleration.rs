@@ -219,7 +219,7 @@ impl<P: Number> Accelerations<P> {
     }
 
     /// The error of the accelerations of a step of length `h`, over what is allowed; a good step has at most 1. `level`
-    /// is what tolerances are multiplied by.
+    /// is the factor on the tolerances.
     #[inline(always)]
     pub fn error<R: Roots<P>>(
         &mut self,

@@ -153,8 +153,8 @@ impl<'w, T: Real> Allowed<'w, T> {
     /// The largest ratio of estimated to allowed error over all entries (and lanes) of a step from `y` to `end`; `None`
     /// where something is not finite. A good step has at most 1.
     ///
-    /// It is the largest and not the mean, because one element with a large error must not hide among thirty quiet
-    /// ones.
+    /// The largest and not the mean ratio counts, because one element with a large error must not hide among thirty
+    /// quiet ones.
     pub fn error(&self, y: &[T], end: &[T], estimate: &[T]) -> Option<f64> {
         let (mut worst, mut sum) = (T::from_f64(0.0), T::from_f64(0.0));
         for ratio in self.ratios(y, end, estimate) {

@@ -112,8 +112,8 @@ impl<T: Real, M: Model<T>> Task for March<'_, T, M, M::State> {
 /// Takes steps as [`march()`] does, by Dormand & Prince's method of order 8, twelve evaluations each.
 ///
 /// Where a motion is smooth, its steps may be many times as long as those of [`march()`] for the same error. Across a
-/// kink it gains nothing. It keeps thirteen states on the stack: half a megabyte for a large model in wide registers.
-/// Coefficients: [`Formula::Dop853`](super::Formula::Dop853).
+/// kink nothing is gained. The method keeps thirteen states on the stack: half a megabyte for a large model in wide
+/// registers. Coefficients: [`Formula::Dop853`](super::Formula::Dop853).
 ///
 /// ```
 /// # use bryant_runtime::{Real, Model, integrate::march_dop853};

@@ -176,7 +176,7 @@ impl fmt::Display for Formula {
     }
 }
 
-/// One step of some method: begun, taken, judged, interpolated.
+/// A step of some method, which is begun, taken, judged and interpolated.
 ///
 /// The value is kept from one step to the next and filled in place. Its memory is a part of the workspace of the run.
 pub(crate) trait Stepper<T: Real> {
@@ -216,11 +216,11 @@ pub(crate) trait Stepper<T: Real> {
     fn switched(&self) -> bool {
         false
     }
-    /// Of a [switched](Stepper::switched) step: writes the derivative of the interpolant with respect to time at t +
-    /// θh.
+    /// Writes the derivative of the interpolant with respect to time at t + θh, if the step is
+    /// [switched](Stepper::switched).
     fn slope(&self, _theta: f64, _slope: &mut [T]) {}
-    /// Of a [switched](Stepper::switched) step: writes the effect of rounding of the state on each entry of the
-    /// derivative at the start of the step. Returns h|λ| of the fastest motion there.
+    /// Writes the effect of rounding of the state on each entry of the derivative at the start of a
+    /// [switched](Stepper::switched) step. Returns h|λ| of the fastest motion there.
     fn noise(&self, _noise: &mut [T]) -> f64 {
         0.0
     }
@@ -321,7 +321,7 @@ impl<'w, T: Real> AnyStepper<'w, T> {
         }
     }
 
-    /// The step as a trait object, whatever its method.
+    /// The step as a trait object.
     pub fn stepper(&mut self) -> &mut dyn Stepper<T> {
         match self {
             AnyStepper::SemiImplicitEuler(step) => step,

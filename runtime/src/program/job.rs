@@ -35,8 +35,7 @@ pub struct Job {
     pub scalar: Scalar,
     /// Whether to compute everything but deliver no samples and no balance of energy, to measure how long a run takes.
     pub silent: bool,
-    /// How long the computation may take. The results up to then are delivered, and the run ends with
-    /// [`ErrorKind::Time`].
+    /// Limit on the computing time. The results up to then are delivered, and the run ends with [`ErrorKind::Time`].
     pub time_limit: Option<Duration>,
 }
 

@@ -23,7 +23,7 @@ pub struct Reading {
 pub struct Kept {
     /// The channel.
     pub channel: Channel,
-    /// The output that it replaces in what is shown, if any.
+    /// The output that this channel replaces in what is shown, if any.
     pub in_place_of: Option<usize>,
 }
 

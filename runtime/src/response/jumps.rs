@@ -5,7 +5,7 @@
 //! jump. The answers are exact for that line, and so are their derivatives. The line moves its knots along both axes:
 //! d/dp ∫ x dt contains (x⁻ − x⁺) dt_jump/dp.
 //!
-//! One signal at a time: this code branches and allocates.
+//! This code handles one signal at a time, because it branches and allocates.
 
 use super::{Response, STANDARD_GRAVITY, extremes, reduce};
 use crate::Real;

@@ -10,7 +10,7 @@ use core::fmt;
 pub struct Diagnostic {
     /// The time when it began \[s\].
     pub t: f64,
-    /// What it is.
+    /// The problem.
     pub problem: Problem,
     /// The model, for its names.
     pub info: &'static Info,
@@ -315,7 +315,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// By how much the argument of a curve exceeds its points, and how the curve is extended, in words.
+/// A message: by how much the argument of a curve exceeds its points, and how the curve is extended.
 pub(crate) struct OutOfRange<'a> {
     pub curve: &'a CurveInfo,
     pub argument: f64,

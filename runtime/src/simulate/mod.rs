@@ -68,7 +68,7 @@ pub struct Sample<'a, T> {
     pub state: &'a [T],
     /// The outputs, in the order and units of [`Info::outputs`].
     pub outputs: &'a [T],
-    /// Which sample it is.
+    /// The purpose of the sample.
     pub kind: SampleKind,
 }
 

@@ -156,7 +156,7 @@ impl Grid {
         }
     }
 
-    /// The grid continued after its last step, or the one before, ended at `t`; `None` if `t` is not on the grid.
+    /// The grid at `t`, where the step tried last ended or began; `None` if `t` is neither, or if the stop has changed.
     pub fn at(self, t: f64, stop: f64) -> Option<Grid> {
         let taken = [self.taken + 1, self.taken];
         let taken = taken.into_iter().find(|steps| self.time(*steps) == t)?;

@@ -12,7 +12,7 @@
 //! | bushings beyond 60° about y | by how much the angle about x leaps | a quarter turn |
 //! | two ellipsoids that push each other | by how much the direction of the force leaps | a quarter turn |
 //!
-//! What disagrees becomes a [`Diagnostic`], which has the words.
+//! Each disagreement becomes a [`Diagnostic`], which has the words.
 //!
 //! **Scales.** The largest energy so far is the scale of energy. The sum of all exchanged energies would be no good
 //! scale: a pendulum exchanges its energy four times a period, so a small but steady loss would never count. By Cauchy
@@ -36,7 +36,7 @@
 //!
 //! **The fastest motion** (Hairer & Wanner, *Solving ODEs II*, IV.2): where a step is unstable, its error soon consists
 //! of the fastest motion alone, and so does the difference of two states a, b that are computed for the same time. Then
-//! ‖f(a) − f(b)‖/‖a − b‖ is |λ|. As the geometric mean over coordinates and over velocities it is |λ| for an
+//! ‖f(a) − f(b)‖/‖a − b‖ is |λ|. The geometric mean of this ratio over coordinates and over velocities is |λ| for an
 //! oscillation, too, whatever its phase and whatever the units.
 
 pub(crate) mod account;
@@ -91,7 +91,7 @@ impl Left {
 #[derive(Debug)]
 pub struct Watch<'a, T: Real> {
     info: &'static Info,
-    /// Where energy and momentum went.
+    /// The balances of energy and momentum.
     pub balance: Balance<'a, T>,
     account: Account,
     /// The effect whose power was largest when the gap in the energy began.
@@ -123,7 +123,7 @@ pub struct Watch<'a, T: Real> {
     nearest: Buffer<'a, T>,
     /// The state at the start.
     start: Buffer<'a, T>,
-    /// How far each entry of the state is from the solution in steps half as long.
+    /// The difference of each entry of the state from the solution in steps half as long.
     error: Buffer<'a, T>,
     /// Workspace for a derivative.
     rates: Buffer<'a, T>,

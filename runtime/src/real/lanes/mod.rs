@@ -11,9 +11,8 @@
 //! that not every processor has are used in functions that are compiled for them. A whole evaluation of the equations
 //! must be inlined into such a function: see [`Real::dispatch`].
 //!
-//! Addition, multiplication, fused multiply-add, division and roots are correctly rounded in every width, and
-//! everything else consists of them. So a lane has the same bits whatever register it is in and whatever its neighbours
-//! hold.
+//! Addition, multiplication, fused multiply-add, division and roots are correctly rounded in every width, and all other
+//! functions consist of these operations. So a lane has the same bits in every register, whatever its neighbours hold.
 //!
 //! A register of singles has twice the lanes of the same register of doubles. Its elementary functions are those of
 //! doubles, rounded: as fast as eight lanes, and exact to the last bit.

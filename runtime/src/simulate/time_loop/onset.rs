@@ -26,8 +26,8 @@ const SAME: f64 = 1e-9;
 /// Gaps and speeds of all onsets: at the start of a step, at its end, at the ends of its quarters between, at one
 /// further place, and at the start of the previous step.
 pub(super) struct Onsets<'w, T> {
-    /// By place: start, end, three quarters between, further place, start of the previous step. For each place all
-    /// gaps, then all speeds.
+    /// All values. The places are start, end, three quarters between, further place, start of the previous step; each
+    /// has all gaps, then all speeds.
     values: &'w mut [T],
     /// The number of onsets, and the number of corners, which are the last onsets.
     count: usize,
@@ -123,7 +123,7 @@ impl<'w, T: Real> Onsets<'w, T> {
             || past > 0.0 && straight([before, a, b], speed, lengths, limit).all()
     }
 
-    /// As [`Onsets::quiet`], and with the gap in the middle of the step.
+    /// [`Onsets::quiet`] with the gap in the middle of the step known, too.
     fn calm(&self, side: usize, past: f64, length: f64) -> bool {
         let places = [0, MIDDLE, 1];
         let speed = places.map(|place| self.speed(place, side));

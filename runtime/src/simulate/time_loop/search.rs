@@ -92,8 +92,8 @@ impl<T: Real> TimeLoop<'_, '_, T> {
             .within(step, Which::Kinks)
             .first_change(1.0, 0.3 * margin);
         let way = length * share;
-        // The length left for crossing. The error of crossing falls at least linearly with this length, so this choice
-        // makes it a fraction of the tolerance.
+        // The length left for crossing. The error of crossing falls at least linearly with this length, so it becomes
+        // at most a fifth of the tolerance.
         let left = match (self.settings.method.pace, error) {
             (Pace::Adaptive(_), Some(error)) => 0.2 * length / error,
             _ => 0.0,
