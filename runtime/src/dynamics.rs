@@ -113,7 +113,7 @@ pub struct AccountArrival<'a, T> {
     pub external_wrench: &'a mut [T; 6],
 }
 
-/// [`Dynamics::exchange`], one function after the other.
+/// The default of [`Dynamics::exchange`]: calls one function after the other.
 pub fn exchange<T: Real, M: Dynamics<T> + ?Sized>(
     model: &M,
     t: T,
@@ -127,7 +127,7 @@ pub fn exchange<T: Real, M: Dynamics<T> + ?Sized>(
     }
 }
 
-/// [`Dynamics::arrive`], one function after the other.
+/// The default of [`Dynamics::arrive`]: calls one function after the other.
 pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
     model: &M,
     t: T,

@@ -268,11 +268,11 @@ pub trait Mask: Copy {
     fn any(self) -> bool;
     /// True in every lane.
     fn all(self) -> bool;
-    /// Where both are true.
+    /// The lanes in which both are true.
     fn and(self, other: Self) -> Self;
-    /// Where at least one is true.
+    /// The lanes in which at least one is true.
     fn or(self, other: Self) -> Self;
-    /// Where it is false.
+    /// The lanes in which this mask is false.
     fn not(self) -> Self;
     /// The mask as bits: bit i is lane i.
     fn lanes(self) -> u32;

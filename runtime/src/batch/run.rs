@@ -61,7 +61,7 @@ pub(super) fn run_models<T: Several>(
     T::dispatch(Run::new(models, settings, scenarios));
 }
 
-/// The run in a lane, without its state.
+/// The run in a lane, except for its state.
 pub(super) struct Lane<S> {
     pub(super) scenario: Option<usize>,
     /// The next kink in time, or the end \[s\].

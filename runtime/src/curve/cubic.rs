@@ -403,7 +403,7 @@ fn solve<T: Real>([x_k, y_k, m, c2, c3, h]: [T; 6], y: T) -> T {
         low = T::select(below, middle, low);
         high = T::select(below, high, middle);
     }
-    // the first step has the accuracy of a double, the second its square; the derivative then has it, too
+    // after the first step s has the accuracy of a double, after the second the square of that; so has its derivative
     let mut s = high;
     for _ in 0..2 {
         let slope = c::<T>(3.0).mul_add(c3 * s, c::<T>(2.0) * c2).mul_add(s, m);

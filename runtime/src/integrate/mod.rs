@@ -131,9 +131,9 @@ impl Formula {
     /// this limit over the fastest motion of a scene grows without bound, whatever that motion is. `None` where there
     /// is no such limit.
     ///
-    /// For explicit Runge–Kutta methods it is the farthest point of |R(z)| = 1 in the left half plane, where R is their
-    /// stability polynomial (Hairer & Wanner, *Solving ODEs II*, IV.2); a test computes it from the tableau. For
-    /// semi-implicit Euler it is hω of the undamped oscillator, and also hc of ẋ = −c x.
+    /// For explicit Runge–Kutta methods the limit is the farthest point of |R(z)| = 1 in the left half plane, where R
+    /// is their stability polynomial (Hairer & Wanner, *Solving ODEs II*, IV.2); a test computes it from the tableau.
+    /// For semi-implicit Euler it is hω of the undamped oscillator, and also hc of ẋ = −c x.
     pub const fn stability_limit(self) -> Option<f64> {
         match self {
             Formula::SemiImplicitEuler => Some(2.0),

@@ -121,7 +121,7 @@ impl<T: Real> AddAssign for Dual<T> {
     }
 }
 
-/// `argument`, which is not negative; but 1 where both it and `motion` are 0.
+/// Returns `argument`, which must not be negative, or 1 where both `argument` and `motion` are 0.
 #[inline(always)]
 fn guarded<T: Real>(argument: T, motion: T) -> T {
     let zero = T::from_f64(0.0);

@@ -7,7 +7,7 @@
 use super::lanes::Alone;
 use super::lanes::elementary::Elementary;
 
-/// A number with the operations that it needs.
+/// The operations on `f64` and `f32` that `core` lacks.
 pub trait Plain: Sized {
     fn root(self) -> Self;
     /// `self` · `a` + `b` with one rounding: one instruction in code that is compiled for it, a slow function

@@ -17,11 +17,11 @@ pub enum Base {
     DoubleDouble = 3,
     /// A lane of doubles with fused products and sums: [`Width::One`](super::Width::One) and wider.
     Lane = 4,
-    /// A lane of doubles without: [`Width::Plain`](super::Width::Plain).
+    /// A lane of doubles whose products and sums are not fused: [`Width::Plain`](super::Width::Plain).
     PlainLane = 5,
     /// A lane of singles with fused products and sums.
     SingleLane = 6,
-    /// A lane of singles without.
+    /// A lane of singles whose products and sums are not fused.
     PlainSingleLane = 7,
 }
 

@@ -59,7 +59,7 @@ pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut
     Some(largest.sqrt() * T::from_f64(every))
 }
 
-/// More than rounding, also that of singles, can subtract from a bound.
+/// Factor on a bound that allows for its rounding, also in single precision.
 const ROUNDED: f64 = 1.01;
 
 /// The integral from the first sample to each, in intervals.

@@ -54,7 +54,7 @@ pub enum Response {
     /// The time of the largest value \[s\]: the first such sample, moved by at most half an interval to the top of the
     /// parabola through it and its neighbours.
     TimeOfPeak,
-    /// The time of the smallest value \[s\], likewise.
+    /// The time of the smallest value \[s\], found like [`TimeOfPeak`](Response::TimeOfPeak).
     TimeOfMinimum,
     /// The largest sample less the smallest one.
     Range,

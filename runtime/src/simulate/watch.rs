@@ -579,8 +579,7 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// Looks which of the arguments at the end of a step, which began at `t`, are outside of the points of their
-    /// curves.
+    /// Notes which arguments are outside of the points of their curves at the end of a step that began at `t`.
     fn look_at_curves(&mut self, t: f64) {
         for (i, curve) in self.info.curves.iter().enumerate() {
             if !curve.kind.may_be_left() {

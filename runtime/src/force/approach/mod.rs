@@ -38,7 +38,7 @@ const STEPS: u32 = 60;
 /// Longest step \[rad\].
 const LONGEST: f64 = 0.5;
 
-/// When a search ends.
+/// The rule that ends a search.
 #[derive(Clone, Copy)]
 struct Ending {
     /// The square of a step length \[rad²\]. After a shorter step the error is of the order of rounding.
@@ -54,8 +54,8 @@ struct Ending {
 }
 
 impl Ending {
-    /// The end for a scalar and an iteration whose error is the power `order`, 2 or 3, of the error before. The
-    /// compiler computes it.
+    /// The rule for a scalar, and for an iteration that raises the error to the power `order`, 2 or 3. The compiler
+    /// evaluates this function.
     #[inline(always)]
     fn of<T: Real>(order: u32) -> Self {
         let one = T::from_f64(1.0);

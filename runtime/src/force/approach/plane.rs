@@ -61,7 +61,7 @@ pub fn touch<T: Real>(xx1: T, zz1: T, xz1: T, xx2: T, zz2: T, xz2: T, dx: T, dz:
 #[derive(Clone, Copy)]
 pub(super) struct Quadric<T>(pub(super) [T; 3]);
 
-/// The search for the smallest φ. It is a function of its own because it is too long to be inlined.
+/// The search for the smallest φ. It is compiled as a function of its own because it is too long to be inlined.
 pub(super) struct Search<T: Real> {
     pub(super) both: [Quadric<T>; 2],
     pub(super) between: [T; 2],
@@ -281,7 +281,7 @@ impl<T: Real> Bracket<T> {
         let other = pick(falls, self.0[1], self.0[0]);
         let known = zero.lt(dot(other, other));
         let moved = turned(now.direction, tangent);
-        // whether it is beyond the other end, which lies in the direction of the step
+        // true if the new n is beyond the other end, which lies in the direction of the step
         let turn = moved[0] * other[1] - moved[1] * other[0];
         let beyond = T::select(falls, turn, -turn).lt(zero);
         let halved = known.and(slow.or(beyond));

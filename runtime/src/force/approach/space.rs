@@ -103,7 +103,7 @@ pub fn touch<T: Real>(
 #[derive(Clone, Copy)]
 pub(super) struct Quadric<T>(pub(super) [T; 6]);
 
-/// The search for the smallest φ. It is a function of its own because it is too long to be inlined.
+/// The search for the smallest φ. It is compiled as a function of its own because it is too long to be inlined.
 pub(super) struct Search<T: Real> {
     pub(super) both: [Quadric<T>; 2],
     pub(super) between: [T; 3],

@@ -108,7 +108,7 @@ pub(super) fn sin_cos(x: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     }
 }
 
-/// (sin, cos) of |`r`| ≤ π/4 and a little: Taylor's series by Horner's rule.
+/// (sin, cos) of `r`, where |`r`| is at most slightly above π/4: Taylor's series by Horner's rule.
 fn sin_cos_of_eighth(r: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     let minus = -(r * r);
     let mut sine = DoubleDouble::ZERO;

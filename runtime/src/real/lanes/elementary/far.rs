@@ -35,8 +35,8 @@ const TWO_OVER_PI: [u64; 21] = [
 /// π/2 in two doubles.
 const QUARTER_TURN: [f64; 2] = [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17];
 
-/// (k + 1.5 · 2⁵², hi, low) with x = k π/2 + hi − low and k modulo 4, in the lanes beyond the reach of the short way.
-/// In all others the arguments are returned unchanged.
+/// (k + 1.5 · 2⁵², hi, low) with x = k π/2 + hi − low and k modulo 4, in the lanes whose angle is beyond [`REACH`]. In
+/// all other lanes the arguments are returned unchanged.
 #[cold]
 #[inline(never)]
 pub(super) fn far<R: Doubles>(x: R, turned: R, hi: R, low: R) -> (R, R, R) {
