@@ -326,8 +326,8 @@ pub type Values<T> = [T; 5];
 /// The places of [`Values`], as parts of the step.
 pub const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
-/// The fraction of a step at which a function is on the other side of zero, though its end does not show this; +∞ if
-/// there is none, and undefined in lanes that are not `wanted`. The rule is that of `hidden` in a single run.
+/// The first fraction of a step at which a function has a value that [matters](Course::matters); +∞ if there is none,
+/// and undefined in lanes that are not `wanted`. The rule is that of `hidden` in a single run.
 #[inline(always)]
 pub fn hidden<T: Several>(
     probe: &mut Probe<'_, T>,

@@ -134,7 +134,7 @@ impl<T: Several> Run<'_, T> {
         places.clear();
     }
 
-    /// Evaluates the functions at several places, one in each lane, into `after`. Returns their number.
+    /// Evaluates the functions at several places, one in each lane, into `after`. Returns the number of functions.
     #[inline(always)]
     fn evaluate_at(&mut self, functions: Functions, places: &mut Places<(usize, f64)>) -> usize {
         let order = self.pack(places);

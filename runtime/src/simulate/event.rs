@@ -111,10 +111,11 @@ impl<T: Real> Within<'_, T> {
         first
     }
 
-    /// A fraction of the step at which one of the functions is on the other side of zero, though at the end it has the
-    /// sign of the start: a ball in free flight, whose parabola is integrated without error in steps of any length,
-    /// would fly into a wall and out again in one step. The functions are evaluated at three places within the step,
-    /// and at the vertices of parabolas through neighbouring values.
+    /// A fraction of the step at which one of the functions is on the other side of zero, though its end does not show
+    /// this: a ball in free flight, whose parabola is integrated without error in steps of any length, would fly into a
+    /// wall and out again in one step. If a function is on the other side at the end, a place where it was far deeper
+    /// on this side than at the start ([`DEEPER`]). The functions are evaluated at three places within the step, and at
+    /// the vertices of parabolas through neighbouring values.
     pub fn hidden(&mut self) -> Option<f64> {
         for (place, theta) in [0.25, 0.5, 0.75, 1.0].into_iter().enumerate() {
             self.at(theta, place);
@@ -253,7 +254,8 @@ impl<P: Number> Course<P> {
         P::from_f64(0.0).lt(self.0[4])
     }
 
-    /// True where a value of this size within the step is to be searched for.
+    /// True where a value of this size within the step is to be searched for: it is on the other side, and the end is
+    /// not; or the end is on the other side, and the value is [`DEEPER`] times deeper on this side than the start.
     #[inline(always)]
     pub fn matters(&self, value: P) -> P::Mask {
         let nought = P::from_f64(0.0);
