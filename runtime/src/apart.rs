@@ -1,13 +1,14 @@
-//! Calls into a library that is compiled separately and loaded at run time. Both sides of a call exchange plain numbers.
+//! Calls into a library that is compiled separately and loaded at run time. Both sides of a call exchange plain
+//! numbers.
 //!
 //! | of | given | comes back |
 //! |---|---|---|
 //! | functions of the user ([`Adapter`], [`function`]) | arguments as [words](crate::real::Form) | results as words |
 //! | a generated model ([`evaluate`]) | what to do ([`What`]), t, y | as many numbers as it takes |
 //!
-//! The loaded library has its own standard library, perhaps of another compiler. So only numbers and addresses cross the boundary. A panic
-//! stays inside: the call returns [`PANICKED`], and [`said`] tells where it was and what it said. Only this file of the library handles
-//! addresses.
+//! The loaded library has its own standard library, perhaps of another compiler. So only numbers and addresses cross
+//! the boundary. A panic stays inside: the call returns [`PANICKED`], and [`said`] tells where it was and what it said.
+//! Only this file of the library handles addresses.
 #![expect(
     unsafe_code,
     reason = "addresses of numbers come from the program that loaded the library"
@@ -22,7 +23,8 @@ use core::marker::PhantomData;
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Version of the exported functions. It changes whenever a library that was built for an earlier version would not work.
+/// Version of the exported functions. It changes whenever a library that was built for an earlier version would not
+/// work.
 pub const VERSION: u32 = 3;
 
 /// The value that a call returns on success.
@@ -32,7 +34,8 @@ pub const NOTHING: i32 = 1;
 /// The value that a call returns after a panic: [`said`] tells more, on the same thread.
 pub const PANICKED: i32 = 2;
 
-/// A function of the user over one scalar. `arguments` and `results` are words: the number of arguments or results times [`Form::words`].
+/// A function of the user over one scalar. `arguments` and `results` are words: the number of arguments or results
+/// times [`Form::words`].
 pub type Call = unsafe extern "C" fn(arguments: *const f64, results: *mut f64) -> i32;
 
 /// A function of the user over any scalar.
@@ -41,8 +44,8 @@ pub trait Adapter<const ARGUMENTS: usize, const RESULTS: usize> {
     fn call<T: Real>(arguments: [T; ARGUMENTS]) -> [T; RESULTS];
 }
 
-/// A function of the user over the scalar with the number `base`, with slopes where `order` is 1. `None` where there is no such scalar or
-/// order, or where the processor lacks its instructions.
+/// A function of the user over the scalar with the number `base`, with slopes where `order` is 1. `None` where there is
+/// no such scalar or order, or where the processor lacks its instructions.
 pub fn function<F: Adapter<A, R>, const A: usize, const R: usize>(
     base: u32,
     order: u32,
@@ -105,7 +108,8 @@ unsafe extern "C" fn call<F: Adapter<A, R>, T: Real, const A: usize, const R: us
     results: *mut f64,
 ) -> i32 {
     let words = words::<T>();
-    // SAFETY: the caller passes as many words as the function has arguments and results, and nobody else uses them during the call.
+    // SAFETY: the caller passes as many words as the function has arguments and results, and nobody else uses them
+    // during the call.
     let (arguments, results) = unsafe {
         (
             core::slice::from_raw_parts(arguments, A * words),
@@ -193,7 +197,8 @@ impl What {
     ];
 }
 
-/// How a model gets its Jacobian. Dual numbers need a second compilation of the equations, which takes longer than the first.
+/// A way to get the Jacobian of a model. Dual numbers need a second compilation of the equations, which takes longer
+/// than the first.
 pub trait Differentiate {
     /// [`Dynamics::jacobian`].
     fn jacobian<M: Model<f64>>(
@@ -264,8 +269,8 @@ pub unsafe fn discard<M: Model<f64>>(model: *mut c_void) {
 /// [`Evaluate`] of a generated model.
 ///
 /// # Safety
-/// The model comes from [`make`] of the same `M`. During the call nobody else changes it; while parameters are set, nobody else uses it. `y`
-/// and `results` have as many numbers as their lengths say.
+/// The model comes from [`make`] of the same `M`. During the call nobody else changes it; while parameters are set,
+/// nobody else uses it. `y` and `results` have as many numbers as their lengths say.
 pub unsafe fn evaluate<M: Model<f64>, J: Differentiate>(
     model: *mut c_void,
     what: u32,
@@ -348,7 +353,8 @@ thread_local! {
     static SAID: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Keeps the messages of panics instead of printing them. It holds for the whole of this library; call it once, when the library is loaded.
+/// Keeps the messages of panics instead of printing them. It holds for the whole of this library; call it once, when
+/// the library is loaded.
 pub fn keep_what_panics_say() {
     std::panic::set_hook(Box::new(|panic| {
         let at = panic.location();
@@ -365,8 +371,8 @@ pub fn keep_what_panics_say() {
     }));
 }
 
-/// Copies what the last panic on this thread said, as far as there is room: file, line and column, each on a line of its own, then the message.
-/// Returns the whole length.
+/// Copies what the last panic on this thread said, as far as there is room: file, line and column, each on a line of
+/// its own, then the message. Returns the whole length.
 ///
 /// # Safety
 /// `place` has as many bytes as `length` says.
@@ -390,7 +396,7 @@ fn caught(task: impl FnOnce() -> i32) -> i32 {
     match catch_unwind(AssertUnwindSafe(task)) {
         Ok(status) => status,
         Err(payload) => {
-            // A value of the user may panic again when it is dropped.
+            // a panic's payload may be of a user type that panics again when it is dropped
             core::mem::forget(payload);
             PANICKED
         }

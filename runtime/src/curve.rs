@@ -1,10 +1,10 @@
 //! Piecewise linear functions: y(x) = y_k + s_k (x − x_k) for x_k ≤ x < x_{k+1}. Smooth ones are [`Cubic`].
 //!
-//! "The elastic force is dependent on a tabular function representing any continuous curve" (MADYMO 1980). The segment is chosen by a chain
-//! of selects, so lanes in different segments never diverge.
+//! "The elastic force is dependent on a tabular function representing any continuous curve" (MADYMO 1980). The segment
+//! is chosen by a chain of selects, so lanes in different segments never diverge.
 //!
-//! Slopes and coefficients are doubles, whatever the scalar. So a scalar of more digits evaluates the same function as `f64`, only with less
-//! rounding on the way. At a point that function may jump by a few ε of its ordinates.
+//! Slopes and coefficients are doubles, for every scalar. So a scalar of more digits evaluates the same function as
+//! `f64`, only with less rounding on the way. At a point that function may jump by a few ε of its ordinates.
 
 mod breakpoint_indicator;
 mod cubic;
@@ -57,8 +57,8 @@ impl<const N: usize> Curve<N> {
     /// Makes the curve through the points (x, y), x increasing.
     ///
     /// # Panics
-    /// With fewer than two points, with a number that is not finite, or with abscissae that do not increase. Generated code keeps its curves
-    /// in `const`s, where this is an error of compilation.
+    /// With fewer than two points, with a number that is not finite, or with abscissae that do not increase. Generated
+    /// code keeps its curves in `const`s, where this is an error of compilation.
     pub const fn new(points: [[f64; 2]; N], extrapolate: Extrapolate) -> Self {
         let (mut slopes, mut kinks) = ([0.0; N], [0.0; N]);
         let mut integrals = [[0.0; 2]; N];
@@ -97,8 +97,8 @@ impl<const N: usize> Curve<N> {
         self.lines().value(x)
     }
 
-    /// Slope at `x`. At a point it is the slope of the segment to the right; at the last point of a curve that must not be left, that of the
-    /// last segment. NaN where `x` is NaN.
+    /// Slope at `x`. At a point it is the slope of the segment to the right; at the last point of a curve that must not
+    /// be left, that of the last segment. NaN where `x` is NaN.
     #[inline(always)]
     pub fn slope<T: Real>(&self, x: T) -> T {
         self.lines().slope(x)
@@ -130,8 +130,8 @@ impl<const N: usize> Curve<N> {
         self.lines().inverse(y)
     }
 
-    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never does. Where the
-    /// velocity is 0 at first, the search begins where it no longer is.
+    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never
+    /// does. Where the velocity is 0 at first, the search begins where it no longer is.
     ///
     /// The generator uses it for the time at which a body that is braked by a curve of time comes to rest.
     #[inline(always)]
@@ -139,22 +139,22 @@ impl<const N: usize> Curve<N> {
         self.lines().stop(velocity, factor)
     }
 
-    /// The breakpoint indicator: a function whose sign changes where the curve is not smooth. Its slope is ±1 and its magnitude is the
-    /// distance to the nearest such point; it is 1 where there is none. NaN only where `x` is NaN.
+    /// The breakpoint indicator: a function whose sign changes where the curve is not smooth. Its slope is ±1 and its
+    /// magnitude is the distance to the nearest such point; it is 1 where there is none. NaN only where `x` is NaN.
     #[inline(always)]
     pub fn breakpoint_indicator<T: Real>(&self, x: T) -> T {
         breakpoint_indicator::breakpoint_indicator(self.lines().kinks, x)
     }
 
-    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this time, each with its own
-    /// derivatives. +∞ where no point is left.
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this
+    /// time, each with its own derivatives. +∞ where no point is left.
     pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
         kink::after(&self.points, |point| point[0], rate, t)
     }
 }
 
-/// First and last of the pieces between `count` abscissae that a lane of `x` may lie in. For a short curve these are all pieces. For a long
-/// curve bisection goes on while all lanes agree, as they do for a curve of time.
+/// First and last of the pieces between `count` abscissae that a lane of `x` may lie in. For a short curve these are
+/// all pieces. For a long curve bisection goes on while all lanes agree, as they do for a curve of time.
 #[inline(always)]
 fn candidates<T: Real>(count: usize, abscissa: impl Fn(usize) -> f64, x: T) -> (usize, usize) {
     let (mut first, mut last) = (0, count);

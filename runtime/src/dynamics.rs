@@ -1,13 +1,14 @@
 //! The boundary between a model and all code that works with one.
 //!
-//! [`Dynamics`] is a table of functions over slices. Time loops, batches, responses and programs take a `&dyn Dynamics<T>`, so they are
-//! compiled once for each scalar and not again for each model. A call through the table takes a few nanoseconds; an evaluation of a model
-//! takes a hundred or more.
+//! [`Dynamics`] is a table of functions over slices. Time loops, batches, responses and programs take a `&dyn
+//! Dynamics<T>`, so they are compiled once for each scalar and not again for each model. A call through the table takes
+//! a few nanoseconds; an evaluation of a model takes a hundred or more.
 //!
-//! Every generated module implements [`Model`]. [`Direct`], [`Differentiable`] and [`Owned`] turn it into a `Dynamics`. A model that is known only at
-//! run time implements `Dynamics` directly.
+//! Every generated module implements [`Model`]. [`Direct`], [`Differentiable`] and [`Owned`] turn it into a `Dynamics`.
+//! A model that is known only at run time implements `Dynamics` directly.
 //!
-//! Loops that fuse a step with the equations ([`march`](crate::integrate::march())) take a [`Model`] instead and are compiled for each model.
+//! Loops that fuse a step with the equations ([`march`](crate::integrate::march())) take a [`Model`] instead and are
+//! compiled for each model.
 
 use crate::model::over;
 use crate::real::Task;
@@ -16,8 +17,8 @@ use core::marker::PhantomData;
 
 /// A model at one set of parameters, over one scalar.
 ///
-/// The state y is that of [`Model`]: q, v, z, m. Every slice has exactly the length that [`Info`] gives; with another length an implementation may
-/// panic. Nothing here allocates after the model is made.
+/// The state y is that of [`Model`]: q, v, z, m. Every slice has exactly the length that [`Info`] gives; with another
+/// length an implementation may panic. Nothing here allocates after the model is made.
 pub trait Dynamics<T: Real> {
     /// Names, units and sizes.
     fn info(&self) -> &'static Info;
@@ -29,8 +30,9 @@ pub trait Dynamics<T: Real> {
     fn derivative(&self, t: T, y: &[T], rate: &mut [T]);
     /// q̇, written into the coordinates of `rate`. The rest of `rate` is not changed.
     fn coordinate_rates(&self, y: &[T], rate: &mut [T]);
-    /// ∂ẏ/∂y by rows, with as many rows and columns as `y` has entries, and ∂ẏ/∂t. Columns of discrete states ([`StateKind::Memory`]) are not
-    /// written, because nothing integrates them. Returns false, and writes nothing, where the model has no Jacobian.
+    /// ∂ẏ/∂y by rows, with as many rows and columns as `y` has entries, and ∂ẏ/∂t. Columns of discrete states
+    /// ([`StateKind::Memory`]) are not written, because nothing integrates them. Returns false, and writes nothing,
+    /// where the model has no Jacobian.
     fn jacobian(&self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) -> bool;
     /// The outputs, in the order and units of [`Info::outputs`].
     fn outputs(&self, t: T, y: &[T], outputs: &mut [T]);
@@ -38,7 +40,8 @@ pub trait Dynamics<T: Real> {
     fn normalize(&self, y: &mut [T]);
     /// The discrete update of the state after a step: [`Model::renew`].
     fn renew(&self, t: T, y: &mut [T]);
-    /// The same, with event functions that are already known at this time and state. An implementation that uses them returns the same bits.
+    /// [`Dynamics::renew`], given event functions that are already known at this time and state. An implementation that
+    /// uses them returns the same bits.
     fn renew_by(&self, t: T, y: &mut [T], event_functions: &[T]) {
         let _ = event_functions;
         self.renew(t, y);
@@ -59,16 +62,19 @@ pub trait Dynamics<T: Real> {
     fn kinetic_energy(&self, t: T, y: &[T]) -> T;
     /// The power of each effect \[W\], in the order of [`Info::powers`].
     fn powers(&self, t: T, y: &[T], powers: &mut [T]);
-    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\] of the free systems: [`Model::momentum`].
+    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\] of the free systems:
+    /// [`Model::momentum`].
     fn momentum(&self, t: T, y: &[T]) -> [T; 6];
     /// The net external wrench, the rate of the momentum: [`Model::external_wrench`].
     fn external_wrench(&self, t: T, y: &[T]) -> [T; 6];
-    /// [`Dynamics::powers`], and [`Dynamics::external_wrench`] if a system is free; if none is free, `external_wrench` is not written. Balances need
-    /// both inside a step. An implementation that computes both at once returns the same bits.
+    /// [`Dynamics::powers`], and [`Dynamics::external_wrench`] if a system is free; if none is free, `external_wrench`
+    /// is not written. Balances need both inside a step. An implementation that computes both at once returns the same
+    /// bits.
     fn exchange(&self, t: T, y: &[T], powers: &mut [T], external_wrench: &mut [T; 6]) {
         exchange(self, t, y, powers, external_wrench);
     }
-    /// Everything that is needed at the end of a step. An implementation that computes it at once returns the same bits.
+    /// Everything that is needed at the end of a step. An implementation that computes it at once returns the same
+    /// bits.
     fn arrive(&self, t: T, y: &[T], arrival: &mut Arrival<'_, T>) {
         arrive(self, t, y, arrival);
     }
@@ -76,23 +82,25 @@ pub trait Dynamics<T: Real> {
     fn kink_after(&self, t: f64) -> T;
 }
 
-/// Where [`Dynamics::arrive`] writes what is needed at the end of a step. The slices have the lengths that [`Info`] gives. Most entries need the contacts.
-/// An implementation that computes all entries at once can share the searches between ellipsoids: one for a force, one for a distance.
+/// Where [`Dynamics::arrive`] writes what is needed at the end of a step. The slices have the lengths that [`Info`]
+/// gives. Most entries need the contacts. An implementation that computes all entries at once can share the searches
+/// between ellipsoids: one for a force, one for a distance.
 #[derive(Debug)]
 pub struct Arrival<'a, T> {
     /// [`Dynamics::event_functions`]
     pub event_functions: &'a mut [T],
     /// [`Dynamics::onsets`]
     pub onsets: &'a mut [T],
-    /// The state as [`Dynamics::renew_by`] makes it of these event functions, where the model has memory; else it is left alone.
+    /// The state after [`Dynamics::renew_by`] with these event functions, if the model has memory; otherwise not
+    /// written.
     pub renewed: &'a mut [T],
-    /// [`Dynamics::curves`]; no place where nobody wants them.
+    /// [`Dynamics::curves`]; empty if they are not needed.
     pub curves: &'a mut [T],
-    /// What a watch wants besides.
+    /// Further values that a watch needs.
     pub account: Option<AccountArrival<'a, T>>,
 }
 
-/// What balances of energy and momentum want to know where a step ends.
+/// Values at the end of a step that the balances of energy and momentum need.
 #[derive(Debug)]
 pub struct AccountArrival<'a, T> {
     /// [`Dynamics::kinetic_energy`] \[J\]
@@ -105,7 +113,7 @@ pub struct AccountArrival<'a, T> {
     pub external_wrench: &'a mut [T; 6],
 }
 
-/// [`Dynamics::exchange`], one function after the other.
+/// The default of [`Dynamics::exchange`]: calls one function after the other.
 pub fn exchange<T: Real, M: Dynamics<T> + ?Sized>(
     model: &M,
     t: T,
@@ -119,7 +127,7 @@ pub fn exchange<T: Real, M: Dynamics<T> + ?Sized>(
     }
 }
 
-/// [`Dynamics::arrive`], one function after the other.
+/// The default of [`Dynamics::arrive`]: calls one function after the other.
 pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
     model: &M,
     t: T,
@@ -152,10 +160,11 @@ pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
 
 /// A model whose parameters can be changed between runs.
 pub trait Adjustable<T: Real>: Dynamics<T> {
-    /// Sets all parameters, in the order of [`Info::parameters`] \[SI\]. Everything that depends on parameters alone is computed here.
+    /// Sets all parameters, in the order of [`Info::parameters`] \[SI\]. Everything that depends on parameters alone is
+    /// computed here.
     fn set_parameters(&mut self, values: &[T]);
-    /// From now on only these outputs are needed, given by their index in [`Info::outputs`]. [`Dynamics::outputs`] need not write the others. The
-    /// needed ones keep their bits. The default computes all outputs.
+    /// From now on only these outputs are needed, given by their index in [`Info::outputs`]. [`Dynamics::outputs`] need
+    /// not write the others. The needed ones keep their bits. The default computes all outputs.
     fn want_outputs(&mut self, wanted: &[usize]) {
         let _ = wanted;
     }
@@ -168,18 +177,21 @@ pub trait Family {
     fn info(&self) -> &'static Info;
     /// The model over a scalar. The caller may send it to another thread before it is used.
     fn over<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_>;
-    /// The model over a scalar for a batch. A batch calls neither the Jacobian nor the smallest pivot, so these may return anything. A family that
-    /// compiles its functions one by one saves time here; the default is [`Family::over`].
+    /// The model over a scalar for a batch. A batch calls neither the Jacobian nor the smallest pivot, so these may
+    /// return anything. A family that compiles its functions one by one saves time here; the default is
+    /// [`Family::over`].
     fn for_batch<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_> {
         self.over()
     }
-    /// The part of the model that parameters alone decide before a run, over a scalar. The default uses [`Family::over`].
+    /// The part of the model that depends on parameters alone, before a run, over a scalar. The default uses
+    /// [`Family::over`].
     fn schedule<T: Real>(&self) -> std::boxed::Box<dyn Schedule<T> + '_> {
         std::boxed::Box::new(self.over())
     }
 }
 
-/// What the parameters decide before a run: whether the model is valid with them, and when curves of time have kinks.
+/// The part of a model that depends on parameters alone: whether the parameters are valid, and when curves of time have
+/// kinks.
 pub trait Schedule<T: Real> {
     /// Sets all parameters, in the order of [`Info::parameters`] \[SI\].
     fn set_parameters(&mut self, values: &[T]);
@@ -221,8 +233,9 @@ impl Info {
     }
 }
 
-/// A derivative of at most this many entries is returned as a whole. Stores between its statements would keep the compiler from pairing them, which
-/// costs 5 % with 18 entries. With a hundred entries, returning it as a whole is 2 % slower than entry by entry.
+/// A derivative of at most this many entries is returned as a whole. Stores between its statements would keep the
+/// compiler from pairing them, which costs 5 % with 18 entries. With a hundred entries, returning it as a whole is 2 %
+/// slower than entry by entry.
 const SHORT: usize = 32;
 
 /// A function of a model, compiled for the instructions that its scalar needs ([`Real::dispatch`]).
@@ -308,8 +321,9 @@ impl<T: Real, M: Model<T>> Task for Made<T, M> {
 #[derive(Clone, Copy, Debug)]
 pub struct Direct<'a, M>(pub &'a M);
 
-/// A generated model by reference as [`Dynamics`], with a Jacobian by dual numbers, which the Rosenbrock method needs. It is a type of its own
-/// because it compiles the equations a second time, over dual numbers. No other method needs that.
+/// A generated model by reference as [`Dynamics`], with a Jacobian by dual numbers, which the Rosenbrock method needs.
+/// It is a type of its own because it compiles the equations a second time, over dual numbers. No other method needs
+/// that.
 #[derive(Clone, Copy, Debug)]
 pub struct Differentiable<'a, M>(pub &'a M);
 
@@ -576,7 +590,8 @@ fn set_parameters<T: Real, M: Model<T>>(model: &mut M, values: &[T]) {
     *model = T::dispatch(Made::<T, M> { parameters });
 }
 
-/// [`Dynamics::jacobian`] column by column: one evaluation over dual numbers for each entry that varies, and one for the time.
+/// [`Dynamics::jacobian`] column by column: one evaluation over dual numbers for each entry that varies, and one for
+/// the time.
 fn jacobian_by_duals<T: Real, M: Model<T>>(
     model: &M,
     t: T,
@@ -645,7 +660,8 @@ impl<M: Model<f64>> Family for Compiled<M> {
     }
 }
 
-/// A generated model for [`Family::for_batch`]. What no batch calls is not compiled: it has neither a Jacobian nor a smallest pivot.
+/// A generated model for [`Family::for_batch`]. Methods that no batch calls are not compiled: it has neither a Jacobian
+/// nor a smallest pivot.
 #[cfg(feature = "std")]
 struct Batched<M>(M);
 

@@ -1,7 +1,9 @@
-//! The part of `bryant_runtime` that equations need, as a crate of its own: scalars, curves, force laws, and the trait of models.
+//! The part of `bryant_runtime` that equations need, as a crate of its own: scalars, curves, force laws, and the trait
+//! of models.
 //!
-//! It has no integrator and no time loop. Code that is compiled on demand needs none, and this part compiles in a quarter of the time.
-//! This file is the root of that crate, which is also called `bryant_runtime`; it is no module of the full crate.
+//! This crate has no integrator and no time loop. Code that is compiled on demand needs neither, and this part compiles
+//! in a quarter of the time. This file is the root of that crate, which is also called `bryant_runtime`; it is no
+//! module of the full crate.
 
 pub mod apart;
 pub mod curve;

@@ -22,7 +22,7 @@ pub enum Reason {
     NonFinite {
         /// Index of the entry, in the state y or in its derivative ẏ.
         index: usize,
-        /// Which quantity is not finite.
+        /// The quantity that is not finite.
         of: Quantity,
         /// The first output that is not finite there. It tells which force is to blame.
         output: Option<usize>,
@@ -42,7 +42,7 @@ pub enum Reason {
     TooManySteps {
         /// The limit.
         limit: u64,
-        /// What limited the length of most of the last steps.
+        /// The most frequent limit on the length of the last steps.
         cause: Cause,
         /// Length of the last step \[s\].
         step: f64,

@@ -1,4 +1,5 @@
-//! Leaps: where an angle or a direction that a law depends on jumps to another value, because it is not defined there or passes ±180°.
+//! Finds leaps: places where an angle or a direction that a law depends on jumps to another value, because it is not
+//! defined there or passes ±180°.
 
 use crate::model::{CurveInfo, CurveKind};
 
@@ -6,21 +7,22 @@ use crate::model::{CurveInfo, CurveKind};
 pub(crate) type Turning = [f64; 3];
 
 impl CurveKind {
-    /// Whether it has an interval that its argument may leave. Bearings and directions have none; they may leap instead.
+    /// True if the argument of this kind has an interval that it may leave. Bearings and directions have none; they may
+    /// leap instead.
     pub(crate) fn may_be_left(self) -> bool {
         matches!(self, CurveKind::Curve | CurveKind::Volume | CurveKind::Edge)
     }
 }
 
 impl CurveInfo {
-    /// Whether it belongs to the laws about x, y and z of a joint.
+    /// True if this entry belongs to the laws about x, y and z of a joint.
     pub(crate) fn is_of_angles(&self) -> bool {
         self.middle().is_some()
     }
 
-    /// Whether this [angle](CurveKind::HalfTurn) belongs to the same law as a [bearing](CurveKind::Bearing): it leaps where the bearing does, because it is
-    /// not defined there. "bushing m about x" is of "bushing m", "joint man/head about x" of "joint man/head about x, y and z", "joint man/head torsion" of
-    /// "joint man/head".
+    /// True if this [angle](CurveKind::HalfTurn) belongs to the same law as a [bearing](CurveKind::Bearing): the angle
+    /// leaps where the bearing does, because it is not defined there. "bushing m about x" belongs to "bushing m",
+    /// "joint man/head about x" to "joint man/head about x, y and z", "joint man/head torsion" to "joint man/head".
     pub(crate) fn leaps_with(&self, bearing: &CurveInfo) -> bool {
         let owner = |name: &'static str| match name.strip_suffix(" torsion") {
             Some(owner) => Some(owner),
@@ -35,13 +37,13 @@ impl CurveInfo {
             && owner(self.name).is_some_and(|owner| of_bearing == Some(owner))
     }
 
-    /// Number of pieces of a step in which a bearing or a direction is checked for a leap. Each piece is then halved [`CurveInfo::HALVINGS`] times,
-    /// to a thousandth of the step.
+    /// Number of pieces of a step in which a bearing or a direction is checked for a leap. Each piece is then halved
+    /// [`CurveInfo::HALVINGS`] times, to a thousandth of the step.
     pub(crate) const PIECES: u32 = 4;
     pub(crate) const HALVINGS: u32 = 8;
 
-    /// If a bearing or a direction begins at this entry, the number of its components. `None` for a curve and for the further components of a
-    /// direction.
+    /// If a bearing or a direction begins at this entry, the number of its components. `None` for a curve and for the
+    /// further components of a direction.
     pub(crate) const fn turning(&self, dimension: u8) -> Option<usize> {
         match self.kind {
             CurveKind::Bearing | CurveKind::HalfTurn => Some(1),
@@ -52,8 +54,8 @@ impl CurveInfo {
         }
     }
 
-    /// Whether a bearing or a direction leaps between two places of a step, given as (place, components): it turns by more than a quarter turn, or is
-    /// not determined at one of them.
+    /// Whether a bearing or a direction leaps between two places of a step, given as (place, components): it turns by
+    /// more than a quarter turn, or is not determined at one of them.
     pub(crate) fn leaps(&self, places: [(f64, Turning); 2]) -> bool {
         use core::f64::consts::{FRAC_PI_2, PI};
         let [a, b] = places.map(|(_, entries)| entries);
@@ -73,8 +75,8 @@ impl CurveInfo {
         }
     }
 
-    /// Whether a bearing or a direction may have leapt in a step with these components at its ends: it turned by more than a sixteenth of a turn, or
-    /// is determined at only one of them.
+    /// Whether a bearing or a direction may have leapt in a step with these components at its ends: it turned by more
+    /// than a sixteenth of a turn, or is determined at only one of them.
     pub(crate) fn may_leap(&self, [a, b]: [Turning; 2]) -> bool {
         use core::f64::consts::PI;
         let there = [a[0] < self.last, b[0] < self.last];

@@ -1,10 +1,11 @@
-//! The library that equations written by `bryant-generator` link against: scalars, curves, force laws, integrators, simulation.
+//! The library that equations written by `bryant-generator` link against: scalars, curves, force laws, integrators,
+//! simulation.
 //!
 //! ## Where to begin
 //!
-//! A build script calls `bryant_generator::Config`, which writes a module for each model. Your crate includes it by [`include_model!`]. You implement
-//! nothing: the module has a struct `Mechanism`, generic over the scalar ([`Real`]), which implements [`Model`]. The examples below use the double
-//! pendulum of `examples/stranger`, whose crate has
+//! A build script calls `bryant_generator::Config`, which writes a module for each model. Your crate includes it by
+//! [`include_model!`]. You implement nothing: the module has a struct `Mechanism`, generic over the scalar ([`Real`]),
+//! which implements [`Model`]. The examples below use the double pendulum of `examples/stranger`, whose crate has
 //!
 //! ```ignore
 //! mod arm {
@@ -12,7 +13,8 @@
 //! }
 //! ```
 //!
-//! **Accelerations**, for a controller or an integrator of your own. Entries of arrays have names; the units are in `INFO`.
+//! **Accelerations**, for a controller or an integrator of your own. Entries of arrays have names; the units are in
+//! `INFO`.
 //!
 //! ```
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
@@ -39,7 +41,8 @@
 //! assert!((0..2).all(|i| (acceleration[i] - expected[i]).abs() < 1e-9));
 //! ```
 //!
-//! **A run** with error control, sampled as the model says: [`simulate()`], or [`simulate::Run`] to advance from time to time as you ask.
+//! **A run** with error control, sampled as the model says: [`simulate()`], or [`simulate::Run`] to advance from time
+//! to time as you ask.
 //!
 //! ```
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
@@ -56,8 +59,8 @@
 //! # }
 //! ```
 //!
-//! **A loop of your own**, in steps of one length: [`integrate::march`]. It works on the whole state y: q, v and, where force laws have them, their
-//! continuous states z and discrete states m. So do the methods of [`Model`].
+//! **A loop of your own**, in steps of one length: [`integrate::march`]. It works on the whole state y: q, v and, where
+//! force laws have them, their continuous states z and discrete states m. So do the methods of [`Model`].
 //!
 //! ```
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
@@ -75,8 +78,8 @@
 //! assert!((t - 1.0).abs() < 1e-9);
 //! ```
 //!
-//! **Lanes**: several scenarios at once, one in each lane of a register. You write a task for any width ([`real::lanes::OfAnyWidth`]), and it runs
-//! with the widest registers that the processor has.
+//! **Lanes**: several scenarios at once, one in each lane of a register. You write a task for any width
+//! ([`real::lanes::OfAnyWidth`]), and it runs with the widest registers that the processor has.
 //!
 //! ```
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
@@ -131,9 +134,10 @@
 //! assert!(upper.is_finite() && lower.is_finite());
 //! ```
 //!
-//! **Without the standard library**: `bryant-runtime = { …, default-features = false, features = ["libm", "nalgebra"] }`. The examples above work
-//! without change, except those of `simulate()`, lanes and batches; [`simulate::run_in`] runs in memory that you give it. Without `nalgebra`, the
-//! build script must call `.matrices(false)`; if it does not, a compiler error says so.
+//! **Without the standard library**: `bryant-runtime = { …, default-features = false, features = ["libm", "nalgebra"]
+//! }`. The examples above work without change, except those of `simulate()`, lanes and batches; [`simulate::run_in`]
+//! runs in memory that you give it. Without `nalgebra`, the build script must call `.matrices(false)`; if it does not,
+//! a compiler error says so.
 //!
 //! ## What is where
 //!
@@ -152,8 +156,9 @@
 //! | `program` (feature `std`) | a run described by a few words and delivered as a stream: the stand-alone program |
 //! | `source` (feature `embedded-source`) | the text of this crate, for compiling a scene on demand |
 //!
-//! Nothing allocates and nothing needs the standard library, except `apart`, `batch` and `program`; `real::lanes` needs `libm` without it. Without
-//! both the crate still builds, but `f64` and `f32` then have no square roots and are no scalars; [`DoubleDouble`] has its own.
+//! Nothing allocates and nothing needs the standard library, except `apart`, `batch` and `program`; `real::lanes` needs
+//! `libm` without it. Without both the crate still builds, but `f64` and `f32` then have no square roots and are no
+//! scalars; [`DoubleDouble`] has its own.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
@@ -236,8 +241,8 @@ macro_rules! include_model {
     };
 }
 
-/// The types of S, r_s and r_k in generated modules, which contain `bryant_runtime::use_nalgebra!(SMatrix, SVector);`. Without the feature `nalgebra`
-/// this is a compiler error that says what to do.
+/// The types of S, r_s and r_k in generated modules, which contain `bryant_runtime::use_nalgebra!(SMatrix, SVector);`.
+/// Without the feature `nalgebra` this is a compiler error that says what to do.
 #[cfg(feature = "nalgebra")]
 #[doc(hidden)]
 #[macro_export]

@@ -5,14 +5,15 @@ use core::ops::{Index, IndexMut};
 
 /// An output writer: takes results one by one, in the order in which they are computed ([`Model::each_rate`]).
 ///
-/// An array stores them. Another writer may turn each result into something else, such as the state that it leads to, while it is still in a register;
-/// then nothing is stored in between.
+/// An array stores them. Another writer may turn each result into something else, such as the state that it leads to,
+/// while it is still in a register; then nothing is stored in between.
 pub trait OutputWriter<T> {
-    /// Takes the result with an index. Mark it `#[inline(always)]`: generated code calls it in straight lines, with indices known at compile time.
+    /// Takes the result with an index. Mark it `#[inline(always)]`: generated code calls it in straight lines, with
+    /// indices known at compile time.
     fn put(&mut self, index: usize, value: T);
 }
 
-/// A change of the entries of a state, each by itself.
+/// A change of each entry of a state, independent of the others.
 pub trait Change<T> {
     /// The new value of the entry `index`, whose value is now `value`. Mark it `#[inline(always)]`.
     fn of(&self, index: usize, value: T) -> T;
@@ -35,7 +36,8 @@ impl<T, S: OutputWriter<T>, const FROM: usize> OutputWriter<T> for OffsetView<'_
     }
 }
 
-/// An offset view the other way: passes the results from index `FROM` on to the writer, as 0, 1, …, and drops those before.
+/// The opposite of an offset view: passes the results from index `FROM` on to the writer, as 0, 1, …, and drops those
+/// before.
 pub struct TailView<'a, S, const FROM: usize>(pub &'a mut S);
 
 impl<T, S: OutputWriter<T>, const FROM: usize> OutputWriter<T> for TailView<'_, S, FROM> {
@@ -105,7 +107,8 @@ impl<T: Copy, const N: usize> Vector<T> for [T; N] {
     }
 }
 
-/// `COUNT` consecutive elements of an array, from `FROM` on. Both are known at compile time, so no bounds are checked at run time.
+/// `COUNT` consecutive elements of an array, from `FROM` on. Both are known at compile time, so no bounds are checked
+/// at run time.
 #[inline(always)]
 pub fn part<const FROM: usize, const COUNT: usize, const ALL: usize, T>(
     array: &[T; ALL],
@@ -119,13 +122,14 @@ pub fn part<const FROM: usize, const COUNT: usize, const ALL: usize, T>(
 
 /// A generated model at one set of parameters.
 ///
-/// The state y is the coordinates q followed by the velocities v. In space with quaternions an element has four coordinates (w, x, y, z) and three
-/// velocities (ω, in absolute axes). Behind them stand, where the model has them, the continuous states z of force laws, which are integrated with
-/// the rest, and the discrete states m (the memory), whose rate is 0. m changes only by the discrete update after an accepted step
-/// ([`Model::renew`]), so no stage of a step and no rejected step changes it.
+/// The state y is the coordinates q followed by the velocities v. In space with quaternions an element has four
+/// coordinates (w, x, y, z) and three velocities (ω, in absolute axes). Behind them stand, where the model has them,
+/// the continuous states z of force laws, which are integrated with the rest, and the discrete states m (the memory),
+/// whose rate is 0. m changes only by the discrete update after an accepted step ([`Model::renew`]), so no stage of a
+/// step and no rejected step changes it.
 ///
-/// With Bryant angles the first entries of m are the charts of the elements, which say what their angles mean. Two states with different charts must
-/// not be compared or mixed entry by entry.
+/// With Bryant angles the first entries of m are the charts of the elements, which say what their angles mean. Two
+/// states with different charts must not be compared or mixed entry by entry.
 pub trait Model<T: Real>: Sized {
     /// The same model over another scalar: [`over`] makes it with the same parameters.
     type With<U: Real>: Model<U>;
@@ -154,7 +158,8 @@ pub trait Model<T: Real>: Sized {
     fn initial_state(&self) -> Self::State;
     /// ẏ at time `t` \[s\] and state `y`.
     fn derivative(&self, t: T, y: &Self::State) -> Self::State;
-    /// ẏ at time `t` \[s\] and state `y`, entry by entry: each index of the state once, in the order in which they are computed.
+    /// ẏ at time `t` \[s\] and state `y`, entry by entry: each index of the state once, in the order in which they are
+    /// computed.
     #[inline(always)]
     fn each_rate(&self, t: T, y: &Self::State, writer: &mut impl OutputWriter<T>) {
         let rate = self.derivative(t, y);
@@ -162,15 +167,15 @@ pub trait Model<T: Real>: Sized {
             writer.put(i, rate[i]);
         }
     }
-    /// q̇ at the coordinates and velocities of `y`, written into the coordinates of `rate`. The rest of `rate` is not changed. The semi-implicit
-    /// Euler method needs it at old coordinates and new velocities.
+    /// q̇ at the coordinates and velocities of `y`, written into the coordinates of `rate`. The rest of `rate` is not
+    /// changed. The semi-implicit Euler method needs it at old coordinates and new velocities.
     fn coordinate_rates(&self, y: &Self::State, rate: &mut Self::State);
     /// The model's outputs, in the order and units of [`Info::outputs`].
     fn outputs(&self, t: T, y: &Self::State) -> Self::Outputs;
     /// Puts the state back on its manifold (unit quaternions). It is called after every accepted step.
     fn normalize(&self, y: &mut Self::State);
-    /// Changes every entry, then normalizes the state ([`Self::normalize`]). A model that does both at once for each quaternion does its roots and
-    /// divisions while entries of others are fetched.
+    /// Changes every entry, then normalizes the state ([`Self::normalize`]). A model that does both at once for each
+    /// quaternion does its roots and divisions while entries of others are fetched.
     #[inline(always)]
     fn normalize_changed(&self, y: &mut Self::State, change: &impl Change<T>) {
         for i in (0..Self::State::LEN).rev() {
@@ -178,38 +183,42 @@ pub trait Model<T: Real>: Sized {
         }
         self.normalize(y);
     }
-    /// The discrete update after an accepted step: it renews what is constant during a step, the memory of force laws and the charts of Bryant
-    /// angles. Where a chart changes, the coordinates and velocities of its element change with it; they describe the same orientation and angular
-    /// velocity as before, within rounding. The rest of the state, z included, is not changed. If there is nothing to update, the whole state keeps
-    /// its bits.
+    /// The discrete update after an accepted step: it renews what is constant during a step, the memory of force laws
+    /// and the charts of Bryant angles. Where a chart changes, the coordinates and velocities of its element change
+    /// with it; they describe the same orientation and angular velocity as before, within rounding. The rest of the
+    /// state, z included, is not changed. If there is nothing to update, the whole state keeps its bits.
     #[inline(always)]
     fn renew(&self, _t: T, _y: &mut Self::State) {}
-    /// Event functions, in the order of [`Info::event_functions`]. Where one changes its sign, a force law changes its branch. A step with error
-    /// control ends there.
+    /// Event functions, in the order of [`Info::event_functions`]. Where one changes its sign, a force law changes its
+    /// branch. A step with error control ends there.
     #[inline(always)]
     fn event_functions(&self, _t: T, _y: &Self::State) -> Self::EventFunctions {
         Self::EventFunctions::splat(T::from_f64(0.0))
     }
-    /// Non-smooth switching functions (kinks), in the order of [`Info::kinks`]. Where one changes its sign, a force law is not smooth, though no
-    /// discrete state depends on it: a contact begins to touch, a point of a curve is passed. A method keeps its order where its steps end there. A
-    /// step that passes over it is still correct, but less accurate.
+    /// Non-smooth switching functions (kinks), in the order of [`Info::kinks`]. Where one changes its sign, a force law
+    /// is not smooth, though no discrete state depends on it: a contact begins to touch, a point of a curve is passed.
+    /// A method keeps its order where its steps end there. A step that passes over it is still correct, but less
+    /// accurate.
     #[inline(always)]
     fn kinks(&self, _t: T, _y: &Self::State) -> Self::Kinks {
         Self::Kinks::splat(T::from_f64(0.0))
     }
-    /// When laws that do not act may begin to act, in the order of [`Info::onsets`]. First come the gaps. The gap of a law is positive while it
-    /// certainly does not act; the gap of a corner is the distance to the nearest corner of a curve, with another sign on its other side. Then come
-    /// the speeds: bounds of the rate of each gap, in its unit per second. With both, a step is known not to have missed anything.
+    /// Tells when laws that do not act may begin to act, in the order of [`Info::onsets`]. First come the gaps. The gap
+    /// of a law is positive while the law certainly does not act; the gap of a corner is the distance to the nearest
+    /// corner of a curve, with opposite signs on its two sides. Then come the speeds: bounds of the rate of each gap,
+    /// in its unit per second. From both follows whether a step can have missed a law that begins and ends to act
+    /// within it.
     #[inline(always)]
     fn onsets(&self, _t: T, _y: &Self::State, _onsets: &mut [T]) {}
-    /// The arguments of the curves that depend on the state, in the order of [`Info::curves`]. Only a watch needs them, to see whether a curve was
-    /// left. For a curve whose force is 0 it is its first abscissa.
+    /// The arguments of the curves that depend on the state, in the order of [`Info::curves`]. Only a watch needs them,
+    /// to see whether a curve was left. For a curve whose force is 0 it is its first abscissa.
     #[inline(always)]
     fn curves(&self, _t: T, _y: &Self::State) -> Self::Curves {
         Self::Curves::splat(T::from_f64(0.0))
     }
-    /// The smallest pivot of the elimination, as a share of the entry in its place before, and the index of its element in [`Info::pivots`]. At 0 the
-    /// accelerations are not determined. `None` where no pivot can vanish.
+    /// The smallest pivot of the elimination, as a share of the diagonal entry that stood there before the elimination,
+    /// and the index of its element in [`Info::pivots`]. At 0 the accelerations are not determined. `None` where no
+    /// pivot can vanish.
     #[inline(always)]
     fn smallest_pivot(&self, _t: T, _y: &Self::State) -> Option<(usize, T)> {
         None
@@ -229,30 +238,32 @@ pub trait Model<T: Real>: Sized {
     fn powers(&self, _t: T, _y: &Self::State) -> Self::Powers {
         Self::Powers::splat(T::from_f64(0.0))
     }
-    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\], in absolute axes x, y, z: the sum over all systems whose reference
-    /// joint is free. 0 where there is none ([`Info::free`]).
+    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\], in absolute axes x, y, z: the sum over
+    /// all systems whose reference joint is free. 0 where there is none ([`Info::free`]).
     #[inline(always)]
     fn momentum(&self, _t: T, _y: &Self::State) -> [T; 6] {
         [T::from_f64(0.0); 6]
     }
-    /// The net external wrench on these systems, in absolute axes: the force \[N\] of force laws and fields, and their moment about the origin \[N
-    /// m\]. It is the rate of the momentum.
+    /// The net external wrench on the systems of [`Model::momentum`], in absolute axes: the force \[N\] of force laws
+    /// and fields, and their moment about the origin \[N m\]. It is the rate of the momentum.
     #[inline(always)]
     fn external_wrench(&self, _t: T, _y: &Self::State) -> [T; 6] {
         [T::from_f64(0.0); 6]
     }
-    /// The first time after `t` at which a curve of time has a kink whose time depends on parameters. Those that are known beforehand are
-    /// [`Info::breakpoints`]. +∞ where there is none. All lanes get the first time of any lane, each with its own derivatives.
+    /// The first time after `t` at which a curve of time has a kink whose time depends on parameters; +∞ if there is
+    /// none. Kinks that are known beforehand are in [`Info::breakpoints`]. All lanes get the first time of any lane,
+    /// each with its own derivatives.
     fn kink_after(&self, t: f64) -> T {
         let _ = t;
         T::from_f64(f64::INFINITY)
     }
 }
 
-/// The same model over another scalar, with the same parameters; `convert` converts each. The states of both have the same length and the same order
-/// of entries, and `M::INFO` holds for both.
+/// The same model over another scalar, with the same parameters; `convert` converts each. The states of both have the
+/// same length and the same order of entries, and `M::INFO` holds for both.
 ///
-/// So a method that needs Jacobians makes a model of dual numbers from an `M: Model<f64>`, and a reference solution makes one of double-doubles.
+/// A method that needs Jacobians thus makes a model of dual numbers from an `M: Model<f64>`, and a reference solution
+/// makes one of double-doubles.
 pub fn over<T: Real, U: Real, M: Model<T>>(model: &M, convert: impl Fn(T) -> U) -> M::With<U> {
     let given = model.parameters();
     let mut parameters = <M::With<U> as Model<U>>::Parameters::defaults();
@@ -293,25 +304,27 @@ pub struct Info {
     pub units: &'static [&'static str],
     /// Names of z, the continuous states of force laws, in order ("muscle biceps: activation").
     pub auxiliaries: &'static [&'static str],
-    /// Names of m, the discrete states: first the charts of elements ("man/head: chart"), then the memory of force laws ("contact seat: permanent
-    /// set").
+    /// Names of m, the discrete states: first the charts of elements ("man/head: chart"), then the memory of force laws
+    /// ("contact seat: permanent set").
     pub memory: &'static [&'static str],
     /// Names of the event functions ("belt lap: locks").
     pub event_functions: &'static [&'static str],
     /// Names of the non-smooth switching functions ("belt lap: goes taut").
     pub kinks: &'static [&'static str],
-    /// Names of the onsets: first those of laws ("contact hit: touches"), then those of corners ("contact hit: corner of the curve").
+    /// Names of the onsets: first those of laws ("contact hit: touches"), then those of corners ("contact hit: corner
+    /// of the curve").
     pub onsets: &'static [&'static str],
     /// Number of the onsets that are corners of curves; they come last.
     pub corners: usize,
-    /// Longest allowed step of a method with error control \[s\]: a user force may begin to act at any time without telling. Infinite where there is
-    /// no such force.
+    /// Longest allowed step of a method with error control \[s\]. A user force may begin to act at any time without an
+    /// onset. Infinite if there is no such force.
     pub longest_step: f64,
     /// Names of the effects that do work ("contact seat: friction").
     pub powers: &'static [&'static str],
-    /// The watched curves of the state, the bearings of joints that bend, and the directions in which pairs of ellipsoids push.
+    /// The watched curves of the state, the bearings of joints that bend, and the directions in which pairs of
+    /// ellipsoids push.
     pub curves: &'static [CurveInfo],
-    /// Whether a curve of time must not be left (`extrapolate: error`).
+    /// True if a curve of time ends, and must not be left (`extrapolate: error`).
     pub time_ends: bool,
     /// Elements whose inertia may vanish in some position ("man/head").
     pub pivots: &'static [&'static str],
@@ -381,20 +394,24 @@ pub enum StateKind {
 pub enum CurveKind {
     /// A curve of the state.
     Curve,
-    /// The bearing of a bent joint \[rad\], from −π to π: the direction, seen along the long axis of the carrying element, to which the other long
-    /// axis is bent. [`CurveInfo::last`] where the bend is less than 90°. Of a bushing, or of laws of a joint about x, y and z, it is the angle about x, [`CurveInfo::last`] where the angle about y
+    /// The bearing of a bent joint \[rad\], from −π to π: the direction, seen along the long axis of the carrying
+    /// element, to which the other long axis is bent; [`CurveInfo::last`] while the bend is less than 90°. For a
+    /// bushing, or for laws of a joint about x, y and z, the angle about x; [`CurveInfo::last`] while the angle about y
     /// is far from ±90°.
     Bearing,
-    /// The sine of an angle of a joint or a bushing where its cosine is negative, [`CurveInfo::last`] elsewhere: at ±180° its torque jumps.
+    /// The sine of an angle of a joint or a bushing while its cosine is negative, else [`CurveInfo::last`]: at ±180°
+    /// the torque jumps.
     HalfTurn,
-    /// A component of the direction in which two ellipsoids push each other; [`CurveInfo::last`] where they do not. The components of one contact
-    /// follow each other, one for each dimension of the model. Their vector has the length 1, or less where no direction is determined. Of a bushing
-    /// with a law of the whole rotation it is the axis of this rotation where its angle is above 90°.
+    /// A component of the direction in which two ellipsoids push each other; [`CurveInfo::last`] while they do not
+    /// push. The components of one contact follow each other, one for each dimension of the model. Their vector has the
+    /// length 1, or less where no direction is determined. For a bushing with a law of the whole rotation, a component
+    /// of the axis of this rotation while its angle is above 90°.
     Direction(u8),
-    /// The share of the volume of an airbag that a penetrating body takes; 0 while it does not push. The law ends at [`CurveInfo::last`].
+    /// The share of the volume of an airbag that a penetrating body takes; 0 while it does not push. The law ends at
+    /// [`CurveInfo::last`].
     Volume,
-    /// How hard the fading edge of a plane pushes sideways, as a share of the elastic force with which the plane pushes within its edges. Beyond
-    /// [`CurveInfo::last`] the edge is too narrow for the depth.
+    /// The sideways force of the fading edge of a plane, as a share of the elastic force with which the plane pushes
+    /// within its edges. Beyond [`CurveInfo::last`] the edge is too narrow for the depth.
     Edge,
 }
 
@@ -411,19 +428,20 @@ pub struct CurveInfo {
     pub ends: [f64; 2],
     /// Its continuation beyond them.
     pub extrapolate: Extrapolate,
-    /// Whether the description gives this continuation, so that it is not merely the default.
+    /// True if the description gives this continuation; false if it is the default.
     pub told: bool,
-    /// Whether it is a curve or another quantity that is watched like one.
+    /// The kind of this entry: a curve, or another quantity that is watched like one.
     pub kind: CurveKind,
 }
 
 impl CurveInfo {
-    /// Whether it belongs to a bushing: its name begins with the kind of its law.
+    /// True if this entry belongs to a bushing: its name begins with the kind of its law.
     pub(crate) fn is_of_bushing(&self) -> bool {
         self.name.starts_with("bushing ")
     }
 
-    /// The middle one of the three turns that the laws of a joint are about. Its name ends with their order: "joint man/head about x, y and z".
+    /// The middle one of the three turns of a joint's laws about x, y and z. The name of the entry ends with their
+    /// order: "joint man/head about x, y and z".
     pub(crate) fn middle(&self) -> Option<char> {
         let order = self.name.rsplit_once(" about ")?.1;
         let (first, others) = order.split_once(", ")?;
@@ -432,7 +450,7 @@ impl CurveInfo {
         (axis(first) && axis(middle) && axis(last)).then(|| middle.chars().next())?
     }
 
-    /// Of a [bearing](CurveKind::Bearing), an angle or a direction of a bushing that leapt, what became of its law.
+    /// Says what became of the law of a [bearing](CurveKind::Bearing), an angle or a direction of a bushing that leapt.
     pub fn singular(&self) -> &'static str {
         match (self.kind, self.middle()) {
             (CurveKind::HalfTurn, _) => {
@@ -454,8 +472,8 @@ impl CurveInfo {
         }
     }
 
-    /// The interval of trusted arguments. Beyond it the values of the curve are invented: a straight line over more than the whole width of the
-    /// points, or a held value other than 0 that the description did not ask for.
+    /// The interval of trusted arguments. Beyond it the values of the curve are invented: a straight line over more
+    /// than the whole width of the points, or a held value other than 0 that the description did not ask for.
     pub fn trusted(&self) -> [f64; 2] {
         let endless = [f64::NEG_INFINITY, f64::INFINITY];
         match (self.kind, self.extrapolate) {
@@ -480,7 +498,7 @@ impl CurveInfo {
         }
     }
 
-    /// How far `argument` is beyond the first or the last point; 0 within.
+    /// The distance of `argument` beyond the first or the last point; 0 within.
     pub fn beyond(&self, argument: f64) -> f64 {
         (self.first - argument).max(argument - self.last).max(0.0)
     }

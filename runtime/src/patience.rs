@@ -14,7 +14,7 @@ pub(crate) struct Patience {
     limit: Option<Duration>,
     /// The time at which the run ends \[s\].
     end: f64,
-    /// When this window began on the clock, and the time of the run then \[s\].
+    /// The clock time at which the current window began, and the time of the run then \[s\].
     window: [f64; 2],
     late: Option<Late>,
 }
@@ -22,9 +22,9 @@ pub(crate) struct Patience {
 /// Why a run is given up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Late {
-    /// It took longer than this limit \[s\].
+    /// The computation took longer than this limit \[s\].
     Limit(f64),
-    /// At the speed of the last window it would take this long in all \[s\].
+    /// At the speed of the last window, the whole computation would take this long \[s\].
     Rate(f64),
 }
 
@@ -51,7 +51,7 @@ impl Patience {
         self.late.is_some()
     }
 
-    /// How long the run has taken so far \[s\].
+    /// The computing time of the run so far \[s\].
     pub fn elapsed(&self) -> f64 {
         self.start.elapsed().as_secs_f64()
     }

@@ -1,8 +1,8 @@
 //! The scalar that equations are evaluated over.
 //!
-//! No method of [`Real`] branches on a value: a comparison yields a [`Mask`], a choice is a [`select`](Real::select). So one text serves
-//! `f64`, `f32`, registers of several scenarios (a mask per lane), dual numbers (the value is compared, value and derivative are selected
-//! together), double-doubles, and a scalar that counts its operations.
+//! No method of [`Real`] branches on a value: a comparison yields a [`Mask`], a choice is a [`select`](Real::select).
+//! So one text serves `f64`, `f32`, registers of several scenarios (a mask per lane), dual numbers (the value is
+//! compared, value and derivative are selected together), double-doubles, and a scalar that counts its operations.
 
 /// The items of [`Real`] that a scalar without derivatives has.
 macro_rules! without_slopes {
@@ -64,11 +64,11 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A real scalar, or several side by side.
 ///
-/// Generated code and force laws are generic over it. `f64` and `f32` implement it with the feature `std`, or with `libm` for targets
-/// without a standard library.
+/// Generated code and force laws are generic over it. `f64` and `f32` implement it with the feature `std`, or with
+/// `libm` for targets without a standard library.
 ///
-/// NaN must survive, because it tells that the argument of a curve left it. Arithmetic passes it on, and [`max`](Real::max) and
-/// [`min`](Real::min) keep it in their left argument.
+/// NaN must survive, because it tells that the argument of a curve left it. Arithmetic passes it on, and
+/// [`max`](Real::max) and [`min`](Real::min) keep it in their left argument.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no scalar of `bryant_runtime`",
     note = "`f64` and `f32` are scalars with the feature `std` of bryant-runtime or, without a standard library, with its feature `libm`"
@@ -87,8 +87,8 @@ pub trait Real:
 {
     /// Result of a comparison, one truth value per lane.
     type Mask: Mask;
-    /// The scalar of its value without derivatives, which may have derivatives of its own: `T` for a dual number over `T`. For any other scalar
-    /// it is the scalar itself.
+    /// The scalar of its value without derivatives, which may have derivatives of its own: `T` for a dual number over
+    /// `T`. For any other scalar it is the scalar itself.
     type Value: Real<Mask = Self::Mask>;
     /// Whether it has derivatives.
     const SLOPES: bool = false;
@@ -99,8 +99,8 @@ pub trait Real:
 
     /// Its parts, for functions that are compiled apart; `None` if they are not compiled for it.
     const FORM: Option<Form> = None;
-    /// Writes the scalar as plain numbers, [`Form::words`] for each lane. The numbers of lane i begin at i · `stride`. A scalar without a
-    /// form writes nothing.
+    /// Writes the scalar as plain numbers, [`Form::words`] for each lane. The numbers of lane i begin at i · `stride`.
+    /// A scalar without a form writes nothing.
     #[inline(always)]
     fn put(self, _stride: usize, _words: &mut [f64]) {}
     /// Reads the numbers that [`put`](Real::put) wrote; NaN for a scalar without a form.
@@ -109,9 +109,9 @@ pub trait Real:
         Self::from_f64(f64::NAN)
     }
 
-    /// Runs a task that is compiled for the instructions that this scalar needs. Instructions that not every processor has are function
-    /// calls unless they are inlined into a function that is compiled for them. So each evaluation of a model is a task, and all of it is
-    /// inlined. Every other scalar just runs the task.
+    /// Runs a task that is compiled for the instructions that this scalar needs. Instructions that not every processor
+    /// has are function calls unless they are inlined into a function that is compiled for them. So each evaluation of
+    /// a model is a task, and all of it is inlined. Every other scalar just runs the task.
     #[inline(always)]
     fn dispatch<W: Task>(task: W) -> W::Output {
         task.run()
@@ -121,8 +121,8 @@ pub trait Real:
     fn dispatch_apart<W: Task>(task: W) -> W::Output {
         Self::dispatch(task)
     }
-    /// Runs the time loop over this scalar to its end, or until it is stopped. For `f64` the time loop is compiled with this crate, and
-    /// crates that use it only call it.
+    /// Runs the time loop over this scalar to its end, or until it is stopped. For `f64` the time loop is compiled with
+    /// this crate, and crates that use it only call it.
     #[cfg(not(bryant_equations))]
     #[doc(hidden)]
     fn march(
@@ -138,8 +138,8 @@ pub trait Real:
         self
     }
 
-    /// The same value with the derivatives of `other`, if it has any. An iteration that has found a value uses it to take one more step for
-    /// the derivatives.
+    /// The same value with the derivatives of `other`, if it has any. An iteration that has found a value uses it to
+    /// take one more step for the derivatives.
     #[inline(always)]
     fn moving_as(self, other: Self) -> Self {
         let _ = other;
@@ -155,7 +155,8 @@ pub trait Real:
     }
     /// The value that decides in step size control: the largest lane; the value of a dual number.
     fn to_f64(self) -> f64;
-    /// `self · a + b`: the product is rounded and then the sum, except in scalars that are said to fuse both into one rounding, such as lanes.
+    /// `self · a + b`: the product is rounded and then the sum, except in scalars that are said to fuse both into one
+    /// rounding, such as lanes.
     fn mul_add(self, a: Self, b: Self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
@@ -169,8 +170,8 @@ pub trait Real:
     fn abs(self) -> Self;
     /// `self < other`, per lane; false for NaN.
     fn lt(self, other: Self) -> Self::Mask;
-    /// `then` where the mask is true, `otherwise` elsewhere. Both are evaluated. The one that is not chosen has no effect, even if it is
-    /// NaN.
+    /// `then` where the mask is true, `otherwise` elsewhere. Both are evaluated. The one that is not chosen has no
+    /// effect, even if it is NaN.
     fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
     /// True where every lane is finite; for dual numbers, value and derivatives.
     fn is_finite(self) -> bool;
@@ -187,9 +188,9 @@ pub trait Real:
         Self::select(other.lt(self), other, self)
     }
 
-    /// eˣ. The default, for scalars without an exponential of their own, uses arithmetic alone: e^y − 1 for y = |x|/2¹⁰ by its Taylor
-    /// polynomial, doubled ten times by e²ʸ − 1 = (e^y − 1)(e^y + 1), and the reciprocal where x < 0. The relative error is at most
-    /// (4 + 20|x|) ε. Where the result would leave the range of numbers, it is constant.
+    /// eˣ. The default, for scalars without an exponential of their own, uses arithmetic alone: e^y − 1 for y = |x|/2¹⁰
+    /// by its Taylor polynomial, doubled ten times by e²ʸ − 1 = (e^y − 1)(e^y + 1), and the reciprocal where x < 0. The
+    /// relative error is at most (4 + 20|x|) ε. Where the result would leave the range of numbers, it is constant.
     #[inline(always)]
     fn exp(self) -> Self {
         let num = Self::from_f64;
@@ -216,9 +217,9 @@ pub trait Real:
         Self::select(self.lt(num(0.0)), num(1.0) / result, result)
     }
 
-    /// Natural logarithm of `self`, which is not negative; −∞ for 0. The default, for scalars without a logarithm of their own, uses
-    /// t = x^(1/2¹⁰): ln x = 2¹⁰ ln t = 2¹¹ artanh((t − 1)/(t + 1)), by nine terms of the series and one correction by Halley's step. The
-    /// absolute error is at most (8 + 40|ln x|) ε for normal numbers.
+    /// Natural logarithm of `self`, which is not negative; −∞ for 0. The default, for scalars without a logarithm of
+    /// their own, uses t = x^(1/2¹⁰): ln x = 2¹⁰ ln t = 2¹¹ artanh((t − 1)/(t + 1)), by nine terms of the series and
+    /// one correction by Halley's step. The absolute error is at most (8 + 40|ln x|) ε for normal numbers.
     #[inline(always)]
     fn ln(self) -> Self {
         let num = Self::from_f64;
@@ -243,8 +244,8 @@ pub trait Real:
         Self::select(zero.lt(self), y, below)
     }
 
-    /// Zero, or NaN where `self` is not finite. Added to a result that does not depend on `self`, it still makes the result NaN if `self`
-    /// was not finite.
+    /// Zero, or NaN where `self` is not finite. Added to a result that does not depend on `self`, it still makes the
+    /// result NaN if `self` was not finite.
     #[inline(always)]
     fn taint(self) -> Self {
         let same = self;
@@ -252,7 +253,8 @@ pub trait Real:
     }
 }
 
-/// Work that uses the instructions of a scalar: [`Real::dispatch`]. It is no closure, because a closure cannot be marked to be inlined.
+/// Work that uses the instructions of a scalar: [`Real::dispatch`]. It is no closure, because a closure cannot be
+/// marked to be inlined.
 pub trait Task {
     /// Its result.
     type Output;
@@ -266,11 +268,11 @@ pub trait Mask: Copy {
     fn any(self) -> bool;
     /// True in every lane.
     fn all(self) -> bool;
-    /// Where both are true.
+    /// The lanes in which both are true.
     fn and(self, other: Self) -> Self;
-    /// Where at least one is true.
+    /// The lanes in which at least one is true.
     fn or(self, other: Self) -> Self;
-    /// Where it is false.
+    /// The lanes in which this mask is false.
     fn not(self) -> Self;
     /// The mask as bits: bit i is lane i.
     fn lanes(self) -> u32;

@@ -1,4 +1,4 @@
-//! Accelerations in the control of the steps of lanes: [`crate::integrate::acceleration`].
+//! Controls the errors of accelerations in the steps of lanes, as [`crate::integrate::acceleration`] does.
 
 use super::control::Power;
 use super::run::{Run, Section};
@@ -7,7 +7,7 @@ use crate::Real;
 use crate::integrate::acceleration::effect_accelerations;
 use crate::real::{Mask, Several};
 
-/// The largest accelerations that effects cause by themselves where steps begin.
+/// The largest accelerations that single effects cause at the starts of steps.
 struct EffectAccelerations;
 
 impl<T: Several> Section<T> for EffectAccelerations {
@@ -22,7 +22,7 @@ impl<T: Several> Section<T> for EffectAccelerations {
 }
 
 impl<T: Several> Run<'_, T> {
-    /// The error of the step, in these lanes with that of the accelerations at its end.
+    /// The error of the step; in the lanes `good` it includes the error of the accelerations at the end of the step.
     #[inline(always)]
     pub(super) fn with_accelerations(&mut self, error: T::Part, good: T::Mask) -> T::Part {
         let one = T::Part::from_f64(1.0);

@@ -1,10 +1,10 @@
-//! Joints that are bent through 180° within the steps of lanes, where flexion has no direction. What goes through 180° turns its bearing by half a
-//! turn: a step is looked into, as the watch of a single run does, where the bearing turned by more than a sixteenth of a turn from its
-//! beginning to its end, or the joint is bent by more than 90° at one of them alone. So is the direction in which two ellipsoids push each
-//! other, which leaps where they sink through each other.
+//! Finds joints that are bent through 180° within the steps of lanes, where flexion has no direction. Passing 180°
+//! turns the bearing by half a turn. As in the watch of a single run, a step is searched if its bearing turned by more
+//! than a sixteenth of a turn from start to end, or if the joint is bent by more than 90° at only one end. The same is
+//! done for the direction in which two ellipsoids push each other, which leaps if they sink through each other.
 //!
-//! Curves of the state, too, are looked at where each step ends: one that is left so far that what it gives is made up
-//! ([`CurveInfo::trusted`]) makes a run doubtful.
+//! The arguments of curves of the state are also checked at the end of each step: if one is so far outside its points
+//! that the value is made up ([`CurveInfo::trusted`]), the run is doubtful.
 
 use super::copies;
 use super::run::{Run, Section, each};
@@ -14,18 +14,20 @@ use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::{Info, Real};
 
-/// The bearings of a model's bent joints and the directions of its contacts, of each lane.
+/// The bearings of joints and the directions of contacts, in each lane.
 type Bearings = Box<[[Turning; MOST_LANES]]>;
 
-/// What is known of bent joints, and of pairs of ellipsoids.
+/// The state of this search for all lanes.
 pub(super) struct Bends<T: Several> {
-    /// Which they are, the first of their entries in [`Info::curves`], and how many entries each has.
+    /// For each bearing or direction, its first entry in [`Info::curves`], and its number of entries.
     bearings: Box<[(usize, usize)]>,
-    /// The curves that may be left too far, indices in [`Info::curves`], and how far is not too far.
+    /// The curves whose argument may go too far outside, as indices in [`Info::curves`], each with the range of
+    /// arguments that is trusted.
     curves: Box<[(usize, [f64; 2])]>,
-    /// Room for the arguments of all curves of the state; none where nothing is looked at.
+    /// Workspace for the arguments of all curves of the state; empty if there is nothing to check.
     pub(super) arguments: Box<[T]>,
-    /// Where the step begins and ends, where a piece of it does, and where they were asked for last.
+    /// The bearings at the start and at the end of the step, at the ends of a piece of it, and at the place evaluated
+    /// last.
     begin: Bearings,
     end: Bearings,
     before: Bearings,
@@ -33,7 +35,7 @@ pub(super) struct Bends<T: Several> {
     now: Bearings,
     /// The first bearing that leapt in the run of each lane, an index in [`Info::curves`].
     pub(super) leapt: [Option<usize>; MOST_LANES],
-    /// The first curve that was left too far in it, an index in [`Info::curves`].
+    /// The first curve of each lane's run that was left too far, an index in [`Info::curves`].
     pub(super) left: [Option<usize>; MOST_LANES],
 }
 
@@ -65,12 +67,12 @@ impl<T: Several> Bends<T> {
         }
     }
 
-    /// Nothing is known of the run that begins in a lane.
+    /// Clears the findings of a lane, for a new run.
     pub(super) fn forget(&mut self, lane: usize) {
         (self.leapt[lane], self.left[lane]) = (None, None);
     }
 
-    /// Looks at the curves of these lanes, whose arguments are known.
+    /// Checks the arguments of curves in these lanes.
     #[inline(always)]
     fn look_at_curves(&mut self, lanes: T::Mask) {
         for (curve, [from, to]) in &self.curves {
@@ -83,7 +85,7 @@ impl<T: Several> Bends<T> {
         }
     }
 
-    /// Takes the bearings out of the arguments of all curves.
+    /// Copies the bearings from the arguments of all curves.
     fn read(&mut self) {
         for (now, (first, count)) in self.now.iter_mut().zip(&self.bearings) {
             let entries = &self.arguments[*first..][..*count];
@@ -96,7 +98,8 @@ impl<T: Several> Bends<T> {
         }
     }
 
-    /// The lanes of these whose steps are to be looked into, in whose runs nothing leapt before.
+    /// The lanes, among these, whose steps are to be searched: those that are suspect, and had no leap yet in their
+    /// run.
     fn suspected(&self, info: &Info, lanes: u32) -> u32 {
         let mut suspected = 0;
         for i in each(lanes).filter(|i| self.leapt[*i].is_none()) {
@@ -109,7 +112,7 @@ impl<T: Several> Bends<T> {
     }
 }
 
-/// Looks into the steps of some lanes, of which a part counts.
+/// [`Run::look_for_leaps`]
 struct LookWithin<T> {
     lanes: u32,
     part: T,
@@ -124,7 +127,7 @@ impl<T: Several> Section<T> for LookWithin<T> {
 }
 
 impl<T: Several> Run<'_, T> {
-    /// Runs begin in these lanes.
+    /// Sets the bearings at the start of the runs in these lanes.
     #[inline(always)]
     pub(super) fn begin_bends(&mut self, lanes: T::Mask) {
         if self.bends.arguments.is_empty() {
@@ -143,7 +146,8 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// Steps end in these lanes, of which the first `part` counts: the arguments of curves there are known.
+    /// Checks curves and bearings at the end of steps in these lanes, of which only the first `part` is kept. The
+    /// arguments of curves there must have been evaluated.
     #[inline(always)]
     pub(super) fn advance_bends(&mut self, lanes: T::Mask, part: T) {
         if self.bends.arguments.is_empty() {
@@ -172,7 +176,7 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// Looks for leaps in the steps of these lanes.
+    /// Searches the steps of these lanes for leaps of bearings.
     #[inline(always)]
     fn look_for_leaps(&mut self, lanes: u32, part: T) {
         self.step.complete(&*self.models.all);
@@ -202,7 +206,7 @@ impl<T: Several> Run<'_, T> {
                         apart = curve.half(apart, (middle, self.bends.now[k][i]));
                         halvings += 1;
                     }
-                    // a cause counts before what follows from it
+                    // a leap that causes another takes precedence
                     let free = self.bends.leapt[i]
                         .is_none_or(|found| self.info.curves[found].leaps_with(curve));
                     if free && curve.leaps(apart) {
@@ -215,7 +219,7 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// The bearings within the steps, which are complete.
+    /// Evaluates the bearings within the steps, which must be complete.
     #[inline(always)]
     fn bearings_within(&mut self, theta: T) {
         let model = &*self.models.all;

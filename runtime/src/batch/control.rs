@@ -1,14 +1,15 @@
-//! Control of the step in each lane, by the formulas of [`crate::integrate::control`], with the roots that a register can take.
+//! Step-size control in each lane, by the formulas of [`crate::integrate::control`], with roots that registers can
+//! compute.
 
 use super::tolerance::Allowed;
 use crate::integrate::control::{Roots, first_guess, first_length};
 use crate::real::Several;
 use crate::{Dynamics, Real};
 
-/// The estimate falls like this power of the step.
+/// The order of the error estimate: it falls like this power of the step.
 pub const ESTIMATE: u32 = 5;
 
-/// Roots by powers, which registers take.
+/// Roots computed as powers, which registers can do.
 pub struct Power;
 
 impl<P: Real> Roots<P> for Power {
@@ -21,8 +22,8 @@ impl<P: Real> Roots<P> for Power {
     }
 }
 
-/// A first step of each lane from `y` at `t`, where the derivative is `k1`, at most `largest` \[s\]: as that of a single run. It leaves
-/// nothing of use in `there` and `change`, which are as long as a state.
+/// The first step of each lane from `y` at `t`, where the derivative is `k1`, at most `largest` \[s\]: by the formula
+/// of a single run. `there` and `change` are workspaces as long as a state.
 #[inline(always)]
 pub fn first_step<T: Several>(
     model: &dyn Dynamics<T>,
@@ -34,7 +35,7 @@ pub fn first_step<T: Several>(
 ) -> T::Part {
     let d1 = norm::<T>(allowed, y, k1);
     let guess = first_guess([norm::<T>(allowed, y, y), d1], largest);
-    // an Euler step shows the second derivative
+    // an Euler step estimates the second derivative
     let step = T::of_part(guess);
     for ((there, y), k1) in there.iter_mut().zip(y).zip(k1) {
         *there = step.mul_add(*k1, *y);

@@ -1,5 +1,5 @@
-//! Where in a step an event function or a kink changes its sign, in each lane: as [`crate::simulate`] looks for it in a single run, with
-//! selections in place of branches.
+//! Finds where in a step an event function or a kink changes its sign, in each lane: as [`crate::simulate`] does for a
+//! single run, with selections in place of branches.
 
 use super::step::Step;
 use crate::real::{Mask, Several};
@@ -7,7 +7,7 @@ use crate::simulate::excursion::Excursion;
 use crate::simulate::{Bracket, Course, WIDTH, Zero, change, opposite};
 use crate::{Dynamics, Real};
 
-/// The fraction of a step within which an event is found. It is no finer than fractions of a step can be told apart.
+/// The accuracy of an event's place, as a fraction of the step: never finer than the resolution of the scalar.
 pub const fn width<T: Several>() -> f64 {
     if T::EPSILON > WIDTH {
         T::EPSILON
@@ -16,23 +16,23 @@ pub const fn width<T: Several>() -> f64 {
     }
 }
 
-/// The share of a step over which it is told whether a function jumps, and how many times as much as near its zero one that does not jump changes there. It is
-/// [`width`] there, a millionth of that share or less, or rounding.
+/// A function jumps if it changes over the share FAR of a step by less than MORE times its change over the bracket
+/// around its zero. The bracket is [`width`] wide there: at most a millionth of that share, or rounding.
 const FAR: f64 = 1e-6;
 const MORE: f64 = 3.0;
 
-/// Where one of the functions has changed its sign.
+/// The lanes in which one of the functions has changed its sign.
 #[inline(always)]
 pub fn changed<T: Several>(zero: Zero, before: &[T], after: &[T]) -> T::Mask {
     T::from_f64(0.0).lt(change(zero, before, after))
 }
 
-/// Where the time at which a function changes its sign is its own. A kink on whose zero the step begins is left at once, or when another function changes
-/// its sign: that it has been left is seen when rounding shows it, at a time that means nothing.
+/// The lanes in which a sign change has a time of its own. If the step begins on the zero of a kink, the kink is left
+/// at once, or when another function changes its sign: rounding decides when this shows, so its time means nothing.
 #[inline(always)]
 fn begins_apart<T: Several>(zero: Zero, before: T) -> T::Mask {
     match zero {
-        // a zero counts as positive, so that the change is one
+        // a zero counts as positive, so a change from it is a proper one
         Zero::Positive => T::Mask::of_lanes(u32::MAX),
         Zero::Neither => T::Part::from_f64(0.0).lt(before.part(0).abs()),
     }
@@ -48,7 +48,7 @@ pub enum Functions {
 }
 
 impl Functions {
-    /// Their values at a time \[s\] and a state.
+    /// The values of the functions at a time \[s\] and a state.
     #[inline(always)]
     pub fn evaluate<T: Real>(self, model: &dyn Dynamics<T>, t: T, y: &[T], values: &mut [T]) {
         match self {
@@ -57,7 +57,7 @@ impl Functions {
         }
     }
 
-    /// The sign of a zero of theirs.
+    /// The sign that a value of 0 counts as.
     pub const fn zero(self) -> Zero {
         match self {
             Functions::EventFunctions => Zero::Positive,
@@ -94,7 +94,7 @@ impl<T: Several> Probe<'_, T> {
         change(self.functions.zero(), before, self.values)
     }
 
-    /// [`opposite`] of one function in each lane, by its index, at t + θh.
+    /// [`opposite`] of one function in each lane, chosen by `index`, at t + θh.
     #[inline(always)]
     fn opposite(&mut self, before: &[T], index: T::Part, theta: T) -> T {
         self.at(theta);
@@ -108,13 +108,14 @@ impl<T: Several> Probe<'_, T> {
         of_index
     }
 
-    /// When the function of an index changes its sign in each lane, as a part of the step, where it is `there` at the part `found`. The zero of g(θ, p)
-    /// moves by dθ/dp = −(∂g/∂p)/(∂g/∂θ). With dθ/dp = −(∂g/∂p)/r, of any r, g changes by ρ = ∂g/∂p − (∂g/∂θ)(∂g/∂p)/r, and so
-    /// ∂g/∂θ = r (1 − ρ/(∂g/∂p)) to rounding. A difference quotient over a short step would be rounding itself.
+    /// The time at which the function `index` changes its sign in each lane, as a part of the step with its
+    /// derivatives; its value is `there` at the part `found`. The zero of g(θ, p) moves by dθ/dp = −(∂g/∂p)/(∂g/∂θ). If
+    /// instead dθ/dp = −(∂g/∂p)/r is tried, with any r, g changes by ρ = ∂g/∂p − (∂g/∂θ)(∂g/∂p)/r, and so ∂g/∂θ = r (1
+    /// − ρ/(∂g/∂p)) up to rounding. A difference quotient over a short step would consist of rounding only.
     #[inline(always)]
     fn time(&mut self, before: &[T], index: T::Part, found: T::Part, there: T) -> T {
         let (nought, one) = (T::Part::from_f64(0.0), T::Part::from_f64(1.0));
-        // r: the mean rate from the beginning of the step on, which is of the size of ∂g/∂θ
+        // r is the mean rate since the start of the step, which has the size of ∂g/∂θ
         let mut beginning = nought;
         for (i, before) in before.iter().enumerate() {
             let apart = (index - T::Part::from_f64(i as f64)).abs();
@@ -125,7 +126,7 @@ impl<T: Several> Probe<'_, T> {
         let mean = T::Part::select(nought.lt(mean), mean, one);
         let trial = (there.frozen() - there) / T::of_part(mean);
         let left = self.opposite(before, index, T::of_part(found) + trial);
-        // of the part that tells most
+        // from the derivative with the largest magnitude
         let (mut largest, mut share) = (nought, nought);
         for part in 1..T::PARTS {
             let by = there.part(part);
@@ -140,8 +141,8 @@ impl<T: Several> Probe<'_, T> {
         T::select(moves, trial / T::of_part(share) + found, found)
     }
 
-    /// Where the function of an index changes its sign in a jump between two parts of the step, at the first of which it is `there`: it changes no more over
-    /// far more of the step.
+    /// The lanes in which the function `index` changes its sign by a jump between the parts `same` and `other` of the
+    /// step: over a far longer part it changes hardly more. Its value is `there` at `other`.
     #[inline(always)]
     fn jumps(
         &mut self,
@@ -160,23 +161,25 @@ impl<T: Several> Probe<'_, T> {
     }
 }
 
-/// Fractions of a step on both sides of a change of sign, no further apart than can be told, with the derivative of when that is.
+/// Fractions of a step just ahead of and just behind a sign change, as close as can be told, with the derivatives of
+/// its time.
 #[derive(Clone, Copy)]
 pub struct Sides<T: Real> {
     pub ahead: T,
     pub behind: T,
-    /// Where several functions change their signs there, whose times depend on parameters otherwise.
+    /// The lanes in which several functions change their signs there, at times that depend differently on parameters.
     pub at_odds: T::Mask,
-    /// Where the time is not that of the function: it changes its sign in a jump, and the time is that of what makes it jump; or it was [left at
-    /// once](begins_apart).
+    /// The lanes in which the time is not that of the function itself: either the function jumps, and the time is that
+    /// of the cause of the jump; or the zero was [left at once](begins_apart).
     pub jumps: T::Mask,
 }
 
-/// Times that differ by less than this share of a step for a change of a parameter by its size, or by this share of themselves, depend on it alike.
+/// Two times depend alike on a parameter if their derivatives differ by less than this share of a step per change of
+/// the parameter by its size, or by less than this share of themselves.
 const ALIKE: [f64; 2] = [1e-9, 1e-6];
 
 impl<T: Several> Sides<T> {
-    /// Where two times depend on parameters otherwise.
+    /// The lanes in which two times depend differently on parameters.
     #[inline(always)]
     pub fn differ(a: T, b: T) -> T::Mask {
         let mut differ = T::Mask::of_lanes(0);
@@ -190,8 +193,8 @@ impl<T: Several> Sides<T> {
     }
 }
 
-/// The fractions of the step around the first change of sign of the functions in the lanes `wanted`, where it has happened at `end`; 1 in the
-/// others.
+/// The fractions of the step around the first sign change of the functions, in the lanes `wanted`, where a sign is
+/// changed at `end`; 1 in the other lanes.
 #[inline(always)]
 pub fn first_change<T: Several>(
     probe: &mut Probe<'_, T>,
@@ -228,7 +231,7 @@ pub fn first_change<T: Several>(
     }
     let zero = probe.functions.zero();
     probe.at(T::of_part(found));
-    // the function that is farthest on the other side, and where there is one
+    // the function that is farthest on the other side, the lanes that have one, and the lanes that have several
     let (mut index, mut there, mut alone, mut several) = (nought, T::from_f64(0.0), none, none);
     for (i, (before, value)) in before.iter().zip(&*probe.values).enumerate() {
         let value = opposite(zero, *before, *value);
@@ -260,7 +263,7 @@ pub fn first_change<T: Several>(
             }
             let time = probe.time(before, index, found, there);
             let by_itself = probe.jumps(before, index, [found, same], there).not();
-            // the first that does not jump stands for all that do
+            // the first function that does not jump gives the time for all that do
             let first = counts.and(by_itself).and(jumps);
             behind = T::select(first, time, behind);
             jumps = jumps.and(first.not());
@@ -279,11 +282,11 @@ pub fn first_change<T: Several>(
     }
 }
 
-/// In which of these lanes a function may have another sign within the step than at its ends, by its values at five places: all lanes in which an
-/// [`Excursion`] finds anything or asks for more are among them.
+/// The lanes, among these, in which a function may have another sign within the step than at its ends, by its values at
+/// five places. They include all lanes in which an [`Excursion`] finds a change or asks for values.
 #[inline(always)]
 pub fn may_stray<T: Several>(zero: Zero, values: &Values<T>, lanes: u32) -> u32 {
-    // searches are in doubles, and other numbers may tell otherwise
+    // searches use doubles, and values of a coarser scalar may lead to another answer
     if T::EPSILON > 1e-10 {
         return lanes;
     }
@@ -305,7 +308,8 @@ pub fn may_stray<T: Several>(zero: Zero, values: &Values<T>, lanes: u32) -> u32 
     may.lanes() & lanes
 }
 
-/// The search for a place in the step of a lane at which a function has another sign than at its ends, by its values at five places.
+/// The search for a place in a lane's step at which a function has another sign than at its ends, from its values at
+/// five places.
 #[inline(always)]
 pub fn excursion<T: Several>(zero: Zero, values: &Values<T>, lane: usize) -> Excursion {
     let before = values[0].lane(lane);
@@ -316,14 +320,14 @@ pub fn excursion<T: Several>(zero: Zero, values: &Values<T>, lane: usize) -> Exc
     Excursion::new(course)
 }
 
-/// What one function has in five places of a step, its beginning, the ends of its quarters, and its end.
+/// The values of one function at five places of a step: its start, the ends of its quarters, and its end.
 pub type Values<T> = [T; 5];
 
-/// Where in a step the places of [`Values`] are.
+/// The places of [`Values`], as parts of the step.
 pub const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
-/// The fraction of a step at which a function is farthest on the other side of zero, though at its end nothing shows of it; +∞ where
-/// there is none, and anything in lanes that are not `wanted`. It looks where `hidden` of a single run does.
+/// The first fraction of a step at which a function has a value that [matters](Course::matters); +∞ if there is none,
+/// and undefined in lanes that are not `wanted`. The rule is that of `hidden` in a single run.
 #[inline(always)]
 pub fn hidden<T: Several>(
     probe: &mut Probe<'_, T>,
@@ -343,7 +347,7 @@ pub fn hidden<T: Several>(
         if !course.likely().and(wanted).any() {
             continue;
         }
-        // the first that is found counts, of this function
+        // the first place found counts, for each function
         let mut mine = never;
         for (k, theta) in PLACES.into_iter().enumerate().take(4).skip(1) {
             let theta = c(theta);

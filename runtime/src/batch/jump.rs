@@ -1,17 +1,17 @@
-//! Outputs on both sides of events: they may jump there, and a parameter moves when they do.
+//! Records outputs on both sides of events: they may jump there, and a parameter moves the time of the jump.
 
 use super::run::{Run, each};
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 
-/// The outputs that are wanted, in each lane, on both sides of an event.
+/// The requested outputs in each lane, just ahead of and just behind an event.
 pub(super) struct Sided<S> {
     pub(super) ahead: Box<[[S; MOST_LANES]]>,
     pub(super) behind: Box<[[S; MOST_LANES]]>,
 }
 
 impl<T: Several> Run<'_, T> {
-    /// Keeps the outputs ahead of an event, at a time \[s\] and the state in `state`.
+    /// Stores the outputs ahead of an event, at a time \[s\] and the state in `state`.
     #[inline(always)]
     pub(super) fn look_ahead(&mut self, t: T) {
         self.models.all.outputs(t, &self.state, &mut self.of_model);
@@ -20,7 +20,8 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// An event happened in these lanes: what the outputs were ahead of it, and are now that the memory of switches is renewed.
+    /// Records an event in these lanes, with the outputs ahead of it and those now, after the memory of switches has
+    /// been renewed.
     #[inline(always)]
     pub(super) fn note_jumps(&mut self, lanes: T::Mask) {
         let (t, y) = (self.step.t, &self.step.y);

@@ -1,4 +1,5 @@
-//! The end of steps that were accepted, in all lanes: where events cut them, what their memory becomes, and what the next steps begin with.
+//! Handles the ends of accepted steps in all lanes: where events cut them, how their memory is renewed, and what the
+//! next steps begin with.
 
 use super::control::norm;
 use super::event::{Sides, width};
@@ -9,33 +10,35 @@ use crate::real::{Mask, Several};
 use crate::simulate::finest;
 use crate::{Arrival, Real};
 
-/// How the steps of lanes ended.
+/// How the steps of all lanes ended.
 pub(super) struct Landing<T: Real> {
-    /// Where they were good.
+    /// The lanes whose steps were accepted.
     accepted: T::Mask,
-    /// Where they went all the way; elsewhere an event ended them.
+    /// The lanes whose steps went their full length; elsewhere an event ended them.
     whole: T::Mask,
-    /// Where they arrived at a time that they had to meet.
+    /// The lanes whose steps ended on a time that they had to meet.
     arrived: T::Mask,
     renewed: Renewed<T>,
-    /// Where the time of their end depends on parameters, and that time less itself: its derivatives alone \[s\].
+    /// The lanes in which the time of the end depends on parameters, and the derivatives of that time, with the value 0
+    /// \[s\].
     moves: T::Mask,
     shift: T,
-    /// Where several events ended them at the same time, which depend on parameters otherwise.
+    /// The lanes in which several events ended the step at the same time, but depend differently on parameters.
     at_odds: T::Mask,
 }
 
 /// What renewing memory changed.
 #[derive(Clone, Copy)]
 pub(super) struct Renewed<T: Real> {
-    /// Where anything.
+    /// The lanes in which memory changed.
     any: T::Mask,
-    /// Where event functions or onsets, too.
+    /// The lanes in which event functions or onsets changed, too.
     other: T::Mask,
 }
 
 impl<T: Several> Run<'_, T> {
-    /// Renews the memory in these lanes until that changes nothing. What is wanted of the state where steps begin is known before and after.
+    /// Renews the memory in these lanes until nothing changes. Before and after, event functions and onsets are those
+    /// of the states where steps begin.
     #[inline(always)]
     pub(super) fn renew(&mut self, lanes: T::Mask) -> Renewed<T> {
         let mut renewed = Renewed {
@@ -71,7 +74,7 @@ impl<T: Several> Run<'_, T> {
         renewed
     }
 
-    /// Takes over the ends of accepted steps. A step ends where an event function changes its sign.
+    /// Moves the lanes to the ends of their accepted steps. A step ends where an event function changes its sign.
     #[inline(always)]
     pub(super) fn land(
         &mut self,
@@ -154,7 +157,7 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// Leaves steps that were accepted: the next begin where these ended.
+    /// Finishes accepted steps, and prepares the next ones, which begin where these ended.
     #[inline(always)]
     pub(super) fn leave(&mut self, landing: &Landing<T>) {
         let Landing {
@@ -215,9 +218,11 @@ impl<T: Several> Run<'_, T> {
         self.count_steps(whole.not().and(going));
     }
 
-    /// The next steps of these lanes begin at times that do not depend on parameters, although those before ended at times that do. Between the two
-    /// the state moves at the rate behind the event, as it moved at the rate ahead of it in [`Run::land`]. So the derivatives of a state change by
-    /// (ẏ₋ − ẏ₊) dτ/dp, with the rates on both sides of the event and its time τ: those of what the event does not touch stay as they are.
+    /// Makes the start times of the next steps independent of parameters in these lanes, although the previous steps
+    /// ended at times that depend on them. Between the two times the state moves at the rate behind the event, as it
+    /// moved at the rate ahead of the event in [`Run::land`]. So the derivatives of the state change by (ẏ₋ − ẏ₊)
+    /// dτ/dp, with the rates on both sides of the event and its time τ; those of entries that the event does not affect
+    /// stay as they are.
     #[inline(always)]
     fn hold(&mut self, lanes: T::Mask, shift: T) {
         if !lanes.any() {
@@ -230,9 +235,10 @@ impl<T: Several> Run<'_, T> {
         self.rate(lanes);
     }
 
-    /// Memory that goes along with the state, as the foot of a line under load does, is of the time at which the next steps of these lanes begin, not of
-    /// that of the event. Its values are the same; where it stays as it is, so are its derivatives: of what laws make of a memory, what drags it comes
-    /// before what was kept where both are equal.
+    /// Adapts memory that follows the state, as the foot of a line under load does, to the time at which the next steps
+    /// of these lanes begin, instead of the time of the event. Values of memory stay the same, and where the memory
+    /// stays as it is, so do its derivatives: if the memory that the state drags along and the one kept before are
+    /// equal, laws prefer the dragged one.
     #[inline(always)]
     fn hold_memory(&mut self, lanes: T::Mask) {
         if self.info.memory.is_empty() {
@@ -243,8 +249,9 @@ impl<T: Several> Run<'_, T> {
         replace(same.and(lanes), &mut self.step.y, &self.renewed);
     }
 
-    /// What memory would become ahead of an event, between these parts of the step, as far ahead as they are apart: where a function is 0, its event may have
-    /// happened. What is evaluated with it is evaluated again where steps end.
+    /// Evaluates the memory just ahead of an event: at a place before `ahead` by the distance between the two parts of
+    /// the step, because at a function's zero its event may already have happened. Event functions and onsets, which
+    /// this overwrites, are evaluated again where steps end.
     #[inline(always)]
     fn remember_ahead(&mut self, [ahead, behind]: [T; 2]) {
         let part = (ahead + (ahead - behind)).max(T::from_f64(0.0));
@@ -262,7 +269,9 @@ impl<T: Several> Run<'_, T> {
         self.memory_ahead.copy_from_slice(kept);
     }
 
-    /// In these lanes the one event of several counted whose function was farthest. That is of no matter where none of them makes a rate or memory jump.
+    /// Marks lanes in which several events that depend differently on parameters ended a step as
+    /// [tied](super::scenario::Doubt::Tied), unless neither rates nor memory jump there. Of several simultaneous
+    /// events, only the one whose function was farthest on the other side gave the time.
     #[inline(always)]
     fn tie(&mut self, at_odds: T::Mask) {
         if !at_odds.any() {
@@ -275,9 +284,10 @@ impl<T: Several> Run<'_, T> {
         self.tied |= at_odds.and(jumps).lanes();
     }
 
-    /// Where the motion goes on as it did in the step before, whose derivative at its end is in `state`, although memory was renewed: over such a step,
-    /// the change of the derivative makes no more than the error allowed. So it is of a hysteresis under load, whose memory goes along with the
-    /// state. Never of fixed steps, for which no error is allowed.
+    /// The lanes in which the motion goes on as in the previous step, whose last derivative is in `state`, although
+    /// memory was renewed: the change of the derivative, over a step of that length, makes no more than the allowed
+    /// error. This holds for a hysteresis under load, whose memory follows the state. No lane if steps are fixed, for
+    /// which no error is allowed.
     #[inline(always)]
     fn moves_alike(&mut self) -> T::Mask {
         if self.allowed.is_empty() {
@@ -290,7 +300,8 @@ impl<T: Several> Run<'_, T> {
         T::Part::from_f64(1.0).lt(size).not()
     }
 
-    /// Which of these lanes, whose steps are cut to a part, go on all the same, because they stand still.
+    /// The lanes, among these whose steps are cut to `part`, whose steps are to be taken whole anyway, because events
+    /// have stopped them too often.
     #[inline(always)]
     fn going_on(&mut self, cut: T::Mask, part: T) -> T::Mask {
         let mut going_on = 0;
@@ -306,15 +317,15 @@ impl<T: Several> Run<'_, T> {
     }
 }
 
-/// What changes by less than this share of itself does not jump, nor what changes by less than this share of the largest beside it: between both sides of an
-/// event everything moves a little.
+/// A number does not jump if it changes by less than this share of itself, or by less than this share of the largest
+/// number beside it: between both sides of an event everything moves slightly.
 const TRIFLE: f64 = 1e-6;
 const NOTHING: f64 = 1e-12;
 
-/// No number of a model is as large, but for the infinite time of a switch that has not fired.
+/// An upper bound of all numbers of a model, except the infinite time of a switch that has not fired.
 const MOST: f64 = 1e30;
 
-/// The lanes in which any number jumps between both sides of an event, `beside` others.
+/// The lanes in which any number jumps between both sides of an event; `beside` are numbers that set the scale.
 #[inline(always)]
 fn jump<T: Several>(ahead: &[T], behind: &[T], beside: &[T]) -> T::Mask {
     let [trifle, nothing, most] = [TRIFLE, NOTHING, MOST].map(T::Part::from_f64);
@@ -337,7 +348,7 @@ fn jump<T: Several>(ahead: &[T], behind: &[T], beside: &[T]) -> T::Mask {
     jumps
 }
 
-/// Moves a state in these lanes along its rate for a time \[s\], of which there are derivatives alone.
+/// Moves a state in these lanes along its rate for a time \[s\] that consists of derivatives only.
 #[inline(always)]
 fn follow<T: Several>(lanes: T::Mask, state: &mut [T], rate: &[T], time: T) {
     for (state, rate) in state.iter_mut().zip(rate) {
@@ -366,7 +377,7 @@ fn differ<T: Several>(some: &[T], others: &[T]) -> T::Mask {
     differ
 }
 
-/// Replaces the entries of a state in the lanes of a mask, where nobody needs `new` any more.
+/// Replaces the entries of a state in the lanes of a mask; `new` is not needed afterwards.
 #[inline(always)]
 fn exchange<T: Several>(lanes: T::Mask, old: &mut Box<[T]>, new: &mut Box<[T]>) {
     if lanes.all() {

@@ -1,8 +1,8 @@
-//! What is known of onsets within the steps of all lanes, as plain numbers.
+//! Stores the onsets evaluated within the steps of all lanes, as plain numbers.
 //!
-//! Few lanes search at once, and each for one law after the other. So a place is looked at for all laws of its lane, which may ask for it later, and what
-//! would be idle of a register looks at places that are likely to be asked for next ([`Hunt::ahead`]). What a search is told, and in which order, is the
-//! same as if it were alone.
+//! Few lanes search at once, and each for one law after the other. So a place is evaluated for all laws of its lane,
+//! which may ask for it later, and the otherwise idle lanes of a register evaluate places that are likely to be asked
+//! for next ([`Hunt::ahead`]). Each search is told the same values, in the same order, as if it were alone.
 
 use super::copies;
 use super::place::Places;
@@ -11,29 +11,29 @@ use crate::real::Several;
 use crate::real::lanes::MOST_LANES;
 use crate::simulate::onset::{Course, Hunt, QUARTERS, onset_of};
 
-/// So many looks are remembered.
+/// Number of evaluations that are remembered. One evaluation ("look") covers the places packed into one register.
 const KEPT: usize = 8;
 
-/// A number of each lane, or of each place.
+/// A number for each lane, or for each place.
 type Numbers = [f64; MOST_LANES];
 
-/// What was found at the ends of the quarters of steps, and at places between.
+/// The onsets at the ends of the quarters of steps, and gaps at places between.
 pub(super) struct Looked {
     onsets: usize,
     corners: usize,
-    /// By quarter, all gaps, then all speeds, of each lane.
+    /// For each quarter: all gaps, then all speeds, in each lane.
     quarters: [Box<[Numbers]>; QUARTERS + 1],
-    /// By look, all gaps, of each place.
+    /// For each look: all gaps, at each place.
     gaps: [Box<[Numbers]>; KEPT],
-    /// By look: in which lane each place is, and which part of its step.
+    /// For each look: the lane of each place, and the part of its step.
     places: [[(u8, f64); MOST_LANES]; KEPT],
-    /// By look: how many places.
+    /// For each look: the number of places.
     counts: [usize; KEPT],
-    /// The look that is the next to be forgotten.
+    /// The oldest look, which is overwritten next.
     next: usize,
 }
 
-/// The numbers of a scalar.
+/// The lanes of a scalar as doubles.
 #[inline(always)]
 fn numbers<T: Several>(scalar: T) -> Numbers {
     let (lanes, mut numbers) = (scalar.lanes(), [0.0; MOST_LANES]);
@@ -44,7 +44,7 @@ fn numbers<T: Several>(scalar: T) -> Numbers {
 }
 
 impl Looked {
-    /// Nothing yet, of so many onsets, the last of which are `corners`.
+    /// An empty store for this number of onsets, the last of which are `corners`.
     pub fn new(onsets: usize, corners: usize) -> Self {
         let zeros = |length: usize| copies([0.0; MOST_LANES], length);
         Looked {
@@ -58,7 +58,7 @@ impl Looked {
         }
     }
 
-    /// Other steps, of which these are the onsets at the ends of quarters.
+    /// Begins with new steps, given their onsets at the ends of quarters.
     #[inline(always)]
     pub fn begin<T: Several>(&mut self, values: &[Box<[T]>]) {
         self.counts = [0; KEPT];
@@ -69,7 +69,7 @@ impl Looked {
         }
     }
 
-    /// What was found at some places.
+    /// Stores the onsets found at several places.
     #[inline(always)]
     pub fn add<T: Several>(&mut self, places: &Places<f64>, values: &[T]) {
         let look = self.next;
@@ -84,7 +84,7 @@ impl Looked {
         }
     }
 
-    /// The look and the position in it at which a place of a lane was looked at.
+    /// The look and the position in it where a place of a lane was evaluated.
     fn find(&self, lane: usize, theta: f64) -> Option<(usize, usize)> {
         for (look, places) in self.places.iter().enumerate() {
             for (position, place) in places[..self.counts[look]].iter().enumerate() {
@@ -96,7 +96,7 @@ impl Looked {
         None
     }
 
-    /// The gap of one of the sides at a place of a lane, where it was looked at.
+    /// The gap of a side at a place of a lane, if that place was evaluated.
     fn gap(&self, lane: usize, theta: f64, side: usize) -> Option<f64> {
         let (look, position) = self.find(lane, theta)?;
         let (onset, far) = onset_of(side, self.onsets, self.corners);
@@ -104,7 +104,7 @@ impl Looked {
         Some(if far { -gap } else { gap })
     }
 
-    /// What is known of one of the sides in a lane.
+    /// The known gaps and the speed of a side in a lane.
     fn course(&self, side: usize, lane: usize) -> Course {
         let (onset, far) = onset_of(side, self.onsets, self.corners);
         let (mut gaps, mut speed) = ([0.0; QUARTERS + 1], 0.0_f64);
@@ -116,8 +116,8 @@ impl Looked {
         Course { gaps, speed }
     }
 
-    /// Takes the search in a lane as far as is known what it asks for. True where that is its end; else the place that it asks for is one
-    /// of the places.
+    /// Continues the search in a lane as far as the values it asks for are known. True if the search has ended; else
+    /// adds the place that it asks for to `places`.
     pub fn go_on(&self, lane: usize, hunt: &mut Hunt, places: &mut Places<f64>) -> bool {
         while let Some(theta) = hunt.next(|side| self.course(side, lane)) {
             let Some(gap) = self.gap(lane, theta, hunt.law()) else {
@@ -129,7 +129,7 @@ impl Looked {
         true
     }
 
-    /// Fills up places, as many as `most`, with those that searches may ask for next.
+    /// Fills up `places`, to at most `most`, with places that searches may ask for next.
     pub fn look_ahead(&self, hunts: &[Option<Hunt>], most: usize, places: &mut Places<f64>) {
         for k in 0..Hunt::AHEAD {
             for (lane, hunt) in hunts.iter().enumerate() {

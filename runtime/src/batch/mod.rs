@@ -1,10 +1,11 @@
 //! Many runs of one model at once, a scenario in each lane of a register.
 //!
-//! The loop is compiled once for each scalar, in this crate. It meets models through [`Dynamics`](crate::Dynamics), whose functions are
-//! compiled for the instructions of a register each.
+//! The loop is compiled once for each scalar, in this crate. It meets models through [`Dynamics`](crate::Dynamics),
+//! whose functions are compiled for the instructions of a register each.
 //!
-//! Every lane has a time, a step and a control of its error of its own, and takes the next scenario when it is done with one. So a run
-//! is the same to the last bit in whatever lane it goes and whatever the others do, and no lane waits for the slowest.
+//! Every lane has its own time, step and error control, and takes the next scenario as soon as it has finished one. So
+//! a run is the same to the last bit whatever lane it is in and whatever the others do, and no lane waits for the
+//! slowest.
 //!
 //! | file | what |
 //! |---|---|
@@ -55,8 +56,8 @@ pub use run::{STEPS_BETWEEN, run};
 pub use scenario::{Doubt, Ended, Scenarios, Series, Status};
 pub use settings::{Fixed, Method, Pace, Settings};
 
-/// So many copies of a value. It is a function of its own, because a batch has dozens of such slices: inlined, they would be a seventh of the
-/// machine code of this crate.
+/// A slice with `count` copies of a value. This is a function of its own because a batch has dozens of such slices:
+/// inlined, they would be a seventh of the machine code of this crate.
 #[inline(never)]
 fn copies<S: Copy>(value: S, count: usize) -> Box<[S]> {
     vec![value; count].into_boxed_slice()

@@ -1,7 +1,8 @@
 //! The models that a batch works with, and where they come from.
 //!
-//! The time loop is compiled once for each scalar, in this crate. [`rows`](super::rows) are asked for with a [`Family`]; what is generic
-//! over the family only makes the models. A [`Source`] hands them on as a trait object, so nothing behind it is compiled again.
+//! The time loop is compiled once for each scalar, in this crate. [`rows`](super::rows) receives a [`Family`]; only the
+//! code that makes the models is generic over the family. A [`Source`] hands the models on as trait objects, so nothing
+//! behind it is compiled again.
 
 use crate::real::Several;
 use crate::real::lanes::{Alone, Lanes, Width};
@@ -9,11 +10,11 @@ use crate::{Adjustable, Dual, Family, Info, Real, Schedule};
 
 /// The models of one family that a batch needs.
 pub(super) struct Models<'a, T: Several> {
-    /// Over all lanes.
+    /// The model for all lanes.
     pub(super) all: Box<dyn Adjustable<T> + 'a>,
-    /// Over lanes in another order, to look at several places of one lane at once.
+    /// The model with lanes in another order, to evaluate several places of one lane at once.
     pub(super) packed: Box<dyn Adjustable<T> + 'a>,
-    /// Conditions on the parameters of each lane, and its kinks in time.
+    /// For each lane, the conditions on its parameters, and its kinks in time.
     pub(super) lanes: Vec<Box<dyn Schedule<f64> + 'a>>,
     /// The kinks in time of one lane, with their derivatives. `None` where the scalar has no derivatives.
     pub(super) one: Option<Box<dyn Schedule<T::One> + 'a>>,
@@ -29,7 +30,7 @@ impl<'a, T: Several> Models<'a, T> {
         }
     }
 
-    /// Those of a family.
+    /// The models of a family.
     pub(super) fn of(family: &'a impl Family) -> Self {
         let one = (T::PARTS > 1).then(|| family.schedule::<T::One>());
         Models::new(family, one)
@@ -43,17 +44,18 @@ impl<'a, T: Several> Models<'a, T> {
 
 /// Numbers of one kind, and the registers that hold several of them, by width.
 pub(super) trait Numbers {
-    /// One number.
+    /// The scalar of one lane.
     type One: Real;
     /// The scalar of [`Width::Plain`].
     type Plain: Several<One = Self::One>;
-    /// The scalar of [`Width::One`], [`Width::Two`] and [`Width::Four`]. A processor of x86-64 that fuses products and sums has registers of four, a
-    /// 64-bit ARM registers of two, and a lane has the same bits in each: so the time loop is not compiled once more for one lane. Other processors have
-    /// no such registers; there it is one lane.
+    /// The scalar of [`Width::One`], [`Width::Two`] and [`Width::Four`]. x86-64 processors with fused multiply-add have
+    /// registers of four lanes, 64-bit ARM processors registers of two, and a lane has the same bits in each; so the
+    /// time loop is not compiled separately for one lane. On other processors, which have no such registers, this
+    /// scalar is one lane.
     type Narrow: Several<One = Self::One>;
-    /// The scalar of [`Width::Eight`]; where no processor has such registers, that of [`Width::One`].
+    /// The scalar of [`Width::Eight`]; on processors that have no such registers, that of [`Width::One`].
     type Wide: Several<One = Self::One>;
-    /// The schedule of one lane, if numbers have a derivative.
+    /// The schedule of one lane, if the numbers have a derivative.
     fn one(family: &impl Family) -> Option<Box<dyn Schedule<Self::One> + '_>>;
 }
 
@@ -121,7 +123,7 @@ impl<N: Numbers> Numbers for Duals<N> {
     }
 }
 
-/// Models over the registers of every width. Whoever calls a function of a width has asked [`Width::there`].
+/// Makes models over the registers of every width. Before calling the function of a width, check [`Width::there`].
 pub(super) trait Source<N: Numbers> {
     fn plain(&self) -> Models<'_, N::Plain>;
     fn narrow(&self) -> Models<'_, N::Narrow>;
@@ -142,15 +144,15 @@ impl<N: Numbers, F: Family> Source<N> for F {
     }
 }
 
-/// Something to do with models over registers of any width.
+/// A task that works with models over registers of any width.
 pub(super) trait OfModels<S: Real> {
-    /// What comes of it.
+    /// The result of the task.
     type Output;
-    /// Does it.
+    /// Performs the task.
     fn run<T: Several<One = S>>(self, models: Models<'_, T>) -> Self::Output;
 }
 
-/// Does it with registers of a width. `None` where the processor at hand has no such registers.
+/// Performs a task with registers of a width. `None` if this processor has no such registers.
 pub(super) fn with_models<N: Numbers, W: OfModels<N::One>>(
     width: Width,
     source: &dyn Source<N>,

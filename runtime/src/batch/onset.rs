@@ -1,4 +1,4 @@
-//! Whether steps went over something that begins and ends in them, in each lane, as [`crate::simulate`] looks for it in a single run.
+//! Finds laws that begin and end to act within one step, in each lane, as [`crate::simulate`] does for a single run.
 
 use super::copies;
 use super::looked::Looked;
@@ -11,34 +11,36 @@ use crate::simulate::onset::{
 };
 use crate::{Info, Real};
 
-/// Places of a step at which onsets are kept: its beginning, the ends of its quarters, its end, any, and the beginning of the step before.
+/// Places at which onsets are kept: the start of a step, the ends of its quarters, its end, one further place, and the
+/// start of the previous step.
 const PLACES: usize = QUARTERS + 3;
 const MIDDLE: usize = QUARTERS / 2;
 pub(super) const END: usize = QUARTERS;
 const ANY: usize = QUARTERS + 1;
 const PAST: usize = QUARTERS + 2;
 
-/// What is known of the onsets in the step of each lane.
+/// Gaps and speeds of the onsets in the step of each lane.
 pub(super) struct Onsets<T: Several> {
-    /// By place, each gaps, then speeds.
+    /// For each place all gaps, then all speeds.
     pub(super) values: [Box<[T]>; PLACES],
-    /// How many of them, the last ones, are corners.
+    /// The number of corners, which are the last onsets.
     corners: usize,
     hunts: Box<[Option<Hunt>]>,
-    /// What is known within the steps that are searched.
+    /// Values found within the steps that are searched.
     looked: Looked,
-    /// Which of the [`sides`] was found last in the step of each lane.
+    /// The side found last in the step of each lane, an index in [`sides`].
     found: [usize; MOST_LANES],
-    /// Whether steps are looked into on the cubic, which no stage spoils.
+    /// Whether steps are evaluated on the cubic, which no inner stage spoils.
     on_cubic: bool,
-    /// The first law that a fixed step of each lane's run went over, an index in [`Info::onsets`](crate::Info::onsets).
+    /// The first law that a fixed step of each lane's run passed over, an index in
+    /// [`Info::onsets`](crate::Info::onsets).
     pub(super) missed: [Option<usize>; MOST_LANES],
-    /// Room for rates, where steps are fixed.
+    /// Workspace for rates, used with fixed steps.
     rates: [Box<[T]>; 3],
 }
 
 impl<T: Several> Onsets<T> {
-    /// Those of a model.
+    /// The onsets of a model.
     pub fn new(info: &Info, adaptive: bool) -> Self {
         let count = info.onsets.len();
         let zeros = |length: usize| copies(T::from_f64(0.0), length);
@@ -58,7 +60,7 @@ impl<T: Several> Onsets<T> {
         }
     }
 
-    /// How many laws are searched for.
+    /// The number of laws to search for.
     #[inline(always)]
     fn sides(&self) -> usize {
         sides(self.count(), self.corners)
@@ -121,8 +123,8 @@ impl<T: Several> Section<T> for Weigh<T::Mask, T::Part> {
 }
 
 impl<T: Several> Run<'_, T> {
-    /// The part of the step of each lane that is to be taken instead, because a law begins to act behind it and shows nothing of it where the
-    /// step ends; +∞ where there is none.
+    /// The part of each lane's step to take instead, because a law begins to act behind it and shows nothing of this at
+    /// the end of the step; +∞ if there is none.
     #[inline(always)]
     pub(super) fn stepped_over(&mut self, accepted: T::Mask) -> T::Part {
         let never = T::Part::from_f64(f64::INFINITY);
@@ -136,7 +138,7 @@ impl<T: Several> Run<'_, T> {
         self.apart(Chase(unclear))
     }
 
-    /// Fixed steps cannot be taken again: where one goes over a law, that is told if it matters.
+    /// Records laws that fixed steps passed over, if they matter; fixed steps cannot be taken again.
     #[inline(always)]
     pub(super) fn tell_missed(&mut self, accepted: T::Mask) {
         let never = T::Part::from_f64(f64::INFINITY);
@@ -145,7 +147,7 @@ impl<T: Several> Run<'_, T> {
         if over.any() {
             self.apart(Weigh { over, part });
         }
-        // a stage may have met what the step's own interpolant then shows elsewhere
+        // a stage may have met the law, so that the step's own interpolant shows the visit at a wrong place
         if self.onsets.sides() == 0 || !self.step.has_cubic() {
             return;
         }
@@ -167,7 +169,7 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// Looks at what the steps of these lanes went over, found at a part of each.
+    /// Records the laws that the steps of these lanes passed over, each found at `part` of its step, if they matter.
     #[inline(always)]
     fn weigh(&mut self, over: T::Mask, part: T::Part) {
         let found = T::of_part(part);
@@ -210,7 +212,8 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// The derivative within the steps, which are complete, at a part of each; at the very end it is that just before it.
+    /// The derivative within the steps, which must be complete, at a part of each; at the end of a step, the derivative
+    /// just before it.
     #[inline(always)]
     fn rate_within(&mut self, parts: [f64; MOST_LANES], place: usize) {
         let model = &*self.models.all;
@@ -223,7 +226,7 @@ impl<T: Several> Run<'_, T> {
         model.derivative(t, &self.state, &mut self.onsets.rates[place]);
     }
 
-    /// The lowest gap of one of the sides that need not be looked for.
+    /// The depth of a side below which the search looks for a visit: a gap above this limit is ignored.
     #[inline(always)]
     fn limit(&self, side: usize) -> T::Part {
         let onsets = &self.onsets;
@@ -239,7 +242,8 @@ impl<T: Several> Run<'_, T> {
         every.lt(self.step.h.part(0)).not()
     }
 
-    /// The lanes in which nothing can have happened, by what is known at the ends of the step, and at the beginning of the step before.
+    /// The lanes in which no gap can have reached its limit, by the gaps at the ends of the step and at the start of
+    /// the previous step.
     #[inline(always)]
     fn quiet(&self) -> T::Mask {
         let length = self.step.h.part(0);
@@ -256,7 +260,7 @@ impl<T: Several> Run<'_, T> {
         quiet
     }
 
-    /// The same by what is known in the middle, too.
+    /// [`Run::quiet`] with the gaps in the middle of the step known, too.
     #[inline(always)]
     fn calm(&self) -> T::Mask {
         let length = self.step.h.part(0);
@@ -274,11 +278,11 @@ impl<T: Several> Run<'_, T> {
         quiet
     }
 
-    /// Looks into the steps of these lanes.
+    /// Searches the steps of these lanes. Returns the part of each step to take instead, +∞ if nothing is found.
     #[inline(always)]
     fn hunt(&mut self, lanes: T::Mask) -> T::Part {
         self.step.complete(&*self.models.all);
-        // the quarters of few lanes have room in one register
+        // if there are few lanes, all their quarters fit in one register
         let among = lanes.lanes() & ((1 << T::LANES) - 1);
         let few = (QUARTERS - 1) * among.count_ones() as usize <= T::LANES;
         match few {
@@ -335,7 +339,8 @@ impl<T: Several> Run<'_, T> {
         T::of_lanes(&parts).part(0)
     }
 
-    /// The onsets at the ends of the quarters of the steps of these lanes, all at once: there is room.
+    /// Evaluates the onsets at the ends of the quarters of the steps of these lanes, all in one register; there must be
+    /// room.
     #[inline(always)]
     fn look_at_quarters(&mut self, lanes: u32) {
         let (mut places, mut from) = (Places::new(0.0), [[0; MOST_LANES]; QUARTERS + 1]);
@@ -358,7 +363,8 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// The onsets at some places of the steps, which are complete, a place in each lane, kept as those of any place.
+    /// Evaluates the onsets at several places of the steps, which must be complete, one place in each lane, into the
+    /// further place.
     #[inline(always)]
     fn onsets_at(&mut self, places: &mut Places<f64>) {
         let order = self.pack(places);
@@ -373,7 +379,7 @@ impl<T: Several> Run<'_, T> {
         model.onsets(t, &self.state, &mut self.onsets.values[ANY]);
     }
 
-    /// The onsets within the steps, which are complete.
+    /// Evaluates the onsets within the steps, which must be complete, into the given place.
     #[inline(always)]
     fn onsets_within(&mut self, theta: T, place: usize) {
         let model = &*self.models.all;
@@ -385,7 +391,7 @@ impl<T: Several> Run<'_, T> {
         model.onsets(t, &self.state, &mut self.onsets.values[place]);
     }
 
-    /// The next step of these lanes begins where this one ended.
+    /// Moves on to the next step of these lanes, which begins where this one ended.
     #[inline(always)]
     pub(super) fn advance_onsets(&mut self, lanes: T::Mask) {
         let [begin, .., end, _, past] = &mut self.onsets.values;

@@ -1,22 +1,22 @@
-//! Several places of the steps of all lanes, each place in a lane of its own.
+//! Several places within the steps of lanes, packed so that each place has a lane of a register.
 //!
-//! Lanes have different numbers of samples in a step, and some are looked into while others are not. One lane after the other would leave
-//! most of a register idle; so places are packed, whatever lane they belong to.
+//! Lanes have different numbers of samples in a step, and only some steps are searched. One lane after the other would
+//! leave most of a register idle, so places are packed whatever lane they belong to.
 
 use crate::real::Several;
 use crate::real::lanes::MOST_LANES;
 
-/// Places, as many as a register has lanes or fewer.
+/// Up to as many places as a register has lanes.
 pub struct Places<X> {
-    /// In which lane each is.
+    /// The lane of each place.
     lanes: [u8; MOST_LANES],
-    /// What is wanted there.
+    /// The request at each place.
     wanted: [X; MOST_LANES],
     count: usize,
 }
 
 impl<X: Copy> Places<X> {
-    /// None yet; `blank` is anything.
+    /// An empty list; `blank` is any value.
     #[inline(always)]
     pub fn new(blank: X) -> Self {
         Places {
@@ -26,7 +26,7 @@ impl<X: Copy> Places<X> {
         }
     }
 
-    /// One more, where there is room.
+    /// Adds a place; there must be room.
     #[inline(always)]
     pub fn push(&mut self, lane: usize, wanted: X) {
         self.lanes[self.count] = lane as u8;
@@ -34,33 +34,33 @@ impl<X: Copy> Places<X> {
         self.count += 1;
     }
 
-    /// Whether there is no room for more in so many lanes.
+    /// True if there is no room for more, given this number of lanes.
     #[inline(always)]
     pub fn full(&self, lanes: usize) -> bool {
         self.count >= lanes
     }
 
-    /// Whether there is none.
+    /// True if there are no places.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    /// None any more.
+    /// Removes all places.
     #[inline(always)]
     pub fn clear(&mut self) {
         self.count = 0;
     }
 
-    /// Place by place: its lane, and what is wanted there.
+    /// The lane and the request of each place.
     #[inline(always)]
     pub fn each(&self) -> impl Iterator<Item = (usize, X)> {
-        // by reference: copies of sixteen would lie in registers
+        // by reference: a copied array of sixteen would be held in registers
         let all = self.lanes.iter().zip(&self.wanted).take(self.count);
         all.map(|(lane, wanted)| (usize::from(*lane), *wanted))
     }
 
-    /// What is wanted in every lane, after [`Places::pack`].
+    /// The request in every lane, after [`Places::pack`].
     #[inline(always)]
     pub fn wanted(&self) -> &[X; MOST_LANES] {
         &self.wanted
@@ -72,7 +72,7 @@ impl<X: Copy> Places<X> {
         &self.lanes
     }
 
-    /// The order of lanes that the places are in. Lanes that are left over have the first place once more.
+    /// Returns the permutation that brings the lanes to their places. Unused lanes repeat the first place.
     #[inline(always)]
     pub fn pack<T: Several>(&mut self) -> T::Order {
         for left in self.count..T::LANES {

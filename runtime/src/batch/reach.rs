@@ -1,4 +1,4 @@
-//! How far the next step of each lane goes: as far as its pace says, cut to meet the next kink in time.
+//! Computes how far the next step of each lane goes: as far as its pace says, cut to end on the next kink in time.
 
 use super::run::{Run, SMALLEST, each};
 use super::settings::{Fixed, Pace};
@@ -7,22 +7,22 @@ use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::{count_steps, to_meet};
 
-/// Fixed steps from one time that they must meet to the next, all of one length. The times between are counted, not added up, as in a
-/// single run.
+/// Equal fixed steps from one time that a step must end at to the next. Times between are computed by multiplication,
+/// as in a single run.
 #[derive(Clone, Copy)]
 pub(super) struct Grid<T> {
-    /// Where counting began \[s\].
+    /// The time at which the grid begins \[s\].
     start: T,
-    /// How many steps there are from there to the stop.
+    /// Number of steps up to the stop.
     number: T,
-    /// Of every step \[s\].
+    /// Length of every step \[s\].
     length: T,
-    /// How many are taken.
+    /// Number of steps taken.
     taken: T,
 }
 
 impl<T: Real> Grid<T> {
-    /// Of a lane that has not begun.
+    /// The grid of a lane that has not begun.
     #[inline(always)]
     pub(super) fn new() -> Self {
         let nought = T::from_f64(0.0);
@@ -34,22 +34,23 @@ impl<T: Real> Grid<T> {
         }
     }
 
-    /// One more is taken, in these lanes.
+    /// Counts a step in these lanes.
     #[inline(always)]
     pub(super) fn advance(&mut self, lanes: T::Mask) {
         self.taken = T::select(lanes, self.taken + T::from_f64(1.0), self.taken);
     }
 }
 
-/// How far a step of each lane goes.
+/// The end and length of a step in each lane.
 pub(super) struct Reach<T: Real> {
-    /// Whether it ends where it must stop.
+    /// True in lanes whose step ends at the next stop.
     pub(super) lands: T::Mask,
-    /// Where it ends \[s\], without derivatives: steps are held.
+    /// The time at which the step ends \[s\], without derivatives: steps do not move with parameters.
     pub(super) reached: T,
-    /// What the time where it must stop has of derivatives alone \[s\].
+    /// The derivatives of the time of the next stop, with the value 0 \[s\].
     pub(super) shift: T,
-    /// How long it is \[s\]: what the clock says, but for its rounding where steps are fixed.
+    /// Length of the step \[s\]: the difference of the times at its ends; for fixed steps, that difference but for
+    /// rounding.
     pub(super) length: T,
 }
 
@@ -64,7 +65,7 @@ impl<T: Several> Run<'_, T> {
         T::of_lanes(&stops)
     }
 
-    /// The latest time that the equations are evaluated at before it, without derivatives \[s\].
+    /// The latest time before the next stop at which the equations are evaluated, without derivatives \[s\].
     #[inline(always)]
     pub(super) fn latest(&self) -> T {
         let mut latest = [T::One::from_f64(self.settings.duration); MOST_LANES];
@@ -88,7 +89,7 @@ impl<T: Several> Run<'_, T> {
         for i in each(lanes.lanes()) {
             let span = span.lane(i).to_f64();
             let step = step * T::of_part(self.level).lane(i).to_f64();
-            // times are rounded
+            // allows for the rounding of times
             let trifle = (T::EPSILON * self.lanes[i].stop / step).max(1e-9);
             let steps = count_steps(span, step, trifle) as f64;
             number = number.with_lane(i, T::One::from_f64(steps));
@@ -100,7 +101,7 @@ impl<T: Several> Run<'_, T> {
         grid.taken = T::select(lanes, T::from_f64(0.0), grid.taken);
     }
 
-    /// How far the next step of each lane goes.
+    /// The end and length of the next step of each lane.
     #[inline(always)]
     pub(super) fn reach(&mut self, stops: T) -> Reach<T> {
         let t = self.step.t;

@@ -1,15 +1,16 @@
-//! Rows of parameters in, responses out: what a study needs of a model.
+//! Takes rows of parameters and returns responses: what a study needs of a model.
 //!
-//! Each row is run once as asked, and once more at ten times the tolerances, or with steps twice as long, where its error is to be
-//! estimated. Under control of the error, that of a run falls like its tolerances, and at the worst, where kinks of force laws are crossed,
-//! like their root: what the responses of both differ by is then about √10 − 1 times the error of the one that counts, or more. With fixed
-//! steps of a method of order p, the errors are as c hᵖ and c (2h)ᵖ, and differ by 2ᵖ − 1 times the one that counts (Richardson 1911); of
-//! models with kinks of force laws, over which steps go, no more is taken for granted than that the error falls like the step, p = 1. To
-//! either comes what steps round off, half an ε each of what they lead to. It is an estimate and no bound: errors of both may cancel in a
-//! difference, and a motion amplifies what was rounded.
+//! **Estimate of the error.** Each row is run once as asked, and, if its error is to be estimated, once more at ten
+//! times the tolerances, or with steps twice as long. Under error control, the error of a run falls like the
+//! tolerances, or, at worst, where kinks of force laws are crossed, like their root. So the responses of both runs
+//! differ by about √10 − 1 times the error of the finer run, or more. With fixed steps of a method of order p, the
+//! errors are c hᵖ and c (2h)ᵖ, and differ by 2ᵖ − 1 times that of the finer run (Richardson 1911); for models with
+//! kinks of force laws, over which steps go, the error is only assumed to fall like the step, p = 1. To both, the
+//! rounding of steps is added, half an ε of their result each. This is an estimate and no bound: errors of both runs
+//! may cancel in the difference, and a motion amplifies rounding.
 //!
-//! Where that estimate is above what is wanted ([`Job::wanted`]), or not known, a row under control of the error is run again at a tenth of the
-//! tolerances, and compared with the run before; and so on, as long as that helps.
+//! If the estimate is above the wanted error ([`Job::wanted`]), or unknown, a row under error control is run again at a
+//! tenth of the tolerances, and compared with the run before; this is repeated as long as it helps.
 
 use super::models::{Doubles, Duals, Models, OfModels, Singles, Source, with_models};
 use super::run::run_models;
@@ -17,20 +18,21 @@ use super::{Doubt, Ended, Fixed, Pace, Scenarios, Series, Settings, Status};
 use crate::response::{Answer, Channel, Response, move_with_jumps, reduce, reduce_with_jumps};
 use crate::{Compiled, Dual, Family, Info, Model, Real, Several, Task, Width};
 
-/// What to run of each row.
+/// What to run for each row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Job {
-    /// How to run.
+    /// The settings of the runs.
     pub settings: Settings,
-    /// Which parameters the numbers of a row are, by their index in [`Info::parameters`](crate::Info::parameters).
+    /// The parameters that the numbers of a row are, by their index in [`Info::parameters`](crate::Info::parameters).
     pub varied: Vec<usize>,
-    /// Parameters that have another value than their default in every row \[SI\].
+    /// Parameters with a value other than their default in every row \[SI\].
     pub fixed: Vec<(usize, f64)>,
-    /// What is asked of each run.
+    /// The responses to compute for each run.
     pub responses: Vec<Asked>,
-    /// Whether errors are estimated, for which every row is run twice.
+    /// Whether errors are estimated; every row is then run twice.
     pub estimate: bool,
-    /// The error that is wanted of the responses: rows whose estimate is above are run again, sharper; +∞ for any. With fixed steps none is.
+    /// The wanted error of the responses: rows whose estimate is above are run again with sharper tolerances; +∞ for no
+    /// limit. With fixed steps no row is run again.
     pub wanted: f64,
     /// The registers to use.
     pub width: Width,
@@ -39,14 +41,14 @@ pub struct Job {
 /// A response of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Asked {
-    /// Of which outputs it is; runs panic beyond the last of [`Info::outputs`](crate::Info::outputs).
+    /// The signal; runs panic for an output beyond the last of [`Info::outputs`](crate::Info::outputs).
     pub channel: Channel,
-    /// What is asked of it.
+    /// The response.
     pub response: Response,
 }
 
 impl Asked {
-    /// A response of an output as it is, by its index in [`Info::outputs`](crate::Info::outputs).
+    /// A response of a single unfiltered output, by its index in [`Info::outputs`](crate::Info::outputs).
     pub const fn of(output: usize, response: Response) -> Asked {
         Asked {
             channel: Channel::output(output),
@@ -58,7 +60,7 @@ impl Asked {
 /// How a row ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// Whether it reached its end.
+    /// Whether the run reached its end.
     pub status: Status,
     /// Time reached \[s\].
     pub t: f64,
@@ -66,31 +68,33 @@ pub struct Row {
     pub steps: u32,
     /// Steps rejected.
     pub rejected: u32,
-    /// The step that would have come next \[s\]; of a run that gave up it says what kept it.
+    /// The length of the next step, had the run gone on \[s\]; for a run that was given up, it shows what slowed the
+    /// run down.
     pub step: f64,
-    /// Estimated relative error of the responses, the largest; NaN where it is not known.
+    /// The largest estimated relative error of the responses; NaN if unknown.
     pub error: f64,
-    /// How often it was run again at a tenth of the tolerances, for its error was above what is wanted.
+    /// How often the row was run again at a tenth of the tolerances, because its error was above the wanted one.
     pub sharpened: u32,
-    /// Why a run that reached its end cannot be trusted; or of one that did not, that its steps were unstable.
+    /// Why a run that reached its end cannot be trusted; for a run that did not, [`Doubt::Unstable`] if its steps were
+    /// unstable.
     pub doubt: Option<Doubt>,
 }
 
 /// A row whose computation takes long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lingers {
-    /// Which, an index in the rows given.
+    /// The row, an index in the rows given.
     pub row: usize,
-    /// How long it has taken \[s\].
+    /// The computing time so far \[s\].
     pub seconds: f64,
-    /// The time that its run has come to \[s\].
+    /// The time that its run has reached \[s\].
     pub t: f64,
 }
 
-/// What became of rows.
+/// The results of rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Results {
-    /// How each ended.
+    /// How each row ended.
     pub rows: Vec<Row>,
     /// The responses, row by row; NaN where a run did not reach its end, or cannot be trusted.
     pub responses: Vec<f64>,
@@ -118,7 +122,7 @@ impl core::error::Error for NoSuchRegisters {}
 /// How a row ended, and samples of its outputs, output by output.
 pub type Sampled = Result<(Row, Vec<f64>), NoSuchRegisters>;
 
-/// Rows and series of a generated model, so that a table can hold many.
+/// The functions [`rows`] and [`series`] of a generated model, so that a table can hold many models.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// [`rows`]
@@ -128,7 +132,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// That of a model.
+    /// The entry of a model.
     pub const fn of<M: Model<f64>>() -> Entry {
         Entry {
             rows: |job, given| rows(&Compiled::<M>::new(), job, given),
@@ -137,7 +141,8 @@ impl Entry {
     }
 }
 
-/// Runs rows of as many numbers as parameters are varied \[SI\], with models of a family. Several threads may share a family.
+/// Runs rows with models of a family. Each row has one number per varied parameter \[SI\]. Several threads may share a
+/// family.
 ///
 /// # Errors
 /// A processor without the registers asked for.
@@ -145,7 +150,7 @@ pub fn rows(family: &impl Family, job: &Job, rows: &[f64]) -> Result<Results, No
     run_rows(family, job, rows, &|_| {})
 }
 
-/// The same; whoever listens is told of rows whose computation takes long, every ten seconds of each.
+/// [`rows`], with a listener that is told every ten seconds of each row whose computation takes long.
 ///
 /// # Errors
 /// A processor without the registers asked for.
@@ -158,8 +163,8 @@ pub fn rows_heard(
     run_rows(family, job, rows, hear)
 }
 
-/// The same in single precision, with twice as many rows in a register: for tolerances from 10⁻⁴ up ([`run`](super::run())). Errors that
-/// are estimated hold rounding too, where it is more than chance that both runs of a row are rounded alike.
+/// [`rows`] in single precision, with twice as many rows in a register: for tolerances of 10⁻⁴ and more
+/// ([`run`](super::run())). Estimated errors include rounding, unless both runs of a row happen to be rounded alike.
 ///
 /// # Errors
 /// A processor without the registers asked for.
@@ -171,7 +176,7 @@ pub fn rows_of_singles(
     run_rows_of_singles(family, job, rows, &|_| {})
 }
 
-/// The same, heard as [`rows_heard`].
+/// [`rows_of_singles`] with a listener, as [`rows_heard`].
 ///
 /// # Errors
 /// A processor without the registers asked for.
@@ -184,7 +189,7 @@ pub fn rows_of_singles_heard(
     run_rows_of_singles(family, job, rows, hear)
 }
 
-/// The samples of outputs of a single row, output by output: for those to look at who wonder about a response.
+/// The samples of outputs of a single row, output by output: to examine a surprising response.
 ///
 /// # Errors
 /// A processor without the registers asked for.
@@ -192,7 +197,7 @@ pub fn series(family: &impl Family, job: &Job, row: &[f64], outputs: &[usize]) -
     run_series(family, job, row, outputs)
 }
 
-/// The same in single precision, as [`rows_of_singles`].
+/// [`series`] in single precision, as [`rows_of_singles`].
 ///
 /// # Errors
 /// A processor without the registers asked for.
@@ -207,8 +212,8 @@ pub fn series_of_singles(
 
 /// Responses of a row, and their derivatives in some directions, a lane for each.
 ///
-/// Directions are combinations of the varied parameters, as many numbers each. Errors of derivatives are controlled like those of values,
-/// so a direction is best as long as a parameter may change.
+/// A direction is a combination of the varied parameters, with one number for each. The errors of derivatives are
+/// controlled like those of values, so a direction is best chosen as long as a parameter may change.
 ///
 /// # Errors
 /// A processor without the registers asked for.
@@ -284,7 +289,8 @@ pub struct Gradients {
     pub rows: Vec<Row>,
     /// The responses of the first; NaN where its run did not reach its end, or cannot be trusted.
     pub values: Vec<f64>,
-    /// Their derivatives, direction by direction; NaN where the run in that direction did not reach its end, or cannot be trusted.
+    /// Their derivatives, direction by direction; NaN where the run in that direction did not reach its end, or cannot
+    /// be trusted.
     pub slopes: Vec<f64>,
 }
 
@@ -349,7 +355,7 @@ impl<S: Real> OfModels<Dual<S>> for Slopes<'_> {
         let asked = self.job.responses.len();
         let all = &table.responses;
         let first = all.get(..asked).unwrap_or(&[]);
-        // what is not known has no derivative either
+        // an unknown response has no derivative either
         let slope = |response: &Dual<S>| match response.value.to_f64() {
             value if value.is_nan() => f64::NAN,
             _ => response.slope.to_f64(),
@@ -362,53 +368,54 @@ impl<S: Real> OfModels<Dual<S>> for Slopes<'_> {
     }
 }
 
-/// Rows as scenarios: one each, or two where errors are estimated. Lanes of all widths share the code for one of their scalars.
+/// Rows as scenarios: one for each row, or two if errors are estimated. Lanes of all widths that have the same scalar
+/// share this code.
 struct Table<'a, S> {
     job: &'a Job,
     rows: Vec<S>,
     defaults: Vec<S>,
     outputs: Vec<usize>,
     ended: Vec<Option<Ended>>,
-    /// Row by row.
+    /// The responses, row by row.
     responses: Vec<S>,
     errors: Vec<f64>,
-    /// Of rows that are run twice, what is known of the run that counts, and of the coarser one.
+    /// For rows that are run twice, the answers of the run that counts, and of the coarser one.
     pairs: Vec<[Option<Judged>; 2]>,
-    /// How often each row was run again, and the rows that are, one after the other as they are found.
+    /// How often each row was run again, and the rows to run again, in the order in which they are found.
     sharpened: Vec<u32>,
     again: Vec<usize>,
-    /// What the last two comparisons of each row that is run again found, the last one first.
+    /// The differences in the last two comparisons of each row that is run again, the last one first.
     before: Vec<[Apart; 2]>,
     scratch: Vec<S>,
-    /// What both runs of a row differ by is about so many times the error of the finer one.
+    /// The assumed ratio of the difference of both runs of a row to the error of the finer one.
     surely: f64,
-    /// Who is told of rows whose computation takes long.
+    /// The listener for rows whose computation takes long.
     hear: Option<&'a dyn Fn(Lingers)>,
     /// Whether samples are kept.
     keeps: bool,
     kept: Vec<f64>,
-    /// The distance from 1 to the next number.
+    /// The machine epsilon of the scalar.
     epsilon: f64,
     /// Computes a response with the instructions of the lanes.
     reduce: fn(Reduce<'_, S>) -> S,
 }
 
-/// The coarser run has so many times the tolerance, or steps so many times as long.
+/// Factors of the coarser run: on the tolerances, and on the length of fixed steps.
 const COARSER: f64 = 10.0;
 const LONGER: f64 = 2.0;
-/// A coarser run that takes this many times the steps of the finer one is given up, for it would hold up its lane. The error of the row is
-/// then not known. Of the 256 rows of the occupant's study (benches/scenes) two are.
+/// A coarser run that takes this many times the steps of the finer one is given up, because it would hold up its lane.
+/// The error of the row is then unknown. This concerns two of the 256 rows of the occupant's study (benches/scenes).
 const PATIENCE: u64 = 10;
-/// A row is run again at so many times the tolerances, as often as this, as long as two of these runs take the difference of a response that is not
-/// accurate enough to less than so much of what it was: at the worst it falls like the root of the tolerances. A motion that is smaller than what
-/// tolerances let pass needs more than one. Differences are taken as they are, not relative to the response: of a response that goes to 0, they
-/// go to 0 with it.
+/// A row is run again with the tolerances times SHARPER, at most AGAIN times, as long as two such runs reduce the
+/// difference of a response that is not accurate enough to less than HELPS of its former value: at worst, the
+/// difference falls like the root of the tolerances. A motion smaller than the tolerances needs more than one such run.
+/// Differences are absolute, not relative to the response: for a response that goes to 0, they go to 0 with it.
 const SHARPER: f64 = 0.1;
 const AGAIN: u32 = 5;
 const HELPS: f64 = 0.5;
-/// Tolerances below so many roundings are not asked for.
+/// Tolerances below this many roundings are not used.
 const ROUNDINGS: f64 = 500.0;
-/// Of runs with tolerances, what both differ by is about so many times the error of the finer one, or more: √10 − 1.
+/// The difference between two runs under error control, over the error of the finer one, at least: √10 − 1.
 const SURELY: f64 = 2.16;
 
 impl<'a, S: Real> Table<'a, S> {
@@ -462,7 +469,7 @@ impl<'a, S: Real> Table<'a, S> {
         run_models(models, &self.job.settings, self);
     }
 
-    /// What depends on the model.
+    /// Sets what depends on the model: defaults and `surely`.
     fn prepare(&mut self, info: &Info) {
         let defaults = info.parameters.iter();
         self.defaults = defaults
@@ -485,7 +492,7 @@ impl<'a, S: Real> Table<'a, S> {
     }
 
     fn row(&self, row: usize) -> Row {
-        // every scenario ended; this is what a row would be that did not
+        // every scenario has ended; this default stands for one that has not
         let none = Ended {
             status: Status::Refused,
             t: 0.0,
@@ -514,7 +521,7 @@ impl<'a, S: Real> Table<'a, S> {
         }
     }
 
-    /// Those of a run that has none.
+    /// The responses of a run that has none: NaN.
     fn nothing(&self) -> Reduced<S> {
         let duration = self.job.settings.duration;
         let nothing = |asked: &Asked| Answer::new(asked.response, f64::NAN, 0.0, duration);
@@ -578,19 +585,20 @@ impl<'a, S: Real> Table<'a, S> {
     }
 }
 
-/// The responses of a run, and what their errors are judged by where they are estimated.
+/// The responses of a run, and the answers by which their errors are judged, if errors are estimated.
 struct Reduced<S> {
     responses: Vec<S>,
     judged: Judged,
 }
 
-/// Of each response its value, and the least that a difference is taken relative to.
+/// For each response its value, and the smallest value that a difference is taken relative to.
 type Judged = Vec<Answer>;
 
-/// What two runs of a row differ by: of each response, as it is and relatively; NaN where either has none.
+/// The differences between two runs of a row: for each response, the absolute and the relative one; NaN if either run
+/// has none.
 type Apart = Vec<[f64; 2]>;
 
-/// What two runs of a row differ by.
+/// The differences between two runs of a row.
 fn apart(fine: &Judged, coarse: &Judged) -> Apart {
     let pairs = fine.iter().zip(coarse);
     pairs
@@ -598,10 +606,10 @@ fn apart(fine: &Judged, coarse: &Judged) -> Apart {
         .collect()
 }
 
-/// The largest relative difference; NaN where one is.
+/// The largest relative difference; NaN if any is NaN.
 fn largest(apart: &Apart) -> f64 {
     apart.iter().fold(0.0, |worst, [_, difference]| {
-        // a difference that is no number stays one
+        // NaN stays NaN
         match *difference {
             difference if difference <= worst => worst,
             difference => difference,
@@ -633,8 +641,8 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
         }
     }
 
-    /// Not of the two runs whose difference is the estimate: it says what their accelerations are wrong by, and the sharper runs that follow
-    /// where it is too large have them under control.
+    /// False for the two runs whose difference is the estimate: the estimate includes the error of their accelerations,
+    /// and if it is too large, the sharper runs that follow control accelerations.
     fn controls_accelerations(&self, scenario: usize) -> bool {
         let (_, turn) = self.which(scenario);
         turn == Turn::Sharper || !self.job.estimate
@@ -645,7 +653,8 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
     }
 
     fn wants_jumps(&self) -> bool {
-        // when a jump is matters to a derivative by all that is gained or lost, to a value by no more than sampling does
+        // the time of a jump affects a derivative by the full height of the jump, but a value by no more than sampling
+        // does
         S::SLOPES
     }
 
@@ -661,7 +670,7 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
     fn lingers(&mut self, scenario: usize, seconds: f64, t: f64) {
         if let Some(hear) = self.hear {
             let (row, turn) = self.which(scenario);
-            // of the two that are under way side by side, one
+            // report only one of the two runs that are computed side by side
             if turn == Turn::Coarser && self.ended[row].is_none() {
                 return;
             }
@@ -675,12 +684,12 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
             let samples = (0..self.outputs.len()).flat_map(|place| series.of(place));
             self.kept = samples.map(|sample| sample.to_f64()).collect();
         }
-        // a coarser run in fixed steps is there to be compared with, whatever is to be said of it
+        // a coarser run with fixed steps serves the comparison only, whether it is doubtful or not
         let coarse = turn == Turn::Coarser && matches!(self.job.settings.pace, Pace::Fixed(_));
         let done = ended.status == Status::Done || coarse && ended.status == Status::Doubtful;
         if turn == Turn::Sharper && !done {
             self.pairs[row] = [None, None];
-            // what was there before stays, unless the better run says that the row cannot be trusted
+            // earlier results stay, unless the sharper run shows that the row cannot be trusted
             if ended.status == Status::Doubtful {
                 let nothing = self.nothing().responses;
                 let start = row * nothing.len();
@@ -705,19 +714,19 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
     }
 }
 
-/// Which of the runs of a row it is.
+/// The kind of a run of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Turn {
-    /// As asked for.
+    /// The run with the settings asked for.
     First,
-    /// At ten times the tolerances, or with steps twice as long.
+    /// The run at ten times the tolerances, or with steps twice as long.
     Coarser,
-    /// Again, at a tenth of the tolerances of the run before.
+    /// A further run, at a tenth of the tolerances of the run before.
     Sharper,
 }
 
 impl<S: Real> Table<'_, S> {
-    /// The row of a scenario, and which of its runs it is.
+    /// The row of a scenario, and the kind of the run.
     fn which(&self, scenario: usize) -> (usize, Turn) {
         let rows = self.ended.len();
         match self.job.estimate {
@@ -730,7 +739,7 @@ impl<S: Real> Table<'_, S> {
         }
     }
 
-    /// Takes what is known of a run of a row for the estimate of its error, once there are two of them.
+    /// Takes the answers of a run of a row, and estimates the error once there are two runs.
     fn estimate(&mut self, row: usize, turn: Turn, judged: Judged) {
         let pair = &mut self.pairs[row];
         match turn {
@@ -741,7 +750,7 @@ impl<S: Real> Table<'_, S> {
         let [Some(fine), Some(coarse)] = pair else {
             return;
         };
-        // of the run that counts, which has ended if both have
+        // the run that counts has ended if both have
         let Some(ended) = self.ended[row] else {
             return;
         };
@@ -753,7 +762,7 @@ impl<S: Real> Table<'_, S> {
         pair[1] = None;
         self.sharpened[row] += u32::from(turn == Turn::Sharper);
         let wanted = self.job.wanted;
-        // what is not known helps, and is not good enough
+        // an unknown difference counts as helping, and as not good enough
         let [_, twice_before] = &self.before[row];
         let helps = |([now, relative], [then, _]): (&[f64; 2], &[f64; 2])| {
             let unknown = then.is_nan() || *then == 0.0;
@@ -772,7 +781,7 @@ impl<S: Real> Table<'_, S> {
         }
     }
 
-    /// Whether a row may be run again at a tenth of the tolerances.
+    /// True if a row may be run again at a tenth of the tolerances.
     fn may_be_sharper(&self, row: usize) -> bool {
         let often = self.sharpened[row];
         match self.job.settings.pace {
@@ -800,7 +809,7 @@ impl<S: Real> Task for Reduce<'_, S> {
     }
 }
 
-/// A whole power, by products in one order.
+/// An integer power, by products in a fixed order.
 fn whole_power(base: f64, exponent: u32) -> f64 {
     (0..exponent).fold(1.0, |power, _| power * base)
 }

@@ -9,9 +9,11 @@
 //! samples, memory of force laws; lanes at the end of their run hand it over
 //! ```
 //!
-//! Lanes may hold singles. At 0.1 s these tell 7·10⁻⁹ s apart, and no clock drifts by it: the length of a step is what the rounded times of
-//! its ends differ by, or, where steps are fixed, their span over their number. Steps below sixteen times that are refused, and kinks in time come by it too early or too late. Tolerances from 10⁻⁴ up
-//! are for singles: runs are then those of doubles, step by step. Far below, rounding is taken for error of the step, and steps get short.
+//! **Single precision.** Lanes may hold singles. At 0.1 s these resolve 7·10⁻⁹ s, but time does not drift: the length
+//! of a step is the difference of the rounded times at its ends, or, with fixed steps, their span over their number.
+//! Steps below sixteen times the resolution are refused, and kinks in time are met up to the resolution too early or
+//! too late. Singles are meant for tolerances of 10⁻⁴ and more: runs then follow those of doubles, step by step. With
+//! far smaller tolerances, rounding is taken for an error of the step, and steps become short.
 
 use super::bend::Bends;
 use super::control::{ESTIMATE, Power, first_step};
@@ -40,7 +42,7 @@ use crate::{Arrival, Family, Formula, Info, Real, Schedule};
 /// Smallest step \[s\].
 pub(super) const SMALLEST: f64 = 1e-14;
 
-/// Runs all scenarios with models of a family. The instructions of `T` must be there
+/// Runs all scenarios with models of a family. The processor must have the instructions of `T`
 /// ([`with_width`](crate::real::lanes::with_width)).
 pub fn run<T: Several>(
     family: &impl Family,
@@ -50,7 +52,7 @@ pub fn run<T: Several>(
     run_models::<T>(Models::of(family), settings, scenarios);
 }
 
-/// Runs all scenarios with these models. They may have any parameters before.
+/// Runs all scenarios with these models, whatever parameters they have before.
 pub(super) fn run_models<T: Several>(
     models: Models<'_, T>,
     settings: &Settings,
@@ -59,27 +61,27 @@ pub(super) fn run_models<T: Several>(
     T::dispatch(Run::new(models, settings, scenarios));
 }
 
-/// What is known of a lane apart from its state.
+/// The run in a lane, except for its state.
 pub(super) struct Lane<S> {
     pub(super) scenario: Option<usize>,
     /// The next kink in time, or the end \[s\].
     pub(super) stop: f64,
-    /// The same as the lane tells the time, with its derivatives.
+    /// `stop` rounded to the scalar of the lane, with its derivatives.
     pub(super) stops_at: S,
-    /// The next sample.
+    /// Index of the next sample.
     pub(super) sample: usize,
     pub(super) steps: u32,
     pub(super) rejected: u32,
     pub(super) searches: u32,
     pub(super) standing: Standing,
-    /// How long it may take, from when its run began.
+    /// The limit on the time of computation, counted from the start of the run.
     patience: Patience,
-    /// How long it had taken when that was told last \[s\].
+    /// The time of computation when this was last reported \[s\].
     told: f64,
 }
 
 impl<S: Real> Lane<S> {
-    /// Without a scenario, in a batch of this duration \[s\].
+    /// A lane without a scenario, in a batch of this duration \[s\].
     fn idle(duration: f64) -> Self {
         Lane {
             scenario: None,
@@ -96,11 +98,12 @@ impl<S: Real> Lane<S> {
     }
 }
 
-/// The parameters of all lanes, and room for those of a model that differs from them, in the order of [`Info::parameters`].
+/// The parameters of all lanes, and workspaces for parameters in other arrangements, in the order of
+/// [`Info::parameters`].
 pub(super) struct Parameters<T: Several> {
     all: Box<[T]>,
     packed: Box<[T]>,
-    /// The lanes that `packed` has those of, if it has them as they are now.
+    /// The lanes whose parameters `packed` holds, if it is up to date.
     packed_lanes: Option<[u8; MOST_LANES]>,
     lane: Box<[f64]>,
     one: Box<[T::One]>,
@@ -121,15 +124,15 @@ impl<T: Several> Parameters<T> {
     }
 }
 
-/// Steps between two questions whether a scenario is given up.
+/// Steps between two calls of [`Scenarios::gives_up`].
 pub const STEPS_BETWEEN: u64 = 1024;
 
-/// Steps of all lanes between two looks at the clock.
+/// Steps of all lanes between two checks of the clock.
 const TURNS: u32 = 16;
-/// Seconds after which it is told that a run lingers.
+/// Seconds after which a lingering run is reported.
 const LINGERS: f64 = 10.0;
 
-/// A batch in progress. Everything is as long as the model asks for when it begins, and nothing grows but the list of events of a series.
+/// A batch in progress. All memory is allocated when it begins; only the list of events of a series grows.
 pub(super) struct Run<'a, T: Several> {
     pub(super) info: &'static Info,
     pub(super) settings: &'a Settings,
@@ -139,59 +142,59 @@ pub(super) struct Run<'a, T: Several> {
     pub(super) models: Models<'a, T>,
     pub(super) lanes: Vec<Lane<T::One>>,
     pub(super) series: Vec<Series<T::One>>,
-    /// The scenario that comes next.
+    /// The next scenario.
     pub(super) next: usize,
     pub(super) step: Step<T>,
-    /// Where the step leads, on the manifold, and what counts of it; and what renewing memory makes of that.
+    /// The state at the kept end of the step, on the manifold; and a second state for renewing memory.
     pub(super) end: Box<[T]>,
     pub(super) renewed: Box<[T]>,
-    /// Room for the rate just ahead of the end of a step.
+    /// Workspace for the rate just ahead of the end of a step.
     pub(super) ahead: Box<[T]>,
-    /// Room for what memory would become there.
+    /// Workspace for the memory ahead of the end of a step.
     pub(super) memory_ahead: Box<[T]>,
-    /// Room for a state.
+    /// Workspace for a state.
     pub(super) state: Box<[T]>,
-    /// The error allowed in each entry of a state; nothing where steps are fixed.
+    /// The error allowed in each entry of a state; empty if steps are fixed.
     pub(super) allowed: Vec<Allowed<T::Part>>,
     pub(super) controller: Controller<T::Part>,
     pub(super) accelerations: Accelerations<T::Part>,
     /// The lanes in whose runs events [tied](Doubt::Tied).
     pub(super) tied: u32,
-    /// The lanes in which accelerations are under control.
+    /// The lanes in which errors of accelerations are controlled.
     controlled: u32,
-    /// Room for the powers of all effects, twice.
+    /// Workspace for the powers of all effects, twice.
     pub(super) powers: [Box<[T]>; 2],
-    /// What the controller asks for next \[s\].
+    /// Length that the controller wants for the next step \[s\].
     pub(super) h: T::Part,
-    /// What the tolerances are multiplied by.
+    /// The factor on the tolerances, or on the length of fixed steps.
     pub(super) level: T::Part,
-    /// Of fixed steps.
+    /// The grid of fixed steps.
     pub(super) grid: Grid<T>,
-    /// The event functions where the step before began, where this one begins, and where it leads as a whole.
+    /// The event functions at the start of the previous step, at the start of this one, and at its full end.
     pub(super) event_functions_past: Box<[T]>,
     pub(super) event_functions: Box<[T]>,
     pub(super) event_functions_ahead: Box<[T]>,
-    /// Length of the step before \[s\]; 0 where this one goes on otherwise than it ended.
+    /// Length of the previous step \[s\]; 0 if the motion does not continue smoothly from it.
     pub(super) past: T::Part,
-    /// The kinks there, where steps end at them.
+    /// The kink functions at the start of the step, if steps end on kinks.
     pub(super) kinks: Box<[T]>,
     pub(super) onsets: Onsets<T>,
     pub(super) bends: Bends<T>,
-    /// Where steps are fixed.
+    /// The watch, if steps are fixed.
     pub(super) watch: Option<Box<Watch<T>>>,
-    /// Steps of all lanes since the clock was looked at.
+    /// Steps of all lanes since the last check of the clock.
     turns: u32,
-    /// Room for event functions or kinks.
+    /// Workspace for event functions or kinks.
     pub(super) after: Box<[T]>,
-    /// Room for all outputs of the model.
+    /// Workspace for all outputs of the model.
     pub(super) of_model: Box<[T]>,
-    /// The outputs that are wanted, at the places that are sampled at once.
+    /// The requested outputs, at the places that are sampled at once.
     pub(super) found: Vec<[T::One; MOST_LANES]>,
-    /// The same on both sides of an event.
+    /// The requested outputs on both sides of an event.
     pub(super) sided: Sided<T::One>,
-    /// Room for event functions or kinks within steps.
+    /// Workspace for event functions or kinks within steps.
     pub(super) values: Vec<Values<T>>,
-    /// Whether jumps of outputs are wanted.
+    /// Whether jumps of outputs are requested.
     pub(super) notes_jumps: bool,
 }
 
@@ -205,7 +208,7 @@ impl<T: Several> Task for Run<'_, T> {
     }
 }
 
-/// The lanes of a mask, one after the other.
+/// Iterates over the lanes of a mask.
 pub(super) fn each(lanes: u32) -> impl Iterator<Item = usize> {
     let mut left = lanes;
     core::iter::from_fn(move || {
@@ -215,11 +218,12 @@ pub(super) fn each(lanes: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// A section of the loop that is compiled as a function of its own, because it is long and needed in several places, or seldom.
+/// A section of the loop that is compiled as a function of its own, because it is long and called from several places,
+/// or rarely.
 pub(super) trait Section<T: Several> {
-    /// What comes of it.
+    /// The result of the section.
     type Output;
-    /// Does it. To be `#[inline(always)]`.
+    /// Runs the section. Must be `#[inline(always)]`.
     fn run(self, run: &mut Run<'_, T>) -> Self::Output;
 }
 
@@ -248,7 +252,7 @@ impl<T: Several> Section<T> for Start<T::Mask> {
 }
 
 impl<'a, T: Several> Run<'a, T> {
-    /// Does a section.
+    /// Runs a section as a function of its own.
     #[inline(always)]
     pub(super) fn apart<S: Section<T>>(&mut self, section: S) -> S::Output {
         T::dispatch_apart(Apart { run: self, section })
@@ -337,14 +341,14 @@ impl<'a, T: Several> Run<'a, T> {
         }
     }
 
-    /// The lanes that are at work.
+    /// The lanes that have a scenario.
     #[inline(always)]
     pub(super) fn busy(&self) -> u32 {
         let busy = |(i, lane): (usize, &Lane<_>)| u32::from(lane.scenario.is_some()) << i;
         self.lanes.iter().enumerate().map(busy).sum()
     }
 
-    /// Gives idle lanes something to do; false when there is nothing left.
+    /// Gives idle lanes new scenarios; false when none is left and all lanes are idle.
     #[inline(always)]
     fn refill(&mut self) -> bool {
         let mut fresh = 0;
@@ -359,7 +363,7 @@ impl<'a, T: Several> Run<'a, T> {
         self.busy() != 0
     }
 
-    /// Puts the next scenario that can be run into a lane.
+    /// Puts the next scenario that can be run into a lane; false if there is none.
     #[inline(never)]
     fn take_next(&mut self, i: usize) -> bool {
         while self.next < self.scenarios.count() {
@@ -440,19 +444,19 @@ impl<'a, T: Several> Run<'a, T> {
         self.count_steps(fresh);
     }
 
-    /// The derivative where a step begins, in these lanes.
+    /// Evaluates the derivative at the start of a step, in these lanes.
     #[inline(always)]
     pub(super) fn rate(&mut self, lanes: T::Mask) {
         let Step {
             t, latest, y, k, ..
         } = &mut self.step;
-        // the last stage is done with
+        // the last stage is not needed any more
         let [first, .., last] = k;
         self.models.all.derivative(t.min(*latest), y, last);
         replace(lanes, first, last);
     }
 
-    /// The same of the states where steps begin, but for the arguments of curves.
+    /// Evaluates event functions, onsets and memory at the states where steps begin.
     #[inline(always)]
     pub(super) fn look_at_begin(&mut self) {
         let mut arrival = Arrival {
@@ -466,7 +470,8 @@ impl<'a, T: Several> Run<'a, T> {
         self.models.all.arrive(*t, y, &mut arrival);
     }
 
-    /// Evaluates what is wanted of the state in `end`, where steps end at these times, if that matters in any of these lanes.
+    /// Evaluates event functions, onsets, memory and arguments of curves at the state in `end`, for steps that end at
+    /// the times `t`, if any of these lanes needs it.
     #[inline(always)]
     pub(super) fn look_at_end(&mut self, lanes: T::Mask, t: T) {
         if !lanes.any() {
@@ -482,12 +487,12 @@ impl<'a, T: Several> Run<'a, T> {
         self.models.all.arrive(t, &self.end, &mut arrival);
     }
 
-    /// One step in every lane that is at work.
+    /// Takes one step in every lane that has a scenario.
     #[inline(always)]
     fn advance(&mut self) {
         let busy = T::Mask::of_lanes(self.busy());
         let reach = self.reach(self.stops());
-        // a lane with nothing to do stands still
+        // a lane without a scenario stands still
         self.step.h = T::select(busy, reach.length, T::from_f64(0.0));
         self.step.take(&*self.models.all);
         self.end.copy_from_slice(&self.step.end);
@@ -498,8 +503,8 @@ impl<'a, T: Several> Run<'a, T> {
         self.give_up();
     }
 
-    /// In which of these lanes the step just taken is good, and in which it is not accuracy that decides its length. How long the next try is, or
-    /// the next step, is known then.
+    /// The lanes in which the step just taken is accepted, and the lanes in which something other than accuracy decides
+    /// its length. Sets the length of the next try or the next step.
     #[inline(always)]
     fn judge(&mut self, busy: T::Mask, reached: T) -> [T::Mask; 2] {
         let c = T::Part::from_f64;
@@ -525,7 +530,7 @@ impl<'a, T: Several> Run<'a, T> {
             let factor =
                 (self.controller).factor::<Power>(error, accepted, busy.and(searched.not()));
             let grown = length * factor;
-            // a step cut short to meet a kink says little of the next
+            // the length of a step cut short to meet a kink says little about the next one
             let cut = length.lt(self.h);
             let next = T::Part::select(cut, self.h.max(grown), grown);
             let again = T::Part::select(searched, shorter * length, length * factor);
@@ -540,7 +545,7 @@ impl<'a, T: Several> Run<'a, T> {
         [accepted, easy]
     }
 
-    /// In which of these lanes something is hidden in the step, so that it is taken again, and which part of it.
+    /// The lanes in which something is hidden in the step, so that it is to be taken again, and the part of it to take.
     #[inline(always)]
     fn search(&mut self, accepted: T::Mask, easy: T::Mask) -> (T::Mask, T::Part) {
         let c = T::Part::from_f64;
@@ -555,7 +560,7 @@ impl<'a, T: Several> Run<'a, T> {
         (hidden.or(over), T::Part::select(over, part, shorter))
     }
 
-    /// Gives up runs that take too many steps, or too long.
+    /// Gives up runs that take too many steps, or too much time.
     #[inline(always)]
     fn give_up(&mut self) {
         self.turns += 1;
@@ -580,7 +585,7 @@ impl<'a, T: Several> Run<'a, T> {
         }
     }
 
-    /// Gives up the run of a lane that takes too long, and tells of one that takes long.
+    /// Gives up the run of a lane that takes too much time, and reports one that takes long.
     #[inline(never)]
     fn look_at_clock(&mut self, i: usize) {
         let t = self.step.t.lane(i).to_f64();
@@ -599,7 +604,7 @@ impl<'a, T: Several> Run<'a, T> {
         }
     }
 
-    /// 0 where the end of the step is finite, NaN elsewhere.
+    /// 0 in lanes where the end of the step is finite, NaN elsewhere.
     #[inline(always)]
     fn finite(&self) -> T::Part {
         let mut sum = T::Part::from_f64(0.0);
@@ -611,14 +616,14 @@ impl<'a, T: Several> Run<'a, T> {
         sum
     }
 
-    /// A step was rejected: the run fails where no shorter one is possible.
+    /// Counts a rejected step in a lane; the run fails if no shorter step is possible.
     #[inline(always)]
     fn turn_down(&mut self, i: usize, finite: bool) {
         self.lanes[i].rejected += 1;
         let t = self.step.t.lane(i).to_f64();
         let h = T::of_part(self.h).lane(i).to_f64();
         let fixed = matches!(self.settings.pace, Pace::Fixed(_));
-        // of doubles this is 1
+        // 1 for doubles
         let coarser = T::EPSILON / f64::EPSILON;
         if fixed || h < (coarser * finest(t)).max(SMALLEST) {
             let status = match finite {
@@ -629,7 +634,7 @@ impl<'a, T: Several> Run<'a, T> {
         }
     }
 
-    /// A lane came to where it had to stop.
+    /// Ends the run of a lane that has reached its stop, or finds the next stop.
     #[inline(always)]
     pub(super) fn arrive(&mut self, i: usize) {
         let duration = self.settings.duration;
@@ -641,7 +646,7 @@ impl<'a, T: Several> Run<'a, T> {
         }
     }
 
-    /// Where a lane stops next, behind a time \[s\].
+    /// Finds the next stop of a lane after a time \[s\].
     #[inline(never)]
     fn find_stop(&mut self, i: usize, t: f64) {
         let duration = self.settings.duration;
@@ -659,7 +664,7 @@ impl<'a, T: Several> Run<'a, T> {
         self.lanes[i].stops_at = stops_at;
     }
 
-    /// The order of lanes that places are in, and the model in `packed` with that order.
+    /// The permutation of lanes to the given places; the model in `packed` gets parameters in that order.
     #[inline(always)]
     pub(super) fn pack<X: Copy>(&mut self, places: &mut Places<X>) -> T::Order {
         let order = places.pack::<T>();
@@ -676,7 +681,7 @@ impl<'a, T: Several> Run<'a, T> {
         order
     }
 
-    /// A run is over.
+    /// Ends the run in a lane and hands over its results.
     #[inline(never)]
     fn hand_over(&mut self, i: usize, status: Status, t: f64) {
         let step = T::of_part(self.h).lane(i).to_f64();
@@ -693,7 +698,7 @@ impl<'a, T: Several> Run<'a, T> {
                 *missing = T::One::from_f64(f64::NAN);
             }
         }
-        // without a way out, so that several are looked at at once
+        // without an early exit, so that the compiler can check several values at once
         let mut finite = true;
         for value in &series.values {
             finite &= value.is_finite();
@@ -743,7 +748,7 @@ fn next_kink<S: Real>(info: &Info, model: &dyn Schedule<S>, t: f64, duration: f6
     let passed = info.breakpoints.partition_point(|kink| *kink <= t);
     let kink = info.breakpoints.get(passed).copied();
     let kink = S::from_f64(kink.unwrap_or(f64::INFINITY));
-    // a user force is looked at in each sample at least
+    // a user force must be evaluated once per sample at least
     let sample = match info.longest_step.is_finite() {
         true => ((t / info.every + 1e-9).floor() + 1.0) * info.every,
         false => f64::INFINITY,
@@ -760,7 +765,7 @@ pub(super) fn replace<T: Several>(lanes: T::Mask, old: &mut [T], new: &[T]) {
     }
 }
 
-/// The same numbers, with another one in a lane.
+/// Numbers with the entry of one lane replaced.
 #[inline(always)]
 fn with<P: Real>(all: P, lane: usize, value: f64) -> P {
     P::select(P::Mask::of_lanes(1 << lane), P::from_f64(value), all)

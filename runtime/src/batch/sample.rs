@@ -1,5 +1,5 @@
-//! Samples of the outputs within the steps just taken: places of all lanes packed into registers, and what is found there handed to the
-//! series of the lane that it belongs to.
+//! Takes samples of the outputs within the steps just taken: packs places of all lanes into registers, and stores the
+//! values found in the series of their lanes.
 
 use super::place::Places;
 use super::run::{Run, Section, each};
@@ -13,11 +13,11 @@ use crate::simulate::finest;
 /// A sample that is due.
 #[derive(Clone, Copy)]
 pub(super) struct Due {
-    /// Which.
+    /// Index of the sample.
     index: usize,
-    /// When \[s\].
+    /// Time of the sample \[s\].
     t: f64,
-    /// Whether that is where its step ends.
+    /// True if the sample is at the end of its step.
     ends: bool,
 }
 
@@ -41,7 +41,8 @@ impl<T: Several> Section<T> for Take<'_> {
 }
 
 impl<T: Several> Run<'_, T> {
-    /// The samples in the steps just accepted, up to where they end \[s\]; which of these end where they were meant to.
+    /// Takes the samples in the steps just accepted, up to the times `reached` \[s\]; `whole` are the lanes whose steps
+    /// were not cut.
     #[inline(always)]
     pub(super) fn deliver(&mut self, accepted: T::Mask, whole: T::Mask, reached: T) {
         let (reached, whole) = (reached.lanes(), whole.lanes());
@@ -51,7 +52,8 @@ impl<T: Several> Run<'_, T> {
         let mut places = Places::new(Due::NONE);
         for i in each(accepted.lanes()) {
             let reached = reached[i].to_f64();
-            // Times that are counted, those of samples and those of fixed steps, are rounded apart where they are meant to be one.
+            // Times of samples and of fixed steps are both computed by multiplication, and may differ by rounding where
+            // they should be equal.
             let trifle = match fixed && whole >> i & 1 != 0 {
                 true => T::EPSILON / f64::EPSILON * finest(reached),
                 false => 0.0,
@@ -62,12 +64,12 @@ impl<T: Several> Run<'_, T> {
                     true => self.settings.duration,
                     false => index as f64 * every,
                 };
-                // as the lane tells the time
+                // rounded to the scalar of the lane
                 let t = T::One::from_f64(t).to_f64();
                 if index > last || t > reached + trifle {
                     break;
                 }
-                // with derivatives the end of a step moves, and a sample does not
+                // with derivatives, the end of a step may move with a parameter, but a sample does not
                 let ends = fixed && T::PARTS == 1 && t >= reached - trifle && whole >> i & 1 != 0;
                 if !ends {
                     self.step.complete(&*self.models.all);
@@ -84,7 +86,7 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// Takes samples, at places that are done with then.
+    /// Takes samples at packed places, which are cleared afterwards.
     #[inline(always)]
     fn sample(&mut self, places: &mut Places<Due>) {
         let order = self.pack(places);
@@ -98,7 +100,7 @@ impl<T: Several> Run<'_, T> {
         let times = T::of_lanes(&times);
         let mut theta = (times - step.t.ordered(order)) / step.h.ordered(order);
         if T::PARTS > 1 {
-            // just inside: what is known of an end has the derivatives of that
+            // just within the step: at its end, the state has the derivatives of the end
             let inside = T::from_f64(1.0 - T::EPSILON);
             theta = theta + (theta.frozen().min(inside) - theta.frozen());
         }

@@ -1,4 +1,5 @@
-//! What lies within the steps just taken, in all lanes: where an event function changes its sign, and what is seen within a step alone.
+//! Finds sign changes of event functions and kinks within the steps just taken, in all lanes, including those that the
+//! ends of the steps do not show.
 
 use super::event::{
     Functions, PLACES, Probe, Sides, Values, changed, excursion, first_change, hidden, may_stray,
@@ -12,7 +13,7 @@ use crate::real::{Mask, Several};
 use crate::simulate::excursion::{Excursion, heads_for, overshoot};
 use crate::simulate::{EASY, SEARCHES, Zero, opposite};
 
-/// Places that are found apart by so many times what they are found to are not told apart.
+/// Two events closer than this many times the accuracy of their places count as simultaneous.
 const TOGETHER: f64 = 4.0;
 
 /// [`Run::look_at`]
@@ -26,7 +27,7 @@ impl<T: Several> Section<T> for Look<'_> {
     }
 }
 
-/// [`Run::look_into`] and what is found there.
+/// [`Run::look_into`], followed by [`Run::found_inside`].
 struct Hidden<M>(M);
 
 impl<T: Several> Section<T> for Hidden<T::Mask> {
@@ -55,7 +56,7 @@ impl<T: Several> Section<T> for Change<T> {
 }
 
 impl<T: Several> Run<'_, T> {
-    /// In which lanes it is not accuracy that decides the length of a step of this error.
+    /// The lanes in which something other than accuracy decides the length of a step of this error.
     #[inline(always)]
     pub(super) fn is_easy(&self, error: Option<T::Part>) -> T::Mask {
         let c = T::Part::from_f64;
@@ -63,7 +64,8 @@ impl<T: Several> Run<'_, T> {
         error.map_or(long, |error| error.lt(c(EASY)).or(long))
     }
 
-    /// The part of the step of each lane after which a kink is seen that is not seen at its end; +∞ where none is.
+    /// The part of each lane's step at which a kink has been crossed that is not crossed at the end of the step; +∞ if
+    /// there is none.
     #[inline(always)]
     pub(super) fn hidden(&mut self, easy: T::Mask, accepted: T::Mask) -> T::Part {
         let never = T::Part::from_f64(f64::INFINITY);
@@ -86,8 +88,7 @@ impl<T: Several> Run<'_, T> {
         part
     }
 
-    /// The part of the step of these lanes after which a kink is seen that is not seen at its end, by what [`Run::look_into`] found; +∞ where
-    /// none is.
+    /// [`Run::hidden`] for these lanes, from the values that [`Run::look_into`] found.
     #[inline(always)]
     fn found_inside(&mut self, blind: T::Mask) -> T::Part {
         let never = T::Part::from_f64(f64::INFINITY);
@@ -103,7 +104,8 @@ impl<T: Several> Run<'_, T> {
         T::Part::select(blind, part, never)
     }
 
-    /// Kinks at five places of the steps of these lanes, event functions at the three between their ends, into `values`.
+    /// Evaluates kinks at five places of the steps of these lanes, or event functions at the three inner places, into
+    /// `values`.
     #[inline(always)]
     pub(super) fn look_into(&mut self, functions: Functions, lanes: T::Mask) {
         let between = functions == Functions::EventFunctions;
@@ -124,7 +126,7 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// The same at some of the places, which are done with then.
+    /// [`Run::look_into`] for the places of one register, which are cleared afterwards.
     #[inline(always)]
     fn look_at(&mut self, functions: Functions, places: &mut Places<(usize, f64)>) {
         let count = self.evaluate_at(functions, places);
@@ -132,7 +134,7 @@ impl<T: Several> Run<'_, T> {
         places.clear();
     }
 
-    /// The functions at some places, a place in each lane, into `after`; how many there are.
+    /// Evaluates the functions at several places, one in each lane, into `after`. Returns the number of functions.
     #[inline(always)]
     fn evaluate_at(&mut self, functions: Functions, places: &mut Places<(usize, f64)>) -> usize {
         let order = self.pack(places);
@@ -153,8 +155,9 @@ impl<T: Several> Run<'_, T> {
         count
     }
 
-    /// The part of the step of each lane that counts, which ends just behind an event, the part ahead of that event, and where the
-    /// step counts as a whole: steps that reach a time \[s\] and end in the state in `end`.
+    /// The part of each lane's step that is kept, which ends just behind the first event; the part just ahead of that
+    /// event; and the lanes in which the whole step is kept. The steps end at the times `reached` \[s\], in the state
+    /// in `end`.
     #[inline(always)]
     pub(super) fn place(
         &mut self,
@@ -201,7 +204,7 @@ impl<T: Several> Run<'_, T> {
                 let by_themselves = both.and(at.jumps.not()).and(place.jumps.not());
                 let odd = Sides::differ(at.behind, place.behind).and(by_themselves);
                 let at_odds = T::Mask::or(first.and(at.at_odds), first.not().and(place.at_odds));
-                // where one of both times is not its own, it is the other
+                // if one of both events is only a consequence of the other, the time of the other counts
                 let by_place = both.and(at.jumps).and(place.jumps.not());
                 let by_at = both.and(place.jumps).and(at.jumps.not());
                 let of_at = first.and(by_place.not()).or(by_at);
@@ -218,8 +221,9 @@ impl<T: Several> Run<'_, T> {
         (place, whole)
     }
 
-    /// Where functions change their sign within the steps of the lanes that are accepted, and in which lanes they do: event functions also where they
-    /// change it back. Their values at the beginning are in `event_functions` or `kinks`.
+    /// The places of sign changes within the accepted steps, and the lanes that have one. Event functions are also
+    /// searched for changes that are undone within the step. Values at the starts of the steps are in `event_functions`
+    /// or `kinks`.
     #[inline(always)]
     fn change(
         &mut self,
@@ -268,7 +272,7 @@ impl<T: Several> Run<'_, T> {
         Some((sides, crossed))
     }
 
-    /// In which lanes an event function may change its sign within the step and change it back.
+    /// The lanes in which an event function may change its sign within the step and change it back.
     #[inline(always)]
     fn may_turn(&self, easy: T::Mask) -> T::Mask {
         let nought = T::Part::from_f64(0.0);
@@ -283,8 +287,9 @@ impl<T: Several> Run<'_, T> {
         may
     }
 
-    /// In which of these lanes an event function changes its sign within the step and changes it back, and a part of the step at which it has; 1 in the
-    /// others. Searches of all lanes and event functions go on side by side, each in a lane of a register.
+    /// The lanes, among these, in which an event function changes its sign within the step and changes it back, and a
+    /// part of the step at which the sign is changed; 1 in the other lanes. The searches of all lanes and event
+    /// functions go on side by side, each in a lane of a register.
     #[inline(always)]
     fn excursions(&mut self, lanes: T::Mask) -> (T::Mask, T::Part) {
         self.step.complete(&*self.models.all);
@@ -351,7 +356,7 @@ impl<T: Several> Run<'_, T> {
         (T::Mask::of_lanes(found), T::of_lanes(&parts).part(0))
     }
 
-    /// The next search that may find anything, of those that wait.
+    /// The next waiting search that may find an excursion.
     #[inline(always)]
     fn next_excursion(&self, zero: Zero, waiting: &mut Waiting) -> Option<Search> {
         while waiting.lanes == 0 {
@@ -381,7 +386,8 @@ struct Search {
     excursion: Excursion,
 }
 
-/// Searches that have not begun: those of the event function before `event_function` in some lanes, and of all from there on.
+/// Searches that have not begun: in `lanes`, those for the event function before `event_function`; and all for
+/// `event_function` and later ones.
 struct Waiting {
     /// The lanes that are searched.
     among: u32,
@@ -389,10 +395,10 @@ struct Waiting {
     event_function: usize,
 }
 
-/// Puts what was found at places where it belongs: place by place, function by function.
+/// Distributes the values found at packed places to their lane, place and function in `values`.
 #[inline(always)]
 fn scatter<T: Several>(found: &[T], places: &Places<(usize, f64)>, values: &mut [Values<T>]) {
-    // by place within a step: the lanes that have it here, and which of the places it is
+    // for each of the five places: the lanes that have it in this register, and the position of each
     let (mut lanes, mut from) = ([0; PLACES.len()], [[0; MOST_LANES]; PLACES.len()]);
     for (position, (lane, (k, _))) in places.each().enumerate() {
         lanes[k] |= 1 << lane;

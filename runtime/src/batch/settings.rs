@@ -1,47 +1,49 @@
-//! How to run.
+//! The settings of a batch.
 
 use crate::Formula;
 use crate::integrate::control::Tolerances;
 use std::time::Duration;
 
-/// How to run, the same for every scenario.
+/// Settings for all scenarios of a batch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Length of a run \[s\].
     pub duration: f64,
-    /// Samples of a run, the first at its beginning and the last at its end: two at least.
+    /// Number of samples of a run, the first at its start and the last at its end: at least two.
     pub samples: usize,
-    /// How long steps are.
+    /// The length of steps.
     pub pace: Pace,
     /// Whether steps end where force laws have kinks.
     pub locate: bool,
     /// Limit on the steps of a run, accepted and rejected.
     pub max_steps: u32,
-    /// How long the computation of a run may take, in whatever lane it is; one that would take ten times as long at its rate is given up before.
+    /// Limit on the computing time of a run, whichever lane it is in. A run that would take ten times as long at its
+    /// current rate is given up earlier.
     pub time_limit: Option<Duration>,
-    /// Share of energy and of momentum that may be missing where steps are fixed ([`ENERGY_LIMIT`](crate::simulate::ENERGY_LIMIT)); +∞ for any.
+    /// Share of energy and of momentum that may be missing where steps are fixed
+    /// ([`ENERGY_LIMIT`](crate::simulate::ENERGY_LIMIT)); +∞ for any.
     pub energy_limit: f64,
 }
 
-/// How long steps are.
+/// The length of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// Of one length between two kinks in time.
+    /// Steps of equal length between two kinks in time.
     Fixed(Fixed),
-    /// As the tolerances allow, by Dormand & Prince's pair 5(4).
+    /// Steps as long as the tolerances allow, by Dormand & Prince's pair 5(4).
     Adaptive(Tolerances),
 }
 
 /// Steps of one length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fixed {
-    /// By which method.
+    /// The method.
     pub method: Method,
-    /// At most so long \[s\]: shortened evenly so that kinks in time are met. Samples lie within steps.
+    /// Largest length \[s\]: steps are shortened evenly so that they end on kinks in time. Samples lie within steps.
     pub step: f64,
 }
 
-/// The methods that lanes take steps by, explicit ones with seven stages at most.
+/// The methods for the steps of lanes: explicit ones with at most seven stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// [`Formula::Heun`]
@@ -58,7 +60,7 @@ impl Method {
     /// All of them, by order.
     pub const ALL: [Method; 4] = [Method::Heun, Method::Rk4, Method::Merson, Method::Dopri5];
 
-    /// As single runs know it.
+    /// The same method in single runs.
     pub const fn formula(self) -> Formula {
         match self {
             Method::Heun => Formula::Heun,

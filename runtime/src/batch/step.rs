@@ -1,10 +1,10 @@
 //! A step of an explicit Runge–Kutta method in which every lane has its own time and length:
 //! k_i = f(t + c_i h, y + h Σ_{j<i} a_ij k_j),  y⁺ = y + h Σ b_i k_i.
 //!
-//! Sums are taken in the order of [`Explicit`](crate::integrate::explicit::Explicit): a step is the same to the last bit as that of a
-//! single run over the same scalar.
+//! Sums are computed in the order of [`Explicit`](crate::integrate::explicit::Explicit), so a step equals that of a
+//! single run over the same scalar to the last bit.
 //!
-//! Stages and sums are functions of their own, each compiled for the coefficients of one method.
+//! Stages and sums are separate functions, each compiled for the coefficients of one method.
 
 use super::copies;
 use super::settings::Method;
@@ -17,32 +17,33 @@ use crate::real::{Mask, Several, Task};
 use crate::{Dynamics, Info, Real};
 use core::marker::PhantomData;
 
-/// Stages of any method here, those for the inside included, at most.
+/// Largest number of stages of a method, with those for the interpolant.
 const STAGES: usize = 7;
 
-/// Where a step begins, how long it is in each lane, and what was found on the way. All states have the same length.
+/// A step in every lane: its start, its length and its stages. All states have the same length.
 pub struct Step<T> {
-    /// How it is taken.
+    /// The method.
     method: Method,
-    /// Its beginning \[s\].
+    /// Start of the step \[s\].
     pub t: T,
-    /// Its length \[s\].
+    /// Length of the step \[s\].
     pub h: T,
-    /// No stage is evaluated at a later time \[s\]: beyond a kink of a curve of time the equations are others.
+    /// The latest time at which a stage is evaluated \[s\]: the equations change beyond a kink of a curve of time.
     pub latest: T,
-    /// The state at the beginning.
+    /// The state at the start of the step.
     pub y: Box<[T]>,
-    /// The derivatives of the stages, the first that of the beginning; behind those of the step stand those that only its inside needs.
+    /// The derivatives of the stages, the first at the start of the step; behind those of the step are the stages that
+    /// only its interpolant needs.
     pub k: [Box<[T]>; STAGES],
-    /// Where it leads.
+    /// The state at the end of the step.
     pub end: Box<[T]>,
-    /// A state that is needed while stages for the inside are evaluated.
+    /// A spare state for evaluating the stages of the interpolant.
     spare: Box<[T]>,
-    /// Whether the inside can be had.
+    /// True if the interpolant is available.
     complete: bool,
 }
 
-/// What is to be done by the tableau of a method, which it knows when it is compiled.
+/// Evaluates an expression with the tableau of a method as a type known at compile time.
 macro_rules! by_tableau {
     ($method:expr, $tableau:ident => $result:expr) => {
         match $method {
@@ -67,7 +68,7 @@ macro_rules! by_tableau {
 }
 
 impl<T: Several> Step<T> {
-    /// At time 0 and a state of zeros with so many entries.
+    /// A step at time 0 from a state of zeros with this number of entries.
     pub fn new(method: Method, entries: usize) -> Self {
         let nought = T::from_f64(0.0);
         let zeros = || copies(nought, entries);
@@ -84,13 +85,13 @@ impl<T: Several> Step<T> {
         }
     }
 
-    /// Takes it.
+    /// Takes the step in all lanes.
     #[inline(always)]
     pub fn take(&mut self, model: &dyn Dynamics<T>) {
         by_tableau!(self.method, B => T::dispatch_apart(Take::<T, B>::new(self, model)));
     }
 
-    /// Evaluates what [`Step::inside`] needs of all lanes, once a step.
+    /// Evaluates the stages that [`Step::inside`] needs, in all lanes, once per step.
     #[inline(always)]
     pub fn complete(&mut self, model: &dyn Dynamics<T>) {
         if !self.complete {
@@ -99,14 +100,16 @@ impl<T: Several> Step<T> {
         }
     }
 
-    /// Whether the method has another interpolant than the cubic, which a force that a stage meets may spoil.
+    /// True if the method has an interpolant other than the cubic. Such an interpolant may be spoiled by a force that
+    /// an inner stage meets.
     #[inline(always)]
     pub fn has_cubic(&self) -> bool {
         by_tableau!(self.method, B => B::ALL + usize::from(B::LAST_IS_FIRST) - B::STAGES > 1)
     }
 
-    /// Writes the state at t + θh on Hermite's cubic through both ends, on its manifold, of a method that [has](Step::has_cubic) one. Call
-    /// [`Step::complete`] before. With an order the lanes stand in it, which is that of the model and of θ.
+    /// Writes the state at t + θh on Hermite's cubic through both ends, on its manifold, for a method that
+    /// [has](Step::has_cubic) one. Call [`Step::complete`] before. With an `order`, the lanes of the model and of θ are
+    /// in that order.
     #[inline(always)]
     pub fn on_cubic(
         &self,
@@ -125,8 +128,8 @@ impl<T: Several> Step<T> {
         model.normalize(to);
     }
 
-    /// Puts a state near the one that the step leads to into `to`, and the derivative there into `rate`: that of the last stage at the time of the
-    /// end, as [`Stepper::neighbour`](crate::integrate::Stepper::neighbour) of a single run.
+    /// Writes a state near the end of the step into `to`, and the derivative there into `rate`: those of the last stage
+    /// at the end time, as [`Stepper::neighbour`](crate::integrate::Stepper::neighbour) does in a single run.
     #[inline(always)]
     pub fn neighbour(&self, to: &mut [T], rate: &mut [T]) {
         by_tableau!(self.method, B => T::dispatch_apart(Neighbour::<T, B> {
@@ -149,7 +152,8 @@ impl<T: Several> Step<T> {
         model.normalize(to);
     }
 
-    /// The same with lanes in another order, which is that of the model and of θ: to look into one lane at several places at once.
+    /// [`Step::inside`] with the lanes of the model and of θ in another order: to evaluate one lane at several places
+    /// at once.
     #[inline(always)]
     pub fn inside_in_order(
         &self,
@@ -168,7 +172,7 @@ impl<T: Several> Step<T> {
         model.normalize(to);
     }
 
-    /// The derivative of stage `I`, whose state is left in `end`.
+    /// Evaluates the derivative of stage `I`, whose state is left in `end`.
     #[inline(always)]
     fn stage<B: Tableau, const I: usize>(&mut self, model: &dyn Dynamics<T>) {
         self.combine(B::A[I]);
@@ -176,7 +180,7 @@ impl<T: Several> Step<T> {
         model.derivative(t.min(self.latest), &self.end, &mut self.k[I]);
     }
 
-    /// y + h Σ w_j k_j, left in `end`; weights of 0 cost nothing, for they are known to the compiler.
+    /// Computes y + h Σ w_j k_j into `end`; weights of 0 cost nothing, since the compiler knows them.
     #[inline(always)]
     fn combine(&mut self, weights: &[f64]) {
         let mut lengths = [T::from_f64(0.0); STAGES];
@@ -197,10 +201,11 @@ impl<T: Several> Step<T> {
         }
     }
 
-    /// The stages from `from` to before `to`; the state of the last is left in `end`.
+    /// Evaluates the stages from `from` to before `to`; the state of the last is left in `end`.
     #[inline(always)]
     fn stages<B: Tableau>(&mut self, model: &dyn Dynamics<T>, from: usize, to: usize) {
-        // written out, so that every stage knows its coefficients when it is compiled; those that the method lacks are not
+        // written out, so that every stage knows its coefficients at compile time; stages that a method lacks are not
+        // compiled
         macro_rules! stages {
             ($($i:literal)*) => {
                 $(if const { $i < B::ALL } && from <= $i && $i < to { self.stage::<B, $i>(model); })*
@@ -209,11 +214,11 @@ impl<T: Several> Step<T> {
         stages!(1 2 3 4 5 6);
     }
 
-    /// y(t + θh), not on its manifold; θ in the order given, or that of the lanes. To be called with an order, or without, that is
-    /// known when this is compiled.
+    /// Computes y(t + θh), not normalized to its manifold; the lanes of θ are in `order`, if there is one. Whether
+    /// there is an order should be known at compile time.
     #[inline(always)]
     fn interpolate<B: Tableau>(&self, theta: T, order: Option<T::Order>, to: &mut [T]) {
-        // what only the inside needs is of another step where nobody asked for it
+        // if nobody asked for the interpolant, its additional stages are those of another step
         let known = B::ALL == B::STAGES;
         let within = theta.lt(T::from_f64(1.0));
         if !known && !within.any() {
@@ -243,7 +248,8 @@ impl<T: Several> Step<T> {
         }
     }
 
-    /// The largest ratio of estimated error to tolerance over all entries, of values and derivatives alike; NaN where anything is not finite.
+    /// The largest ratio of estimated error to tolerance over all entries, for values and derivatives alike; NaN if any
+    /// is not finite.
     #[inline(always)]
     pub fn error(&self, allowed: &[Allowed<T::Part>]) -> T::Part {
         let (mut worst, mut sum) = (T::Part::from_f64(0.0), T::Part::from_f64(0.0));
@@ -264,14 +270,14 @@ impl<T: Several> Step<T> {
                 let scale = allowed[i].scale(y.abs().max(end.abs()));
                 let ratio = estimate.part(part).abs() / scale + end.taint();
                 worst = worst.max(ratio);
-                // what is no number gets lost in the maximum, not in the sum
+                // a maximum loses a NaN, a sum does not
                 sum += ratio;
             }
         }
         worst + sum.taint()
     }
 
-    /// How the results of its last two stages differ, both for the time of its end.
+    /// The difference between the last two stages of a step, both at its end time.
     #[inline(always)]
     pub fn end_difference(&self, info: &Info) -> EndDifference<T::Part> {
         let coordinates = info.coordinates.len();
@@ -302,7 +308,7 @@ impl<T: Several> Step<T> {
     }
 }
 
-/// The derivatives of all stages, each with so many entries.
+/// The derivatives of all stages, each cut to this number of entries.
 #[inline(always)]
 fn stages<T>(k: &[Box<[T]>; STAGES], entries: usize) -> [&[T]; STAGES] {
     let [a, b, c, d, e, f, g] = k;
@@ -363,7 +369,7 @@ impl<T: Several, B: Tableau> Task for Complete<'_, T, B> {
     #[inline(always)]
     fn run(self) {
         let Complete { step, model, .. } = self;
-        // stages are evaluated in `end`, which must stay as it is
+        // stages are evaluated in `end`, so the end of the step is kept in `spare` meanwhile
         core::mem::swap(&mut step.end, &mut step.spare);
         step.stages::<B>(model, B::STAGES, B::ALL);
         core::mem::swap(&mut step.end, &mut step.spare);
@@ -382,7 +388,8 @@ impl<T: Several, B: Tableau> Task for Neighbour<'_, T, B> {
     #[inline(always)]
     fn run(self) {
         let Neighbour { step, to, rate, .. } = self;
-        // the state of a last stage that is the first of the next step is the end itself; the beginning is a neighbour where there is no other
+        // if the last stage is the first of the next step, its state is the end itself; if no other stage is at the end
+        // time, the start of the step is the neighbour
         let before = B::STAGES - usize::from(B::LAST_IS_FIRST);
         let index = (1..before).rev().find(|i| B::C[*i] == 1.0).unwrap_or(0);
         let weights = B::A[index];
@@ -465,7 +472,7 @@ impl<T: Several, B: Tableau> Task for InsideInOrder<'_, T, B> {
     }
 }
 
-/// The lanes in an order, if there is one.
+/// A value with its lanes in `order`, if there is one.
 #[inline(always)]
 fn in_order<T: Several>(value: T, order: Option<T::Order>) -> T {
     match order {

@@ -1,4 +1,4 @@
-//! The error allowed in each entry of a state, as numbers of the registers that the errors are in.
+//! The error allowed in each entry of a state, in the number type of the registers.
 
 use crate::integrate::control::Tolerances;
 use crate::{Info, Real};
@@ -11,7 +11,7 @@ pub struct Allowed<P> {
 }
 
 impl<P: Real> Allowed<P> {
-    /// That of each entry, by what it is.
+    /// The allowed error of each entry, by its kind.
     pub fn of(tolerances: &Tolerances, info: &Info) -> Vec<Self> {
         let kinds = (0..info.state_length()).map(|index| info.kind(index));
         kinds
@@ -25,7 +25,7 @@ impl<P: Real> Allowed<P> {
             .collect()
     }
 
-    /// At a magnitude of the entry.
+    /// The allowed error at a magnitude of the entry.
     #[inline(always)]
     pub fn scale(&self, magnitude: P) -> P {
         self.relative.mul_add(magnitude, self.absolute)

@@ -1,6 +1,6 @@
-//! Whether lanes by fixed steps can be trusted: the balances of energy and momentum, and the limit of stability, as the watch of a single run
-//! has them ([`crate::simulate`]). Steps under control of their error are not watched, and pay nothing: they have that control, and the
-//! estimate of their error.
+//! Judges whether lanes with fixed steps can be trusted: the balances of energy and momentum, and the limit of
+//! stability, as in the watch of a single run ([`crate::simulate`]). Steps under error control are not watched, and
+//! cost nothing here: they have that control, and the estimate of their error.
 
 use super::copies;
 use super::run::{Run, Section, each, replace};
@@ -15,39 +15,40 @@ use crate::simulate::watch::account::{
 use crate::simulate::watch::error::{Errors, Estimated, over_halves};
 use crate::{Info, Real, StateKind};
 
-/// How powers are summed up: fixed steps may be as long as they like.
+/// The quadrature of powers; fixed steps may be arbitrarily long.
 const RULE: Rule = Rule::Five;
 const LAST: usize = NODES - 1;
 
-/// A number of each lane.
+/// A number for each lane.
 type OfLanes = [f64; MOST_LANES];
 
-/// What lanes are watched for, and what was found.
+/// The accounts of all lanes, and what was found.
 pub(super) struct Watch<T: Several> {
     account: [Account; MOST_LANES],
     stability: [Stability; MOST_LANES],
     /// The effect whose power was largest when energy began to be missing in each lane.
     effect: [Option<usize>; MOST_LANES],
     errors: [Errors; MOST_LANES],
-    /// Kinetic energy at the start, and where the last step ended \[J\].
+    /// Kinetic energy at the start, and at the end of the last step \[J\].
     kinetic: [OfLanes; 2],
     /// Work of each effect \[J\].
     works: Box<[OfLanes]>,
-    /// Momentum at the start, what forces gave, and the sum of their magnitudes.
+    /// Momentum at the start, the momentum given by forces, and the sum of its magnitudes.
     momentum: [[OfLanes; 3]; 6],
-    /// The start, and how far each entry is from the solution in steps half as long.
+    /// The state at the start, and the difference of each entry from the solution in steps half as long.
     start: Box<[T]>,
     error: Box<[T]>,
-    /// A step of that solution.
+    /// A step of the solution with halved steps.
     halved: Step<T>,
     /// Whether coordinates may change their charts.
     charts: bool,
-    /// In which lanes the exchange at the beginning of the step is known.
+    /// The lanes in which powers at the start of the step are known.
     known: T::Mask,
-    /// Powers of all effects and forces on what is free at the nodes of the step, and at any place.
+    /// Powers of all effects, and external wrenches on the freely moving bodies, at the nodes of the step and at one
+    /// further place.
     powers: [Box<[T]>; NODES + 1],
     external_wrenches: [[T; 6]; NODES + 1],
-    /// A state near the end of the step, its rate, and the state where the step began.
+    /// A state near the end of the step, its rate, and the state at the start of the step.
     near: Box<[T]>,
     near_rate: Box<[T]>,
     before: Box<[T]>,
@@ -56,7 +57,7 @@ pub(super) struct Watch<T: Several> {
 const ANY: usize = NODES;
 
 impl<T: Several> Watch<T> {
-    /// Of a model, with the share of energy and momentum that may be missing.
+    /// A watch for a model, with the share of energy and momentum that may be missing.
     fn new(info: &Info, method: Method, limit: f64) -> Self {
         let zeros = |length: usize| copies(T::from_f64(0.0), length);
         let entries = info.state_length();
@@ -81,7 +82,7 @@ impl<T: Several> Watch<T> {
         }
     }
 
-    /// One where steps are fixed.
+    /// A watch if steps are fixed.
     pub(super) fn of(info: &Info, pace: &Pace, limit: f64) -> Option<Box<Self>> {
         match pace {
             Pace::Fixed(Fixed { method, .. }) => Some(Box::new(Watch::new(info, *method, limit))),
@@ -89,22 +90,22 @@ impl<T: Several> Watch<T> {
         }
     }
 
-    /// Since when a lane is above the limit of stability, for whatever reason its run ended.
+    /// The series of steps above the limit of stability in a lane; one step is enough if the run has `failed`.
     pub(super) fn unstable(&self, lane: usize, failed: bool) -> Option<Unstable> {
         self.stability[lane].unstable(failed)
     }
 
-    /// Whether energy is missing in the balance of a lane; the effect whose power was largest when that began.
+    /// `Some` if energy is missing in the balance of a lane, with the effect whose power was largest when this began.
     pub(super) fn energy(&self, lane: usize) -> Option<Option<usize>> {
         self.account[lane].energy().map(|_| self.effect[lane])
     }
 
-    /// Whether a lane errs by too much, as estimated: the entry of the state.
+    /// The entry of the state with the largest error, if the estimated error in a lane is too large.
     pub(super) fn error(&self, lane: usize) -> Option<usize> {
         self.errors[lane].found().map(|(_, index)| index)
     }
 
-    /// Whether momentum is missing in the balance of a lane.
+    /// True if momentum is missing in the balance of a lane.
     pub(super) fn momentum(&self, lane: usize) -> bool {
         self.account[lane].momentum().is_some()
     }
@@ -141,7 +142,7 @@ impl<T: Several> Section<T> for AddWork<T> {
 }
 
 impl<T: Several> Run<'_, T> {
-    /// Runs begin in these lanes.
+    /// Opens the watch for runs that begin in these lanes.
     #[inline(always)]
     pub(super) fn begin_watch(&mut self, fresh: T::Mask) {
         if self.watch.is_some() {
@@ -149,7 +150,7 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// Steps end in these lanes at `reached` and `end`, of which the first `part` counts.
+    /// Adds the steps of these lanes, which end at `reached` in `end`, and of which only the first `part` is kept.
     #[inline(always)]
     pub(super) fn advance_watch(&mut self, accepted: T::Mask, part: T, reached: T) {
         if self.watch.is_some() {
@@ -161,7 +162,9 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// The next steps of these lanes begin, in `same` where those before ended, and of these in `smooth` after whole ones: these are compared.
+    /// Begins the next steps of the lanes `going`. In the lanes `same`, they begin exactly as the previous ones ended;
+    /// in the lanes `smooth`, moreover, the previous steps were whole: for these, the rate of the fastest motion is
+    /// estimated.
     #[inline(always)]
     pub(super) fn leave_watch(&mut self, going: T::Mask, same: T::Mask, smooth: T::Mask) {
         let Some(watch) = &mut self.watch else {
@@ -169,7 +172,7 @@ impl<T: Several> Run<'_, T> {
         };
         watch.known = watch.known.and(going.not()).or(same.and(going));
         if watch.charts {
-            // the coordinates may be others
+            // the coordinates may be those of another chart
             let elsewhere = going.and(same.not());
             for error in &mut watch.error {
                 *error = T::select(elsewhere, T::from_f64(0.0), *error);
@@ -211,7 +214,7 @@ impl<T: Several> Run<'_, T> {
         let (model, info) = (&*self.models.all, self.info);
         let (t, y) = (self.step.t, &self.step.y);
         let energy = model.kinetic_energy(t, y);
-        // that of velocities of 1, beyond what moves by itself
+        // the kinetic energy of velocities of 1, less that of prescribed motions
         let mut moving = |wanted: StateKind| {
             self.state.copy_from_slice(y);
             let mut energies = [T::from_f64(0.0); 2];
@@ -261,7 +264,7 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// Adds the work of the steps of these lanes, of which the first `part` counts, and closes their accounts.
+    /// Adds the work of the steps of these lanes, of which only the first `part` is kept, and closes their accounts.
     #[inline(always)]
     fn add_work(&mut self, watch: &mut Watch<T>, accepted: T::Mask, part: T, reached: T) {
         self.step.complete(&*self.models.all);
@@ -334,7 +337,7 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// Carries the estimate of the error over the steps of these lanes, of which the first `part` counts.
+    /// Continues the error estimate over the steps of these lanes, of which only the first `part` is kept.
     #[inline(always)]
     fn estimate_error(&mut self, watch: &mut Watch<T>, accepted: T::Mask, part: T) {
         let model = &*self.models.all;
@@ -378,7 +381,7 @@ impl<T: Several> Run<'_, T> {
         }
     }
 
-    /// Closes the accounts of a step in a lane, with the kinetic energy and the momentum where it ended.
+    /// Closes the accounts of a step in a lane, with the kinetic energy and the momentum at its end.
     fn close(&self, watch: &mut Watch<T>, lane: usize, kinetic: f64, momentum: [T; 6]) {
         let info = self.info;
         let t = self.step.t.lane(lane).to_f64();
@@ -388,7 +391,7 @@ impl<T: Several> Run<'_, T> {
         let energies = Energies {
             kinetic: [watch.kinetic[1][lane], kinetic],
             exchanged: 0.0,
-            // without an effect nothing is said of energy
+            // a model without effects has no balance of energy
             gap: if info.powers.is_empty() {
                 0.0
             } else {

@@ -1,14 +1,14 @@
-//! The breakpoint indicator of a curve: a continuous function of slope ±1 whose sign changes where the curve is not smooth. Its magnitude
-//! is the distance to the nearest such point.
+//! The breakpoint indicator of a curve: a continuous function of slope ±1 whose sign changes where the curve is not
+//! smooth. Its magnitude is the distance to the nearest such point.
 //!
-//! A point counts where the slope changes, for cubics also where the second derivative changes. The outermost points count where the
-//! extrapolation changes them. Changes that are due to rounding alone do not count.
+//! A point counts where the slope changes, for cubics also where the second derivative changes. The outermost points
+//! count where the extrapolation changes them. Changes that are due to rounding alone do not count.
 
 use super::candidates;
 use crate::real::Real;
 
-/// The indicator of a curve that is not smooth at `kinks`, which increase. It is positive left of the first one, and 1 everywhere where
-/// there is none. NaN only where `x` is NaN.
+/// The indicator of a curve that is not smooth at `kinks`, which increase. It is positive left of the first one, and 1
+/// everywhere where there is none. NaN only where `x` is NaN.
 #[inline(always)]
 pub(super) fn breakpoint_indicator<T: Real>(kinks: &[f64], x: T) -> T {
     if kinks.is_empty() {

@@ -2,8 +2,8 @@
 //!
 //! y(x) = y_k + m_k s + c₂ s² + c₃ s³,   s = x − x_k,   h c₂ = 3Δ − 2 m_k − m_{k+1},   h² c₃ = m_k + m_{k+1} − 2Δ
 //!
-//! where h is the length and Δ the secant of the piece. The slopes are given with the points. The caller chooses them such that the curve is
-//! monotone where the points are (Fritsch and Carlson 1980).
+//! where h is the length and Δ the secant of the piece. The slopes are given with the points. The caller chooses them
+//! such that the curve is monotone where the points are (Fritsch and Carlson 1980).
 
 use super::breakpoint_indicator::{breakpoint_indicator, rounding};
 use super::integral::Integrable;
@@ -34,8 +34,8 @@ impl<const N: usize> Cubic<N> {
     /// Makes the curve through points (x, y), x increasing, with the slope m at each: `[x, y, m]`.
     ///
     /// # Panics
-    /// With fewer than two points, with a number that is not finite, or with abscissae that do not increase. Generated code keeps its curves
-    /// in `const`s, where this is an error of compilation.
+    /// With fewer than two points, with a number that is not finite, or with abscissae that do not increase. Generated
+    /// code keeps its curves in `const`s, where this is an error of compilation.
     pub const fn new(given: [[f64; 3]; N], extrapolate: Extrapolate) -> Self {
         let (mut points, mut integrals) = ([[0.0; 2]; N], [[0.0; 2]; N]);
         let (mut coefficients, mut kinks) = ([[0.0; 3]; N], [0.0; N]);
@@ -81,8 +81,8 @@ impl<const N: usize> Cubic<N> {
         self.cubics().slope(x)
     }
 
-    /// Second derivative at `x`. At a point it is that of the piece to the right; at the last point of a curve that must not be left, that
-    /// of the last piece. NaN where `x` is NaN.
+    /// Second derivative at `x`. At a point it is that of the piece to the right; at the last point of a curve that
+    /// must not be left, that of the last piece. NaN where `x` is NaN.
     #[inline(always)]
     pub fn second_derivative<T: Real>(&self, x: T) -> T {
         self.cubics().second_derivative(x)
@@ -100,29 +100,31 @@ impl<const N: usize> Cubic<N> {
         self.cubics().double_integral(x)
     }
 
-    /// The smallest x on a rising piece with value(x) = `y`; NaN where there is none. The curve must be monotone between its points.
-    /// Bisection finds all digits of a double, then two Newton steps find those of other scalars and the derivatives.
+    /// The smallest x on a rising piece with value(x) = `y`; NaN where there is none. The curve must be monotone
+    /// between its points. Bisection finds all digits of a double, then two Newton steps find those of other scalars
+    /// and the derivatives.
     #[inline(always)]
     pub fn inverse<T: Real>(&self, y: T) -> T {
         self.cubics().inverse(y)
     }
 
-    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never does. Where the
-    /// velocity is 0 at first, the search begins where it no longer is. The curve must be monotone between its points.
+    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never
+    /// does. Where the velocity is 0 at first, the search begins where it no longer is. The curve must be monotone
+    /// between its points.
     #[inline(always)]
     pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
         self.cubics().stop(velocity, factor)
     }
 
-    /// The breakpoint indicator: a function whose sign changes where the curve is not smooth. Its slope is ±1 and its magnitude is the
-    /// distance to the nearest such point; it is 1 where there is none. NaN only where `x` is NaN.
+    /// The breakpoint indicator: a function whose sign changes where the curve is not smooth. Its slope is ±1 and its
+    /// magnitude is the distance to the nearest such point; it is 1 where there is none. NaN only where `x` is NaN.
     #[inline(always)]
     pub fn breakpoint_indicator<T: Real>(&self, x: T) -> T {
         breakpoint_indicator(self.cubics().kinks, x)
     }
 
-    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this time, each with its own
-    /// derivatives. +∞ where no point is left.
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this
+    /// time, each with its own derivatives. +∞ where no point is left.
     pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
         kink::after(&self.points, |point| point[0], rate, t)
     }
@@ -143,7 +145,8 @@ pub(super) struct Cubics<'a> {
     pub extrapolate: Extrapolate,
 }
 
-/// Computes the parts that follow from points and slopes, `[x, y, m]`. Returns the slope before the first point and the number of kinks.
+/// Computes the parts that follow from points and slopes, `[x, y, m]`. Returns the slope before the first point and the
+/// number of kinks.
 ///
 /// # Panics
 /// With fewer than two points, a number that is not finite, or abscissae that do not increase.
@@ -305,7 +308,8 @@ impl Cubics<'_> {
         guard(self.points, self.extrapolate, x, y)
     }
 
-    /// s = x − x_k, y_k and the coefficients of a piece. Piece 0 lies left of the first point, piece k + 1 right of point k.
+    /// s = x − x_k, y_k and the coefficients of a piece. Piece 0 lies left of the first point, piece k + 1 right of
+    /// point k.
     #[inline(always)]
     fn piece<T: Real>(&self, piece: usize, x: T) -> (T, f64, [f64; 3]) {
         let [x_k, y_k] = self.points[piece.saturating_sub(1)];
@@ -344,7 +348,8 @@ impl Integrable for Cubics<'_> {
     }
 }
 
-/// Finds the points at which the second derivative changes, and the ends of a held curve where the slope changes. Returns their number.
+/// Finds the points at which the second derivative changes, and the ends of a held curve where the slope changes.
+/// Returns their number.
 const fn find_kinks(
     given: &[[f64; 3]],
     points: &[[f64; 2]],
@@ -398,7 +403,7 @@ fn solve<T: Real>([x_k, y_k, m, c2, c3, h]: [T; 6], y: T) -> T {
         low = T::select(below, middle, low);
         high = T::select(below, high, middle);
     }
-    // the first step has the accuracy of a double, the second its square; the derivative then has it, too
+    // after the first step s has the accuracy of a double, after the second the square of that; so has its derivative
     let mut s = high;
     for _ in 0..2 {
         let slope = c::<T>(3.0).mul_add(c3 * s, c::<T>(2.0) * c2).mul_add(s, m);

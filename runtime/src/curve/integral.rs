@@ -2,7 +2,8 @@
 
 use crate::real::{Real, Task};
 
-/// A curve whose antiderivatives are known. `antiderivatives` is to be `#[inline(always)]`; it is compiled once for each scalar.
+/// A curve whose antiderivatives are known. `antiderivatives` is to be `#[inline(always)]`; it is compiled once for
+/// each scalar.
 pub trait Integrable: Copy {
     /// F with F' = the curve and G with G' = F, both 0 at the first point.
     fn antiderivatives<T: Real>(&self, x: T) -> [T; 2];

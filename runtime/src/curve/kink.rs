@@ -1,5 +1,5 @@
-//! When a curve of time passes its points: t_k = x_k / rate, where the abscissa of the curve is `rate` · t and rate >
-//! 0.
+//! Computes when a curve of time passes its points: t_k = x_k / rate, where the abscissa of the curve is `rate` · t and
+//! rate > 0.
 //!
 //! A kink is the smallest representable time at which the computed rate · t is ≥ x_k. So a step that ends on it has
 //! its last stage on the left of the point, and the next step has its first stage on the right.
@@ -17,7 +17,8 @@ pub(super) fn after<T: Real, P>(points: &[P], abscissa: impl Fn(&P) -> f64, rate
         if !ahead.any() {
             continue;
         }
-        // the earliest time of all lanes that have the point ahead: `to_f64` takes the largest, so times are negated
+        // the earliest time of all lanes that have the point ahead; times are negated because `to_f64` returns the
+        // largest lane
         let far = T::from_f64(f64::NEG_INFINITY);
         let mut time = -T::select(ahead, -(x / rate), far).to_f64();
         // division and multiplication may differ by one or two roundings

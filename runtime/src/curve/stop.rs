@@ -1,21 +1,24 @@
-//! When a body that a curve of time accelerates comes to rest: the first x > 0 at which v(x) = velocity + factor · ∫₀ˣ of the curve is 0.
+//! Finds when a body that a curve of time accelerates comes to rest: the first x > 0 at which v(x) = velocity + factor
+//! · ∫₀ˣ of the curve is 0.
 //!
-//! The search goes from piece to piece and divides each piece where the curve changes its sign. The curve is monotone in a piece, so there is at
-//! most one such place. On either side of it v is monotone and has at most one root, which bisection finds. The search uses doubles, lane by
-//! lane, and rounds each addition and product, so every scalar gets the same bits on every machine. Two Newton steps then find the digits and
-//! the derivatives that the scalar has.
+//! The search goes from piece to piece and divides each piece where the curve changes its sign. The curve is monotone
+//! in a piece, so there is at most one such place. On either side of it v is monotone and has at most one root, which
+//! bisection finds. The search uses doubles, lane by lane, and rounds each addition and product, so every scalar gets
+//! the same bits on every machine. Two Newton steps then find the digits and the derivatives that the scalar has.
 //!
-//! If v turns back within rounding of 0 without crossing it, it has reached 0. The curve is 0 there, so the place depends on neither velocity
-//! nor factor and has no derivatives. A velocity that is 0 at the beginning does not count as reached: the search starts where v is no longer 0.
+//! If v turns back within rounding of 0 without crossing it, v counts as having reached 0. The curve is 0 there, so the
+//! place depends on neither velocity nor factor and has no derivatives. A velocity that is 0 at the beginning does not
+//! count: the search starts where v is no longer 0.
 
 use super::Extrapolate;
 use crate::real::{Mask, Real};
 
-/// How far v may be from 0 where it turns back, relative to the magnitudes that it was summed from: a few roundings in each of some pieces.
+/// Largest distance of v from 0, where v turns back, that counts as 0. It is relative to the magnitudes that v was
+/// summed from: a few roundings in each of some pieces.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// The largest relative change by Newton's steps: they only correct rounding. Where v is so flat that they would be longer, the place is not
-/// known better.
+/// The largest relative correction by Newton's steps, which only remove rounding. If v is so flat that they would be
+/// longer, the place is not known more precisely.
 const FAR: f64 = 1e-3;
 
 /// The place where v reaches 0.
@@ -30,7 +33,8 @@ pub(super) struct Stop {
 pub(super) struct Searched<'a> {
     pub points: &'a [[f64; 2]],
     pub extrapolate: Extrapolate,
-    /// Slope and higher coefficients of a piece, about its point: piece 0 lies left of the first point, piece k + 1 right of point k.
+    /// Slope and higher coefficients of a piece, about its point: piece 0 lies left of the first point, piece k + 1
+    /// right of point k.
     pub coefficients: &'a dyn Fn(usize) -> [f64; 3],
 }
 
@@ -50,7 +54,7 @@ pub(super) fn stop<T: Real>(
         let lane = left & left.wrapping_neg();
         left &= !lane;
         let mask = T::Mask::of_lanes(lane);
-        // `to_f64` takes the largest
+        // `to_f64` returns the largest lane
         let far = number(f64::NEG_INFINITY);
         let of_lane = |all: T| T::select(mask, all, far).to_f64();
         if let Some(found) = searched.first(of_lane(velocity), of_lane(factor)) {
@@ -171,7 +175,8 @@ impl Walk {
 
     /// Passes the last part, which goes to infinity and in which v is monotone.
     fn for_ever(&self, piece: &Piece, from: f64) -> Option<Stop> {
-        // the sign of a line far away is that of its slope, as its turn lies behind; without a slope it is that of its value
+        // far away, the sign of a line is that of its slope, since its zero lies behind; without a slope it is that of
+        // its value
         let ahead = match piece.factor * piece.coefficients[0] {
             0.0 => piece.acceleration(from),
             slope => slope,
@@ -197,7 +202,8 @@ impl Walk {
         None
     }
 
-    /// The stop at the beginning of a part, if the velocity was 0 there. `gain` tells to which side the velocity changes in this part.
+    /// The stop at the beginning of a part, if the velocity was 0 there. The sign of `gain` tells to which side the
+    /// velocity changes in this part.
     fn reached(&self, gain: f64, from: f64) -> Option<Stop> {
         let turns_back = self.sign * gain >= 0.0;
         let is_there = turns_back || self.sign * self.velocity <= 0.0;
@@ -207,7 +213,7 @@ impl Walk {
         })
     }
 
-    /// Where v goes through 0 between `from` and `to`.
+    /// The place where v goes through 0 between `from` and `to`.
     fn crossed(&self, piece: &Piece, from: f64, to: f64) -> Stop {
         let begin = piece.integral(from);
         let moves = |x: f64| self.sign * (self.velocity + (piece.integral(x) - begin)) > 0.0;
@@ -218,7 +224,7 @@ impl Walk {
     }
 }
 
-/// One polynomial of the curve, times the factor: an acceleration.
+/// A polynomial piece of the curve, times the factor: an acceleration.
 struct Piece {
     x: f64,
     y: f64,
@@ -238,7 +244,8 @@ impl Piece {
         self.factor * (s * (self.y + s * (m / 2.0 + s * (c2 / 3.0 + s * c3 / 4.0))))
     }
 
-    /// Where the acceleration changes its sign between `from` and `to`; `to` where it does not. Beyond the outermost points it is a line.
+    /// The place where the acceleration changes its sign between `from` and `to`; `to` if it does not. Beyond the
+    /// outermost points the acceleration is a line.
     fn turn(&self, from: f64, to: f64) -> f64 {
         let begin = self.acceleration(from);
         if to == f64::INFINITY {
@@ -255,8 +262,8 @@ impl Piece {
     }
 }
 
-/// The smallest number in `low` … `high` at which a condition fails that holds at `low` and fails at `high`, by bisection until no number is
-/// left between.
+/// The smallest number in `low` … `high` at which a condition fails that holds at `low` and fails at `high`, by
+/// bisection until no number is left between.
 fn halve(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     loop {
         let middle = low + 0.5 * (high - low);

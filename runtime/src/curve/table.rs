@@ -7,7 +7,8 @@ use super::{Extrapolate, breakpoint_indicator, kink};
 use crate::real::Real;
 use std::vec::Vec;
 
-/// A curve of any number of points, with the same results as a [`Curve`](super::Curve) or a [`Cubic`](super::Cubic) to the last bit.
+/// A curve of any number of points, with the same results as a [`Curve`](super::Curve) or a [`Cubic`](super::Cubic) to
+/// the last bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     points: Vec<[f64; 2]>,
@@ -65,7 +66,8 @@ impl Table {
         }
     }
 
-    /// Makes cubics through points (x, y), x increasing, with the slope m at each, `[x, y, m]`: [`Cubic::new`](super::Cubic::new).
+    /// Makes cubics through points (x, y), x increasing, with the slope m at each, `[x, y, m]`:
+    /// [`Cubic::new`](super::Cubic::new).
     ///
     /// # Panics
     /// With fewer than two points, with a number that is not finite, or with abscissae that do not increase.
@@ -131,7 +133,8 @@ impl Table {
         inverse;
     }
 
-    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never does.
+    /// The first x > 0 at which velocity + factor · ∫₀ˣ of the curve reaches 0, with its derivatives; 0 where it never
+    /// does.
     #[inline(always)]
     pub fn stop<T: Real>(&self, velocity: T, factor: T) -> T {
         match &self.pieces {
@@ -146,8 +149,8 @@ impl Table {
         breakpoint_indicator::breakpoint_indicator(&self.kinks, x)
     }
 
-    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this time, each with its
-    /// own derivatives. +∞ where no point is left.
+    /// The first time after `t` at which `rate` · time passes a point of the curve, in any lane. All lanes get this
+    /// time, each with its own derivatives. +∞ where no point is left.
     pub fn kink_after<T: Real>(&self, rate: T, t: f64) -> T {
         kink::after(&self.points, |point| point[0], rate, t)
     }

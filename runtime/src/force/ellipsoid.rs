@@ -1,14 +1,14 @@
-//! The support function of an ellipsoid of even degree n, Σ |x_i/a_i|ⁿ = 1: how far it reaches in a direction. It is the dual
-//! norm.
+//! The support function of an ellipsoid of even degree n, Σ |x_i/a_i|ⁿ = 1: how far it reaches in a direction. It is
+//! the dual norm.
 //!
-//! In the direction n, with s_i = a_i n_i and m = n/(n − 1): h = (Σ |s_i|^m)^(1/m). The furthest point has x_i = a_i ∂h/∂s_i with
-//! ∂h/∂s_i = sign(s_i) (|s_i|/h)^(m−1). For degree 2, h = √(Σ s_i²). For a high degree the body is nearly a box, and
-//! h nearly Σ |s_i|.
+//! In the direction n, with s_i = a_i n_i and m = n/(n − 1): h = (Σ |s_i|^m)^(1/m). The furthest point has x_i = a_i
+//! ∂h/∂s_i with ∂h/∂s_i = sign(s_i) (|s_i|/h)^(m−1). For degree 2, h = √(Σ s_i²). For a high degree the body is nearly
+//! a box, and h nearly Σ |s_i|.
 
 use crate::Real;
 
-/// The smallest part of the largest |s_i| that counts: a smaller s_i is replaced by it. A root of it is far less than rounding,
-/// and its derivative is finite.
+/// The smallest part of the largest |s_i| that counts: a smaller s_i is replaced by it. A root of it is far less than
+/// rounding, and its derivative is finite.
 const SMALLEST: f64 = 1e-200;
 
 /// \[h, ∂h/∂s_x, ∂h/∂s_y, ∂h/∂s_z\] of s = (`x`, `y`, `z`) \[m\], not all 0, with the exponent `power` = m, 1 < m ≤ 2.

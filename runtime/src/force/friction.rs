@@ -16,9 +16,9 @@ pub fn coulomb<T: Real>(limit: T, speed: T, tolerance: T) -> T {
 
 /// The factor s of a friction force −s·v for a sliding velocity vector v: s = `limit`/√max(v², tolerance²).
 ///
-/// `limit` \[N\], not negative; `speed_squared` v² \[m²/s²\]; `tolerance` \[m/s\], positive; result \[N s/m\]. The force
-/// has the magnitude `limit` where |v| ≥ tolerance and falls linearly to zero at rest. The argument of the root is never
-/// zero, so the value and its derivatives are defined at rest.
+/// `limit` \[N\], not negative; `speed_squared` v² \[m²/s²\]; `tolerance` \[m/s\], positive; result \[N s/m\]. The
+/// force has the magnitude `limit` where |v| ≥ tolerance and falls linearly to zero at rest. The argument of the root
+/// is never zero, so the value and its derivatives are defined at rest.
 #[inline(always)]
 pub fn coulomb_scale<T: Real>(limit: T, speed_squared: T, tolerance: T) -> T {
     limit / speed_squared.max(tolerance * tolerance).sqrt()

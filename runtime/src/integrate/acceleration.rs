@@ -1,33 +1,38 @@
-//! Accelerations in the control of the step, for single runs and lanes alike.
+//! Controls the errors of accelerations, for single runs and lanes alike.
 //!
-//! A tolerance of positions says nothing of forces: 10 nm on a stiffness of 10⁸ N/m are 1 N. Where stability bounds the steps, an explicit method
-//! lets a fast oscillation grow until its error in a state is as large as allowed. What it has become in the accelerations by then is left to chance.
+//! A tolerance of positions does not limit errors of forces: 10 nm on a stiffness of 10⁸ N/m are 1 N. Where stability
+//! limits the steps, an explicit method lets a fast oscillation grow until its error in the state is as large as
+//! allowed. Without further control, its size in the accelerations would be left to chance.
 //!
-//! **What is compared.** Two stages of a step are at its end: its result y⁺, and a state g that is less exact. With d = y⁺ − g and D = f(y⁺) − f(g),
-//! the rate of the fastest motion is λ, with λ⁴ = ‖D_q‖²‖D_v‖²/(‖d_q‖²‖d_v‖²) over coordinates q and velocities v. This is exact for an oscillation,
-//! whatever its phase. An oscillation whose acceleration has the amplitude A makes D_v = P(h|λ|) A, where P is a polynomial of the method.
+//! **What is compared.** Two stages of a step are at its end: its result y⁺, and a state g that is less exact. With d =
+//! y⁺ − g and D = f(y⁺) − f(g), the rate of the fastest motion is λ, with λ⁴ = ‖D_q‖²‖D_v‖²/(‖d_q‖²‖d_v‖²) over
+//! coordinates q and velocities v. This is exact for an oscillation, whatever its phase. An oscillation whose
+//! acceleration has the amplitude A makes D_v = P(h|λ|) A, where P is a polynomial of the method.
 //!
 //! **What is controlled.** Let η be the h|λ| at which an undamped oscillation begins to grow by 10⁻⁵ in a step, but at
-//! most π, half a period: what oscillates faster is not seen between the ends of the step. Below η an oscillation is a part of the
-//! motion, and is resolved as the tolerances ask. From η on it must stay below the share s of the largest acceleration so far:
+//! most π, half a period: a faster oscillation cannot be recognized from the ends of the step. Below η an oscillation
+//! is a part of the motion, and is resolved as the tolerances ask. From η on it must stay below the share s of the
+//! largest acceleration so far:
 //!
 //! x = √(|D_v|² + λ²|d_v|²) (h|λ|/η)⁸ / (P(η) s · largest) ≤ 1
 //!
-//! The root is the amplitude of D_v, whatever the phase.
-//! The power makes x small below η, and makes it fall like the eleventh power of the step for methods of order 5, so √x goes to the controller as an
-//! error does.
+//! The root is the amplitude of D_v, whatever the phase. The power makes x small below η, and makes x fall like the
+//! eleventh power of the step for methods of order 5. So √x is given to the controller like an error.
 //!
-//! **The largest acceleration.** At rest accelerations are 0, but the forces that cancel are not. So the largest acceleration so far, for velocities and
-//! for angular velocities each, includes that of each effect by itself. With velocities ±w, all of one kind, effect i has the power ±Q_i·w and the
-//! same from what is even in velocities, so |Q_i·w|/(w·S w) is an acceleration that it causes. These are evaluated when a step is to be rejected for
-//! the first, second, fourth, eighth, … time, and not before.
+//! **The largest acceleration.** At rest accelerations are 0, but the forces that cancel are not. So the largest
+//! acceleration so far, for velocities and for angular velocities each, includes that of each effect alone. With
+//! velocities ±w, all of one kind, effect i has the powers ±Q_i·w plus a part that is even in the velocities, so
+//! |Q_i·w|/(w·S w) is an acceleration that the effect causes. The effects are evaluated only when a step is to be
+//! rejected because of x for the first, second, fourth, eighth, … time.
 //!
-//! **Implicit steps** damp what is too fast for them, and have no such stages. The slope of their interpolant is compared with the derivative instead
-//! ([`Accelerations::share`]): the two differ by the acceleration of a decay or an oscillation that is still there.
+//! **Implicit steps** damp motions that are too fast for them, and have no two stages at their end. Instead, the slope
+//! of their interpolant is compared with the derivative ([`Accelerations::share`]): the two differ by the acceleration
+//! of a decay or an oscillation that is still present.
 //!
-//! **Where it does not help.** If x is due to rounding, or to a force that jumps, shorter steps do not make it smaller. If x is still more than half of
-//! what it was when the step is at most half as long, the step is accepted, and x is left out for [`ASLEEP`] steps.
-//! Where the error allowed is not above [`RESOLVED`] roundings of the coordinates, no promise can be kept, and x is left out.
+//! **When shorter steps do not help.** If x is due to rounding, or to a force that jumps, shorter steps do not make it
+//! smaller. If x is still more than half of its former value when the step is at most half as long, the step is
+//! accepted, and accelerations are not controlled for [`ASLEEP`] steps. If the allowed error is not above [`RESOLVED`]
+//! roundings of the coordinates, it cannot be guaranteed, and accelerations are not controlled.
 
 use super::Formula;
 use super::control::Roots;
@@ -35,22 +40,24 @@ use crate::real::{Mask, Number};
 use crate::{Dynamics, Info, Real, StateKind};
 use core::f64::consts::PI;
 
-/// Steps for which accelerations are left out once a shorter step did not help.
+/// Steps for which accelerations are not controlled after a shorter step did not help.
 const ASLEEP: f64 = 32.0;
-/// Roundings of a state by which two results must differ, to tell of anything else.
+/// Roundings of a state by which two results must differ, for the difference to be more than rounding.
 const ROUNDINGS: f64 = 16.0;
-/// Roundings of coordinates that the allowed error must be above: where fewer of them make as large an acceleration, no promise can be kept, and a
-/// motion that is half controlled would look as if it were right.
+/// Least allowed error, in roundings of the coordinates: below it the error cannot be guaranteed, and a motion that is
+/// half controlled would look correct.
 const RESOLVED: f64 = 300.0;
 
 /// The h|λ| below which an implicit step resolves the fastest motion.
 const RESOLVED_REACH: f64 = 0.5;
-/// What the control of explicit steps makes of the share allowed (docs of [`Tolerances`](crate::Tolerances)).
+/// Factor between the allowed share and the share that the control of explicit steps reaches (see
+/// [`Tolerances`](crate::Tolerances)).
 const AIM: f64 = 3.0;
-/// The largest share of accelerations that implicit steps may lose, whatever the tolerances: the accuracy promised for outputs.
+/// The largest share of accelerations that implicit steps may lose, whatever the tolerances: the accuracy promised for
+/// outputs.
 const LOST: f64 = 1e-3;
 
-/// η and P(η) of a method; `None` of one that has no two stages at the end of a step, or takes fixed steps only.
+/// η and P(η) of a method; `None` for a method that has no two stages at the end of a step, or takes fixed steps only.
 pub(crate) const fn limits(formula: Formula) -> Option<[f64; 2]> {
     match formula {
         Formula::Heun => Some([0.0946, 0.00447]),
@@ -68,7 +75,7 @@ pub(crate) fn kind(info: &Info, index: usize) -> usize {
     usize::from(info.kind(index) == StateKind::AngularVelocity)
 }
 
-/// How two results of a step differ.
+/// The differences of two results of a step.
 pub(crate) struct EndDifference<P> {
     /// Σ d², Σ D², Σ y², of coordinates and of velocities.
     sums: [[P; 3]; 2],
@@ -77,7 +84,7 @@ pub(crate) struct EndDifference<P> {
 }
 
 impl<P: Number> EndDifference<P> {
-    /// Without any entry.
+    /// No entries yet.
     #[inline(always)]
     pub fn new() -> Self {
         let nought = P::from_f64(0.0);
@@ -119,7 +126,7 @@ impl<P: Number> EndDifference<P> {
         let mut product = (h * h) * (h * h);
         let mut tells = P::Mask::of_lanes(0).not();
         for [apart, rates, size] in self.sums {
-            // below the range of squares nothing can be told
+            // squares of smaller differences would underflow
             tells = tells.and((least * size + c(1e-250)).lt(apart));
             product = product * (rates / P::select(tells, apart, c(1.0)));
         }
@@ -127,9 +134,10 @@ impl<P: Number> EndDifference<P> {
     }
 }
 
-/// How two results of a step differ, entry by entry: Σ d² and Σ D² of the entries that differ by more than rounding, of coordinates, of velocities, and of
-/// continuous states of laws, which follow a first-order equation. A light part has a small fast motion beside the large slow one of what it is fixed to, so
-/// rounding of a large entry says nothing of a small one.
+/// The differences of two results of a step, without rounding: Σ d² and Σ D² over the entries that differ by more than
+/// rounding, for coordinates, for velocities, and for continuous states of laws, which follow a first-order equation. A
+/// light part has a small fast motion beside the large slow motion of its carrier, so rounding of a large entry must
+/// not hide a small one.
 #[derive(Default)]
 pub(crate) struct Fastest([[f64; 2]; 3]);
 
@@ -143,8 +151,8 @@ impl Fastest {
         }
     }
 
-    /// (h|λ|)⁴ of a step of length `h`, with |λ|² = ‖D_q‖‖D_v‖/(‖d_q‖‖d_v‖), or |λ| = ‖D‖/‖d‖ of states of laws, whichever is more; 0 where the
-    /// results differ by rounding alone.
+    /// (h|λ|)⁴ of a step of length `h`, with |λ|² = ‖D_q‖‖D_v‖/(‖d_q‖‖d_v‖), or |λ| = ‖D‖/‖d‖ of states of laws,
+    /// whichever is more; 0 where the results differ by rounding alone.
     pub fn reach(&self, h: f64) -> f64 {
         let [coordinates, velocities, laws] = self.0.map(|[apart, rates]| {
             let squared = h * h * rates / apart;
@@ -154,27 +162,27 @@ impl Fastest {
     }
 }
 
-/// The control of accelerations of a single run or of each lane.
+/// The control of accelerations in a single run or in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Accelerations<P: Number> {
-    /// The share of the largest acceleration by which they may be wrong.
+    /// The share of the largest acceleration by which accelerations may be wrong.
     share: f64,
     limits: Option<[f64; 2]>,
-    /// The largest so far, of either kind.
+    /// The largest acceleration so far, of either kind.
     largest: [P; 2],
     /// x of the last try of this step.
     x: P,
     /// x and the length of the first try of this step that was rejected for x; of length 0 if there was none.
     before: [P; 2],
-    /// Steps for which accelerations are left out.
+    /// Steps left for which accelerations are not controlled.
     asleep: P,
-    /// How often a step was to be rejected for them, and how often it has to be until effects are evaluated again.
+    /// How often a step was to be rejected because of x, and the count at which effects are evaluated again.
     due: P,
     next: P,
 }
 
 impl<P: Number> Accelerations<P> {
-    /// Before a run by this method, with the share of the largest acceleration that is allowed.
+    /// The control before a run by this method, with the share of the largest acceleration that is allowed.
     pub fn new(formula: Formula, share: f64) -> Self {
         let c = P::from_f64;
         Accelerations {
@@ -189,12 +197,12 @@ impl<P: Number> Accelerations<P> {
         }
     }
 
-    /// Whether they are controlled at all: not where they may be wrong by as much as they are.
+    /// True if accelerations are controlled: not if they may be wrong by as much as their size.
     pub fn controlled(&self) -> bool {
         self.limits.is_some() && self.share < 1.0
     }
 
-    /// Runs begin in these lanes.
+    /// Resets these lanes for new runs.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub fn reset(&mut self, lanes: P::Mask) {
@@ -210,8 +218,8 @@ impl<P: Number> Accelerations<P> {
         put(1.0, &mut self.next);
     }
 
-    /// The error of the accelerations of a step of length `h`, over what is allowed; a good step has at most 1. `level` is what tolerances are
-    /// multiplied by.
+    /// The error of the accelerations of a step of length `h`, over what is allowed; a good step has at most 1. `level`
+    /// is the factor on the tolerances.
     #[inline(always)]
     pub fn error<R: Roots<P>>(
         &mut self,
@@ -229,7 +237,7 @@ impl<P: Number> Accelerations<P> {
         let rounding =
             c(RESOLVED * epsilon) * rate_squared * R::root(difference.sums[0][2], [2, 1]);
         let allowed = c(polynomial * self.share) * level;
-        // before effects are evaluated the largest acceleration may be far too small
+        // before effects have been evaluated, the largest acceleration known may be far too small
         let unknown = self.next.lt(c(1.5));
         let mut share_squared = c(0.0);
         for (so_far, of_kind) in self.largest.iter().zip(difference.accelerations) {
@@ -251,7 +259,7 @@ impl<P: Number> Accelerations<P> {
         P::select(counts, R::root(self.x, [2, 1]), c(0.0))
     }
 
-    /// Where a step of half the length made x smaller, or was not tried.
+    /// True where a step of half the length made x smaller, or was not tried.
     #[inline(always)]
     fn helps(&self, h: P) -> P::Mask {
         let half = P::from_f64(0.5);
@@ -259,7 +267,7 @@ impl<P: Number> Accelerations<P> {
         self.x.lt(half * x).or((half * length).lt(h))
     }
 
-    /// In which of these lanes, whose steps are to be rejected, the effects are to be evaluated first.
+    /// The lanes, among these whose steps are to be rejected, in which the effects must be evaluated first.
     #[inline(always)]
     pub fn asks(&mut self, rejected: P::Mask) -> P::Mask {
         let c = P::from_f64;
@@ -269,7 +277,7 @@ impl<P: Number> Accelerations<P> {
         asks
     }
 
-    /// Takes the largest accelerations that effects cause in these lanes.
+    /// Notes the largest accelerations that effects cause in these lanes.
     #[inline(always)]
     pub fn learn(&mut self, lanes: P::Mask, found: [P; 2]) {
         for (largest, part) in self.largest.iter_mut().zip(found) {
@@ -287,12 +295,12 @@ impl<P: Number> Accelerations<P> {
         self.due = c(0.0);
     }
 
-    /// Takes accelerations that were seen.
+    /// Notes accelerations that occurred.
     pub fn see(&mut self, found: [P; 2]) {
         self.learn(P::Mask::of_lanes(0).not(), found);
     }
 
-    /// Leaves a try of a step of length `h`: where it was `accepted`, and where it was `rejected` for x.
+    /// Finishes a try of a step of length `h`: where it was `accepted`, and where it was `rejected` because of x.
     #[inline(always)]
     pub fn leave(
         &mut self,
@@ -317,8 +325,9 @@ impl<P: Number> Accelerations<P> {
 }
 
 impl Accelerations<f64> {
-    /// What the slope of an implicit step is wrong by in a velocity, over what is allowed. `reach` is h|λ| of the step: below [`RESOLVED_REACH`] the
-    /// fastest motion is resolved as the tolerances ask. Rounding makes `noise` of the acceleration.
+    /// The error of the slope of an implicit step in a velocity, over what is allowed. `reach` is h|λ| of the step:
+    /// below [`RESOLVED_REACH`] the fastest motion is resolved as the tolerances ask. `noise` is the effect of rounding
+    /// on the acceleration.
     pub fn share(&self, kind: usize, [apart, noise]: [f64; 2], reach: f64) -> f64 {
         let largest = match self.largest[kind] {
             none if none <= 0.0 => 1.0,
@@ -332,8 +341,8 @@ impl Accelerations<f64> {
     }
 }
 
-/// The largest acceleration that an effect causes by itself at (`t`, `y`), for velocities and angular velocities. `state` is room for a state, and each
-/// of `powers` for the powers of all effects.
+/// The largest acceleration that an effect causes by itself at (`t`, `y`), for velocities and angular velocities.
+/// `state` is room for a state, and each of `powers` for the powers of all effects.
 pub(crate) fn effect_accelerations<T: Real>(
     model: &dyn Dynamics<T>,
     t: T,
@@ -354,7 +363,7 @@ pub(crate) fn effect_accelerations<T: Real>(
         let mut at = |sign: f64, powers: Option<&mut [T]>| {
             let mut share = 0.0;
             for i in velocities.clone() {
-                // no two velocities are alike, so that the power of a force between two bodies is not 0
+                // all velocities differ, so that the power of a force between two bodies is not 0
                 share += GOLDEN;
                 let w = sign * (0.5 + share % 1.0);
                 state[i] = T::from_f64(if kind(info, i) == which { w } else { 0.0 });

@@ -1,10 +1,13 @@
-//! Steps of one length by the method of Adams and Bashforth of order 6. It uses the derivatives of the last six steps: one evaluation a step.
+//! Steps of one length by the method of Adams and Bashforth of order 6. It uses the derivatives of the last six steps:
+//! one evaluation a step.
 //!
-//! y⁺ = y + h Σ bⱼ fⱼ,  f₀ = f(y), fⱼ = f of j steps before,  b = (4277, −7923, 9982, −7298, 2877, −475) / 1440   \[Bashforth and Adams 1883\]
+//! y⁺ = y + h Σ bⱼ fⱼ, f₀ = f(y), fⱼ = f of j steps before, b = (4277, −7923, 9982, −7298, 2877, −475) / 1440
+//! \[Bashforth and Adams 1883\]
 //!
-//! This is the integral, over the step ahead, of the polynomial through six derivatives. It is exact where y is a polynomial of degree six;
-//! otherwise the error is 19087/60480 h⁷ y⁽⁷⁾. The first five steps use Dormand & Prince's method of order 8. In addition a step rounds an entry
-//! by ½ ε|y| to first order in h, and rounding errors of the derivatives count Σ|bⱼ| = 23 times.
+//! This is the integral, over the step ahead, of the polynomial through six derivatives. It is exact where y is a
+//! polynomial of degree six; otherwise the error is 19087/60480 h⁷ y⁽⁷⁾. The first five steps use Dormand & Prince's
+//! method of order 8. In addition a step rounds an entry by ½ ε|y| to first order in h, and rounding errors of the
+//! derivatives count Σ|bⱼ| = 23 times.
 
 use super::{Rate, march_dop853};
 use crate::{Change, Model, Real, Task, Vector};
@@ -15,15 +18,15 @@ const ORDER: usize = 6;
 const WEIGHTS: [f64; ORDER] = [4277.0, -7923.0, 9982.0, -7298.0, 2877.0, -475.0];
 const OVER: f64 = 1440.0;
 
-/// Takes steps as [`march()`](super::march()) does, by the method of Adams and Bashforth of order 6. Each step takes one evaluation; the first
-/// five steps, which are of order 8, take 13 each.
+/// Takes steps as [`march()`](super::march()) does, by the method of Adams and Bashforth of order 6. Each step takes
+/// one evaluation; the first five steps, which are of order 8, take 13 each.
 ///
-/// It is for smooth motions without stiff forces, in many steps that have to be short. Where steps may be long,
-/// [`march_dop853`] takes fewer evaluations in all.
+/// This method is for smooth motions without stiff forces, in many steps that have to be short. Where steps may be
+/// long, [`march_dop853`] takes fewer evaluations in all.
 ///
-/// Stability: a motion that decays faster than 2/(h Σ|bⱼ|) = 0.0877/h grows instead (2.78/h by `march`). So does an oscillation faster than
-/// 0.114/h (2.8/h), because another root of the recurrence leaves the unit circle. Slower undamped oscillations grow by 0.8 (ωh)⁸ in a step. A
-/// kink costs the method its order for six steps.
+/// Stability: a motion that decays faster than 2/(h Σ|bⱼ|) = 0.0877/h grows instead (2.78/h by `march`). So does an
+/// oscillation faster than 0.114/h (2.8/h), because another root of the recurrence leaves the unit circle. Slower
+/// undamped oscillations grow by 0.8 (ωh)⁸ in a step. A kink costs the method its order for six steps.
 ///
 /// ```
 /// # use bryant_runtime::{Real, Model, integrate::march_adams};
@@ -35,8 +38,8 @@ const OVER: f64 = 1440.0;
 /// ```
 ///
 /// # Panics
-/// With a model that has discrete states: switches, permanent sets, the charts of Bryant angles. Derivatives from before a change of them belong
-/// to another motion.
+/// With a model that has discrete states: switches, permanent sets, the charts of Bryant angles. Derivatives from
+/// before a change of them belong to another motion.
 #[inline(always)]
 pub fn march_adams<T: Real, M: Model<T>>(model: &M, t: T, h: T, steps: u32, y: &mut M::State) -> T {
     assert!(

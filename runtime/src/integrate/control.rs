@@ -1,16 +1,18 @@
-//! Step size control: h⁺ = h · s · (err₋/err³)^(1/5k), the controller PI.4.2 (Söderlind 2003) for an error estimate that falls like h^k.
+//! Step size control: h⁺ = h · s · (err₋/err³)^(1/5k), the controller PI.4.2 (Söderlind 2003) for an error estimate
+//! that falls like h^k.
 //!
-//! err is the largest ratio of estimated error to tolerance, and err₋ that of the step before. The proportional part keeps the step from oscillating
-//! where stability, not accuracy, limits it, as in stiff contacts. Only basic arithmetic is used, so a run takes the same steps on every machine if
-//! the model gives the same derivatives.
+//! err is the largest ratio of estimated error to tolerance, and err₋ that of the step before. The proportional part
+//! keeps the step from oscillating where stability, not accuracy, limits it, as in stiff contacts. Only basic
+//! arithmetic is used, so a run takes the same steps on every machine if the model gives the same derivatives.
 
 use super::workspace::Workspace;
 use super::{Evaluator, combine};
 use crate::real::{Mask, Number};
 use crate::{Info, Real, StateKind};
 
-/// The error allowed in one step, for each kind of entry of the state. For velocities and states of laws it is absolute + relative · |y|. For
-/// positions and angles it is the absolute part alone, because their size says only where the origin is and how often something turned.
+/// The error allowed in one step, for each kind of entry of the state. For velocities and states of laws it is absolute
+/// + relative · |y|. For positions and angles it is the absolute part alone, because their size says only where the
+/// origin is and how often something turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
     /// Relative part, below 1.
@@ -25,8 +27,9 @@ pub struct Tolerances {
     pub angular_velocities: f64,
     /// Absolute part of states of force laws, in their own units.
     pub laws: f64,
-    /// Share of the largest acceleration, linear or angular, up to which an oscillation may grow that is too fast for the steps; from 1 on they are not controlled. Methods
-    /// with two stages at the end of a step control it: all adaptive ones but `rodas5`, which damps such oscillations.
+    /// Share of the largest acceleration, linear or angular, up to which an oscillation may grow that is too fast for
+    /// the steps; with 1 or more there is no control. All adaptive methods except `rodas5` have the two stages at the
+    /// end of a step that this control needs; `rodas5` damps such oscillations.
     pub accelerations: f64,
 }
 
@@ -40,14 +43,16 @@ impl Default for Tolerances {
 /// The smallest relative tolerance of a number, because of rounding: 16 ε.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// The share allowed of the largest acceleration over the relative tolerance. The controller aims below it: a motion at the limit settles where its
-/// error is 0.95^12.5 = 0.53. Accelerations count by a root, so it settles at 0.28 of the share: a little less than 10⁴ tolerances.
+/// The share allowed of the largest acceleration over the relative tolerance. The controller aims below it: a motion at
+/// the limit settles where its error is 0.95^12.5 = 0.53. Accelerations count by a root, so it settles at 0.28 of the
+/// share: a little less than 10⁴ tolerances.
 const ACCELERATIONS: f64 = 3e4;
 
 impl Tolerances {
-    /// A relative tolerance r and the absolute ones that go with it: r/10 for positions \[m\] and angles \[rad\], because bodies move by decimetres,
-    /// and r for velocities. 10⁻⁷ stands for 10 nm and 0.002 arc seconds. Accelerations get 3·10⁴ r, of which the
-    /// controller uses a third: at 10⁻⁷ it is 0.1 %, the accuracy promised for outputs.
+    /// A relative tolerance r and the absolute ones that go with it: r/10 for positions \[m\] and angles \[rad\],
+    /// because bodies move by decimetres, and r for velocities. 10⁻⁷ stands for 10 nm and 0.002 arc seconds.
+    /// Accelerations get 3·10⁴ r, of which the controller uses a third: at 10⁻⁷ it is 0.1 %, the accuracy promised for
+    /// outputs.
     pub const fn of(relative: f64) -> Tolerances {
         Tolerances {
             relative,
@@ -135,7 +140,8 @@ impl<'w, T: Real> Allowed<'w, T> {
         each.map(|((relative, absolute), magnitude)| relative.mul_add(magnitude, *absolute))
     }
 
-    /// The ratio of estimated to allowed error of each entry, for a step from `y` to `end`; NaN where `end` is not finite.
+    /// The ratio of estimated to allowed error of each entry, for a step from `y` to `end`; NaN where `end` is not
+    /// finite.
     #[inline(always)]
     fn ratios(&self, y: &[T], end: &[T], estimate: &[T]) -> impl Iterator<Item = T> {
         let ends = || y.iter().zip(end);
@@ -144,10 +150,11 @@ impl<'w, T: Real> Allowed<'w, T> {
         errors.map(|((scale, estimate), end)| estimate.abs() / scale + end.taint())
     }
 
-    /// The largest ratio of estimated to allowed error over all entries (and lanes) of a step from `y` to `end`; `None` where something is not
-    /// finite. A good step has at most 1.
+    /// The largest ratio of estimated to allowed error over all entries (and lanes) of a step from `y` to `end`; `None`
+    /// where something is not finite. A good step has at most 1.
     ///
-    /// It is the largest and not the mean, because one element with a large error must not hide among thirty quiet ones.
+    /// The largest and not the mean ratio counts, because one element with a large error must not hide among thirty
+    /// quiet ones.
     pub fn error(&self, y: &[T], end: &[T], estimate: &[T]) -> Option<f64> {
         let (mut worst, mut sum) = (T::from_f64(0.0), T::from_f64(0.0));
         for ratio in self.ratios(y, end, estimate) {
@@ -181,14 +188,14 @@ impl<'w, T: Real> Allowed<'w, T> {
     }
 }
 
-/// Safety factor: the step aims a little below the tolerance.
+/// Safety factor: the step aims slightly below the tolerance.
 const SAFETY: f64 = 0.95;
 /// Largest factor on the step in one go, up or down.
 const LIMIT: f64 = 5.0;
 /// Smaller errors count as this one: they only say that the step may grow.
 const SMALLEST_ERROR: f64 = 1e-10;
 
-/// How roots are taken.
+/// A way to compute roots.
 pub(crate) trait Roots<P> {
     /// x^(1/(a b)) of a number that is not negative. To be `#[inline(always)]`.
     fn root(x: P, parts: [u32; 2]) -> P;
@@ -262,8 +269,8 @@ impl<P: Number> Controller<P> {
         self.just_rejected = self.just_rejected.and(lanes.not());
     }
 
-    /// Factor on the step after one with these errors. Of the lanes in `taken`, the step was accepted in `accepted` and rejected in the others. Lanes
-    /// outside of `taken` do not change.
+    /// Factor on the step after one with these errors. Of the lanes in `taken`, the step was accepted in `accepted` and
+    /// rejected in the others. Lanes outside of `taken` do not change.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub fn factor<R: Roots<P>>(&mut self, error: P, accepted: P::Mask, taken: P::Mask) -> P {
@@ -308,7 +315,8 @@ pub(crate) fn first_guess<P: Number>([d0, d1]: [P; 2], largest: P) -> P {
     P::select(few, c(1e-6), quotient).min(largest)
 }
 
-/// The first step of a method of this order, by that guess and by the sizes of ẏ and of its change over the guess. Positive and at most `largest`.
+/// The first step of a method of this order, by that guess and by the sizes of ẏ and of its change over the guess.
+/// Positive and at most `largest`.
 #[inline(always)]
 pub(crate) fn first_length<P: Number, R: Roots<P>>(
     guess: P,
@@ -326,8 +334,9 @@ pub(crate) fn first_length<P: Number, R: Roots<P>>(
     P::select(c(0.0).lt(h), h, largest.min(c(1e-6)))
 }
 
-/// The first step of a method of this order from `y` at time `t` with the derivative `k1`. It compares y, ẏ and ÿ (Hairer, Nørsett & Wanner,
-/// *Solving ODEs I*, II.4) and takes one evaluation. The result is positive and at most `largest`. The last two slices are scratch.
+/// The first step of a method of this order from `y` at time `t` with the derivative `k1`. It compares y, ẏ and ÿ
+/// (Hairer, Nørsett & Wanner, *Solving ODEs I*, II.4) and takes one evaluation. The result is positive and at most
+/// `largest`. The last two slices are scratch.
 pub(crate) fn first_step<T: Real>(
     f: &mut Evaluator<'_, T>,
     t: f64,

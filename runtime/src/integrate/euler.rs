@@ -1,7 +1,7 @@
-//! A step of the semi-implicit Euler method:  v⁺ = v + h v̇(t, q, v),  q⁺ = q + h q̇(q, v⁺);  states of force laws like v.
+//! A step of the semi-implicit Euler method: v⁺ = v + h v̇(t, q, v), q⁺ = q + h q̇(q, v⁺); states of force laws like v.
 //!
-//! The order is 1, with one evaluation a step. If energy is conserved and q̇ = v, the method is symplectic: it conserves a
-//! nearby energy. So programs that need no more than a picture often use it.
+//! The order is 1, with one evaluation a step. If energy is conserved and q̇ = v, the method is symplectic: it
+//! conserves a nearby energy. So programs that need no more than a picture often use it.
 
 use super::workspace::Workspace;
 use super::{Evaluator, Span, Stepper, combine};

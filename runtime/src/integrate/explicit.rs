@@ -10,8 +10,8 @@ use core::marker::PhantomData;
 /// A step of the method of a tableau.
 pub(crate) struct Explicit<'w, T, B> {
     span: Span<'w, T>,
-    /// The derivatives k₁, k₂, … one after the other. The first is the derivative at the beginning, which is given. Behind those of the
-    /// step stand those that only the interpolant needs.
+    /// The derivatives k₁, k₂, … one after the other. The first is the derivative at the beginning, which is given.
+    /// Behind those of the step stand those that only the interpolant needs.
     k: &'w mut [T],
     /// The state of a stage.
     stage: &'w mut [T],
@@ -55,7 +55,8 @@ impl<'w, T: Real, B: Tableau> Explicit<'w, T, B> {
     /// Evaluates the stages from `from` to before `to`.
     #[inline(always)]
     fn stages(&mut self, f: &mut Evaluator<'_, T>, from: usize, to: usize) {
-        // written out, so that the compiler knows the coefficients of every stage; those that the method lacks are not compiled
+        // written out, so that the compiler knows the coefficients of every stage; those that the method lacks are not
+        // compiled
         macro_rules! stages {
             ($($i:literal)*) => {
                 $(if const { $i < B::ALL } && from <= $i && $i < to { self.stage::<$i>(f); })*
@@ -105,7 +106,8 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
         if !second.is_empty() {
             let h = self.span.h;
             let state = errors.len();
-            // |e|²/√(e² + ē²/100): of the order of e²/ē (Hairer, Nørsett & Wanner, Solving ODEs I, II.10), entry by entry
+            // |e|²/√(e² + ē²/100): of the order of e²/ē (Hairer, Nørsett & Wanner, Solving ODEs I, II.10), entry by
+            // entry
             let tiny = T::from_f64(f64::from(f32::MIN_POSITIVE));
             for (i, error) in errors.iter_mut().enumerate() {
                 let mut coarse = T::from_f64(0.0);

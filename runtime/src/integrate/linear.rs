@@ -1,9 +1,9 @@
 //! Solves A x = b by Gaussian elimination.
 //!
-//! The matrix is A = I/(hγ) − ∂ẏ/∂y. For a mechanism its first rows come from q̇ = K(q) v and are nearly diagonal. They are eliminated
-//! first, without exchange of rows. This leaves the system of the velocities, I/(hγ) − ∂v̇/∂v − hγ ∂v̇/∂q, which is half as large and
-//! which a structural engineer would write. There the pivot is the largest entry of its column. Zeros are skipped, so the first part
-//! costs no more than the sparse q̇.
+//! The matrix is A = I/(hγ) − ∂ẏ/∂y. For a mechanism its first rows come from q̇ = K(q) v and are nearly diagonal. They
+//! are eliminated first, without exchange of rows. This leaves the system of the velocities, I/(hγ) − ∂v̇/∂v − hγ
+//! ∂v̇/∂q, which is half as large and which a structural engineer would write. There the pivot is the largest entry of
+//! its column. Zeros are skipped, so the first part costs no more than the sparse q̇.
 
 use super::workspace::Workspace;
 use crate::Real;
@@ -12,8 +12,8 @@ use crate::Real;
 pub(crate) struct Factored<'w, T> {
     /// The entries by rows.
     rows: &'w mut [T],
-    /// The row that row i was exchanged with when it was eliminated. The index is stored as a scalar, so that all memory of a run is of
-    /// one type; every scalar is exact below 2²⁴.
+    /// The row that row i was exchanged with when it was eliminated. The index is stored as a scalar, so that all
+    /// memory of a run is of one type; every scalar is exact below 2²⁴.
     exchanged: &'w mut [T],
     /// The first and last columns of the runs of entries of a row that are not zero, one run after the other.
     runs: &'w mut [T],
@@ -30,14 +30,14 @@ fn index<T: Real>(scalar: T) -> usize {
 }
 
 impl<T> Factored<'_, T> {
-    /// Number of scalars of workspace for a matrix of so many rows.
+    /// Number of scalars of workspace for a matrix of this many rows.
     pub const fn length(order: usize) -> usize {
         order * order + 2 * order + 1
     }
 }
 
 impl<'w, T: Real> Factored<'w, T> {
-    /// Room for a matrix of so many rows; nothing is factored yet.
+    /// Workspace for a matrix of this many rows; nothing is factored yet.
     pub fn new(order: usize, workspace: &mut Workspace<'w, T>) -> Self {
         Factored {
             rows: workspace.part(order * order),
@@ -49,8 +49,8 @@ impl<'w, T: Real> Factored<'w, T> {
         }
     }
 
-    /// Factors diagonal · I − `matrix`. Only the first `size` rows and columns count. The first `fixed` pivots stay in their places. For
-    /// a singular matrix the results are not finite.
+    /// Factors diagonal · I − `matrix`. Only the first `size` rows and columns count. The first `fixed` pivots stay in
+    /// their places. For a singular matrix the results are not finite.
     pub fn factor(&mut self, diagonal: T, matrix: &[T], size: usize, fixed: usize) {
         self.size = size;
         let order = self.order;

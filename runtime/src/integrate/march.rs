@@ -1,29 +1,35 @@
-//! Steps of one length for loops of your own: no samples, no events, no error estimates, and hardly more cost than the evaluations. [`march()`] is
-//! the classical Runge–Kutta method, for short steps. [`march_dop853`] is Dormand & Prince's method of order 8, for long steps.
-//! [`march_adams`](super::march_adams) takes one evaluation a step, for many short steps of a smooth motion.
+//! Steps of equal length for loops of your own: no samples, no events, no error estimates, and hardly more cost than
+//! the evaluations. [`march()`] is the classical Runge–Kutta method, for short steps. [`march_dop853`] is Dormand &
+//! Prince's method of order 8, for long steps. [`march_adams`](super::march_adams) takes one evaluation a step, for
+//! many short steps of a smooth motion.
 //!
-//! **Runge and Kutta.** With the states of the stages Y₁ = y, Y₂ = y + h/2 k₁, Y₃ = y + h/2 k₂, Y₄ = y + h k₃ and kᵢ = f(Yᵢ),
+//! **Runge and Kutta.** With the states of the stages Y₁ = y, Y₂ = y + h/2 k₁, Y₃ = y + h/2 k₂, Y₄ = y + h k₃ and kᵢ =
+//! f(Yᵢ),
 //!
 //! y⁺ = y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄) = Y₃ + ((Z₂ − y) + (Y₄ − Y₃)) / 3,  Z₂ = Y₂ + h/2 k₄
 //!
-//! Derivatives are not stored. Each entry becomes an entry of the next stage's state as soon as it is computed ([`OutputWriter`]), and a step stores four
-//! states, with Z₂ in the place of Y₂. With wide registers, the derivatives of a larger model would not fit into the first cache. When k₄ is known,
-//! the rest is done entry by entry, in one pass with [`Model::normalize`], which divides while states are fetched. Rounding: to first order in h a
-//! step rounds an entry by at most 4/3 ε|y|, where ε is the distance from 1 to the next number: 5/6 because Y₂, Y₃, Y₄ and Z₂ are rounded, and 1/2
-//! for the sum. [`Formula::Rk4`](super::Formula::Rk4) adds four terms one after the other and rounds an entry by at most 2 ε|y|.
+//! Derivatives are not stored. Each entry becomes an entry of the next stage's state as soon as it is computed
+//! ([`OutputWriter`]), and a step stores four states, with Z₂ in the place of Y₂. With wide registers, the derivatives
+//! of a larger model would not fit into the first cache. When k₄ is known, the rest is done entry by entry, in one pass
+//! with [`Model::normalize`], which divides while states are fetched. Rounding: to first order in h a step rounds an
+//! entry by at most 4/3 ε|y|, where ε is the distance from 1 to the next number: 5/6 because Y₂, Y₃, Y₄ and Z₂ are
+//! rounded, and 1/2 for the sum. [`Formula::Rk4`](super::Formula::Rk4) adds four terms one after the other and rounds
+//! an entry by at most 2 ε|y|.
 //!
-//! **Order 8.** The step stores twelve derivatives and combines them as the tableau says ([`Formula::Dop853`](super::Formula::Dop853)).
+//! **Order 8.** The step stores twelve derivatives and combines them as the tableau says
+//! ([`Formula::Dop853`](super::Formula::Dop853)).
 
 use super::tableau::Tableau;
 use super::tableau::dormand_prince::Dop853;
 use super::{Rate, combine_into};
 use crate::{Change, Model, OutputWriter, Real, Task, Vector};
 
-/// Takes `steps` steps of length `h` \[s\] from time `t` \[s\] and state `y`. It leaves the last state in `y` and returns its time \[s\].
+/// Takes `steps` steps of length `h` \[s\] from time `t` \[s\] and state `y`. It leaves the last state in `y` and
+/// returns its time \[s\].
 ///
-/// As in [`simulate`](crate::simulate()), every step ends on the manifold ([`Model::normalize`]) and begins with discrete updates, repeated until
-/// nothing changes ([`Model::renew`]). Steps pass over kinks and events. No check finds a state that is no longer finite, so look at the state. All
-/// lanes have the same time and step.
+/// As in [`simulate`](crate::simulate()), every step ends on the manifold ([`Model::normalize`]) and begins with
+/// discrete updates, repeated until nothing changes ([`Model::renew`]). Steps pass over kinks and events. No check
+/// finds a state that is no longer finite, so look at the state. All lanes have the same time and step.
 ///
 /// ```
 /// # use bryant_runtime::{Real, Model, integrate::march};
@@ -105,8 +111,9 @@ impl<T: Real, M: Model<T>> Task for March<'_, T, M, M::State> {
 
 /// Takes steps as [`march()`] does, by Dormand & Prince's method of order 8, twelve evaluations each.
 ///
-/// Where a motion is smooth, its steps may be many times as long as those of [`march()`] for the same error. Across a kink it gains nothing. It keeps
-/// thirteen states on the stack: half a megabyte for a large model in wide registers. Coefficients: [`Formula::Dop853`](super::Formula::Dop853).
+/// Where a motion is smooth, its steps may be many times as long as those of [`march()`] for the same error. Across a
+/// kink nothing is gained. The method keeps thirteen states on the stack: half a megabyte for a large model in wide
+/// registers. Coefficients: [`Formula::Dop853`](super::Formula::Dop853).
 ///
 /// ```
 /// # use bryant_runtime::{Real, Model, integrate::march_dop853};
@@ -179,8 +186,8 @@ impl<T: Real, M: Model<T>> Task for MarchDop853<'_, T, M, M::State> {
     }
 }
 
-/// Repeats the discrete update until nothing changes, because one switch may wait for another. A chain of such switches has at most one link for each
-/// event function.
+/// Repeats the discrete update until nothing changes, because one switch may wait for another. A chain of such switches
+/// has at most one link for each event function.
 #[inline(always)]
 fn renew<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
     if M::INFO.memory.is_empty() {
@@ -195,8 +202,9 @@ fn renew<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
     }
 }
 
-/// Computes to = from + length · f(t, at). `from` and `to` may be the same state, which is then updated in place. A type parameter for this case
-/// would compile the equations twice, and they are larger than the first instruction cache.
+/// Computes to = from + length · f(t, at). `from` and `to` may be the same state, which is then updated in place. A
+/// type parameter for this case would compile the equations twice, and they are larger than the first instruction
+/// cache.
 struct Stage<'a, T, M, S> {
     model: &'a M,
     t: T,
@@ -233,7 +241,8 @@ impl<T: Real, S: Vector<T>> OutputWriter<T> for Ahead<T, S> {
     #[inline(always)]
     #[expect(unsafe_code, reason = "both may be one state")]
     fn put(&mut self, index: usize, rate: T) {
-        // SAFETY: both are states of the step that made this. No reference to the state that is written is kept while a stage runs.
+        // SAFETY: both are states of the step that made this. No reference to the state that is written is kept while a
+        // stage runs.
         unsafe {
             let from = (&*self.from)[index];
             (&mut *self.to)[index] = self.length.mul_add(rate, from);

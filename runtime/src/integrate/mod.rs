@@ -1,8 +1,9 @@
 //! One step of a method for ẏ = f(t, y): the state at its end, its error, and the states inside it.
 //!
-//! Steps of runs work on slices, call the model as [`Dynamics`], and take their memory from a workspace, so they are compiled once for each
-//! scalar. Time and step are `f64` and the same for all lanes; where lanes need different steps, the most demanding lane decides. Every method
-//! is a `Stepper`. The time loop in `simulate` chooses the steps and looks for events.
+//! Steps of runs work on slices, call the model as [`Dynamics`], and take their memory from a workspace, so they are
+//! compiled once for each scalar. Time and step are `f64` and the same for all lanes; where lanes need different steps,
+//! the most demanding lane decides. Every method is a `Stepper`. The time loop in `simulate` chooses the steps and
+//! looks for events.
 //!
 //! | file | what |
 //! |---|---|
@@ -126,12 +127,13 @@ impl Formula {
         }
     }
 
-    /// The largest |hλ|, Re λ ≤ 0, at which the method is stable in some direction of the complex plane. A step above this limit over the
-    /// fastest motion of a scene grows without bound, whatever that motion is. `None` where there is no such limit.
+    /// The largest |hλ|, Re λ ≤ 0, at which the method is stable in some direction of the complex plane. A step above
+    /// this limit over the fastest motion of a scene grows without bound, whatever that motion is. `None` where there
+    /// is no such limit.
     ///
-    /// For explicit Runge–Kutta methods it is the farthest point of |R(z)| = 1 in the left half plane, where R is their stability polynomial
-    /// (Hairer & Wanner, *Solving ODEs II*, IV.2); a test computes it from the tableau. For semi-implicit Euler it is hω of the undamped
-    /// oscillator, and also hc of ẋ = −c x.
+    /// For explicit Runge–Kutta methods the limit is the farthest point of |R(z)| = 1 in the left half plane, where R
+    /// is their stability polynomial (Hairer & Wanner, *Solving ODEs II*, IV.2); a test computes it from the tableau.
+    /// For semi-implicit Euler it is hω of the undamped oscillator, and also hc of ẋ = −c x.
     pub const fn stability_limit(self) -> Option<f64> {
         match self {
             Formula::SemiImplicitEuler => Some(2.0),
@@ -145,8 +147,8 @@ impl Formula {
         }
     }
 
-    /// Whether runs by this method may change to the Rosenbrock method where the scene is stiff: explicit methods that tell how fast the fastest
-    /// motion is by two stages at the end of each step.
+    /// Whether runs by this method may change to the Rosenbrock method where the scene is stiff. Such methods are
+    /// explicit, and have two stages at the end of each step that tell how fast the fastest motion is.
     pub const fn may_switch(self) -> bool {
         acceleration::limits(self).is_some()
     }
@@ -174,7 +176,7 @@ impl fmt::Display for Formula {
     }
 }
 
-/// One step of some method: begun, taken, judged, interpolated.
+/// A step of some method, which is begun, taken, judged and interpolated.
 ///
 /// The value is kept from one step to the next and filled in place. Its memory is a part of the workspace of the run.
 pub(crate) trait Stepper<T: Real> {
@@ -187,7 +189,7 @@ pub(crate) trait Stepper<T: Real> {
     /// # Errors
     /// [`Reason::NoJacobian`], if the method needs a Jacobian and the model has none.
     fn take(&mut self, f: &mut Evaluator<'_, T>, h: f64) -> Result<(), Reason>;
-    /// Where the step begins, its length, and where it ends.
+    /// The start of the step, its length, and its end.
     fn span(&self) -> &Span<'_, T>;
     /// Evaluates the derivative at the end, if the next step begins with it anyway. At most once a step.
     fn finish(&mut self, _: &mut Evaluator<'_, T>) {}
@@ -195,32 +197,35 @@ pub(crate) trait Stepper<T: Real> {
     fn estimate(&mut self, errors: &mut [T]);
     /// Evaluates what [`Stepper::interpolate`] needs beyond the step itself, at most once a step.
     fn complete(&mut self, f: &mut Evaluator<'_, T>);
-    /// The state at t + θh, θ in 0..=1, not normalised. Its order is that of the method or one less. Call [`Stepper::complete`] before.
+    /// The state at t + θh, θ in 0..=1, not normalised. Its order is that of the method or one less. Call
+    /// [`Stepper::complete`] before.
     fn interpolate(&self, theta: f64, inside: &mut [T]);
-    /// Hermite's cubic through the states and derivatives at both ends, at t + θh. Returns `false` for a method whose interpolant uses the
-    /// stages of the step alone. Other interpolants evaluate the model at further states, and a force that acts there and nowhere else spoils
-    /// them. Call [`Stepper::complete`] before.
+    /// Hermite's cubic through the states and derivatives at both ends, at t + θh. Returns `false` for a method whose
+    /// interpolant uses the stages of the step alone. Other interpolants evaluate the model at further states, and a
+    /// force that acts there and nowhere else spoils them. Call [`Stepper::complete`] before.
     fn cubic(&self, _theta: f64, _inside: &mut [T]) -> bool {
         false
     }
-    /// The derivative at the end, if it is known.
+    /// The derivative at the end of the step, if it is known.
     fn end_rate(&self) -> Option<&[T]>;
-    /// Writes a state near the end of the step into `state` and returns the derivative there. Compared with the end, the two tell how fast the
-    /// fastest motion is. The state is that of the last stage at the time of the end, or the beginning. `None` where nobody needs it.
+    /// Writes a state near the end of the step into `state` and returns the derivative there. The two, compared with
+    /// the end, tell how fast the fastest motion is. The state is that of the last stage at the end time, or the start
+    /// of the step. `None` for a step that nothing compares, such as an implicit one.
     fn neighbour(&self, state: &mut [T]) -> Option<&[T]>;
-    /// Whether the method was changed to one that is implicit.
+    /// True while the method is switched to an implicit one.
     fn switched(&self) -> bool {
         false
     }
-    /// Where it was: writes the derivative of the interpolant at t + θh by the time.
+    /// Writes the derivative of the interpolant with respect to time at t + θh, if the step is
+    /// [switched](Stepper::switched).
     fn slope(&self, _theta: f64, _slope: &mut [T]) {}
-    /// Where it was: writes what rounding of the state makes of each entry of the derivative where the step begins. Returns h|λ| of the fastest motion
-    /// there.
+    /// Writes the effect of rounding of the state on each entry of the derivative at the start of a
+    /// [switched](Stepper::switched) step. Returns h|λ| of the fastest motion there.
     fn noise(&self, _noise: &mut [T]) -> f64 {
         0.0
     }
-    /// Hears of an accepted step of this length, which follows this many rejected tries. `reach` is its (h|λ|)⁴ where the step is explicit. Says whether the
-    /// next step is by another formula. Not before [`Stepper::begin`] is another formula used.
+    /// Notes an accepted step of this length, which follows this many rejected tries; `reach` is (h|λ|)⁴ of an explicit
+    /// step. Returns `Some` if the next step uses another formula. The change takes effect with [`Stepper::begin`].
     fn turn(&mut self, _length: f64, _rejected: u64, _reach: f64) -> Option<Turn> {
         None
     }
@@ -316,7 +321,7 @@ impl<'w, T: Real> AnyStepper<'w, T> {
         }
     }
 
-    /// The step as a trait object, whatever its method.
+    /// The step as a trait object.
     pub fn stepper(&mut self) -> &mut dyn Stepper<T> {
         match self {
             AnyStepper::SemiImplicitEuler(step) => step,
@@ -341,12 +346,12 @@ pub(crate) struct Evaluator<'a, T: Real> {
     pub jacobians: u64,
     /// The latest time at which f is evaluated.
     ///
-    /// A step that ends on a kink of a curve must see the curve as it is before the kink. So the time of its last stages is the largest
-    /// floating-point number below the kink.
+    /// A step that ends on a kink of a curve must see the curve as it is before the kink. So the time of its last
+    /// stages is the largest floating-point number below the kink.
     pub latest: f64,
-    /// Whether to look for the first evaluation with a value that is not finite.
+    /// Whether to search for the first evaluation with a value that is not finite.
     pub searching: bool,
-    /// That evaluation, once found.
+    /// The evaluation found, if any.
     pub found: Option<NotFinite>,
     /// The state of that evaluation.
     pub found_at: &'a mut [T],
@@ -426,8 +431,8 @@ impl<T: Real, M: Model<T>> Task for Rate<'_, T, M, M::State> {
     }
 }
 
-/// Writes y + h Σ w_j k_j into `to`. `k` holds one k_j after the other, each as long as `y` and `to`. Weights of 0 cost nothing where the
-/// compiler knows them.
+/// Writes y + h Σ w_j k_j into `to`. `k` holds one k_j after the other, each as long as `y` and `to`. Weights of 0 cost
+/// nothing where the compiler knows them.
 #[inline(always)]
 pub(crate) fn combine<T: Real>(y: &[T], h: f64, weights: &[f64], k: &[T], to: &mut [T]) {
     let length = to.len();
@@ -452,7 +457,8 @@ pub(crate) fn combine<T: Real>(y: &[T], h: f64, weights: &[f64], k: &[T], to: &m
     }
 }
 
-/// [`combine`] for arrays, with a step that may differ between lanes: its products with the weights are rounded to the scalar first.
+/// [`combine`] for arrays, with a step that may differ between lanes: its products with the weights are rounded to the
+/// scalar first.
 #[inline(always)]
 pub(crate) fn combine_into<T: Real, S: Vector<T>>(
     y: &S,

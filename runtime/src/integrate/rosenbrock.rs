@@ -4,12 +4,13 @@
 //!
 //! W u_i = f(t + c_i h, y + Σ_{j<i} a_ij u_j) + Σ_{j<i} C_ij u_j / h + h d_i ∂f/∂t,   y⁺ = y + Σ m_j u_j
 //!
-//! (Hairer & Wanner, *Solving ODEs II*, IV.7). The coefficients are those of Rodas5P (Steinebach, BIT Numer. Math. 63, 2023, as in the
-//! tables of OrdinaryDiffEq.jl). The method has order 5 and is L-stable. Its last stages are those of a stiffly accurate method, so the
-//! last u is the difference to an embedded result of order 4. The interpolant of order 4 needs no further evaluations.
+//! (Hairer & Wanner, *Solving ODEs II*, IV.7). The coefficients are those of Rodas5P (Steinebach, BIT Numer. Math. 63,
+//! 2023, as in the tables of OrdinaryDiffEq.jl). The method has order 5 and is L-stable. Its last stages are those of a
+//! stiffly accurate method, so the last u is the difference to an embedded result of order 4. The interpolant of order
+//! 4 needs no further evaluations.
 //!
-//! The model gives J and ∂f/∂t ([`Dynamics::jacobian`](crate::Dynamics::jacobian)). J and W have as many rows and columns as the state has
-//! entries; both are kept in the workspace.
+//! The model gives J and ∂f/∂t ([`Dynamics::jacobian`](crate::Dynamics::jacobian)). J and W have as many rows and
+//! columns as the state has entries; both are kept in the workspace.
 
 use super::linear::Factored;
 use super::workspace::Workspace;
@@ -127,7 +128,8 @@ const D: [f64; STAGES] = [
     0.0,
     0.0,
 ];
-/// The part of the interpolant beyond the straight line through both ends: θ(1−θ)(h₁ + θ(h₂ + θ h₃)), weights of the u_j.
+/// The part of the interpolant beyond the straight line through both ends: θ(1−θ)(h₁ + θ(h₂ + θ h₃)), weights of the
+/// u_j.
 const H: [[f64; STAGES]; 3] = [
     [
         25.948786856663858,
@@ -218,7 +220,7 @@ impl<'w, T: Real> Rosenbrock<'w, T> {
         self.rate
     }
 
-    /// Whether ∂f/∂y is that at the beginning.
+    /// True if ∂f/∂y has been evaluated at the start of this step.
     pub fn knows_jacobian(&self) -> bool {
         self.has_jacobian
     }
@@ -228,7 +230,7 @@ impl<'w, T: Real> Rosenbrock<'w, T> {
         self.jacobian
     }
 
-    /// Writes what rounding of the state at the beginning makes of each entry of f: ε Σ |∂f/∂y_j| |y_j|.
+    /// Writes the effect of rounding of the state at the start on each entry of f: ε Σ |∂f/∂y_j| |y_j|.
     pub fn rounded(&self, noise: &mut [T]) {
         let y = &*self.span.y;
         let epsilon = T::from_f64(epsilon_of::<T>());
@@ -241,7 +243,7 @@ impl<'w, T: Real> Rosenbrock<'w, T> {
         }
     }
 
-    /// Writes the derivative of the interpolant at t + θh by the time.
+    /// Writes the derivative of the interpolant with respect to time at t + θh.
     pub fn derive(&self, theta: f64, slope: &mut [T]) {
         slope.fill(T::from_f64(0.0));
         for (j, weight) in slopes(theta).iter().enumerate() {
@@ -374,8 +376,8 @@ fn slopes(theta: f64) -> [f64; STAGES] {
     })
 }
 
-/// α, Γ, and the weights b(θ) of the method in the form of Hairer & Wanner, whose order conditions are known: Γ⁻¹ = I/γ − C, α = a Γ,
-/// b = m Γ.
+/// α, Γ, and the weights b(θ) of the method in the form of Hairer & Wanner, whose order conditions are known: Γ⁻¹ = I/γ
+/// − C, α = a Γ, b = m Γ.
 #[cfg(test)]
 pub(crate) mod original {
     use super::{A, C, GAMMA, STAGES, weights};

@@ -1,15 +1,17 @@
-//! A step of an explicit method, or of the Rosenbrock method for as long as the scene is stiff.
+//! A stepper that uses an explicit method, or the Rosenbrock method for as long as the scene is stiff.
 //!
-//! A scene is stiff where stability and not accuracy bounds the steps of an explicit method. This is seen as in DOPRI5 (Hairer & Wanner, *Solving ODEs
-//! II*, IV.2, after Shampine 1977): h|λ| of the fastest motion is at the limit of the method in many accepted steps, and is below it in no [`CALM`]
-//! steps in a row. Then the Rosenbrock method is tried, from the same step on. LSODA compares what steps both methods could take (Petzold, *SIAM J. Sci.
-//! Stat. Comput.* 4, 1983). Here the steps that both did take are compared: an implicit step costs so many times an explicit one, and where it does not
-//! reach that many times as far, the explicit method goes on, and waits twice as long before the next trial. So what a trial costs in vain is a small
-//! part of the run.
+//! A scene is stiff where stability and not accuracy limits the steps of an explicit method. The test is that of DOPRI5
+//! (Hairer & Wanner, *Solving ODEs II*, IV.2, after Shampine 1977): h|λ| of the fastest motion is at the limit of the
+//! method in many accepted steps, and is never below it in [`CALM`] steps in a row. Then the Rosenbrock method is
+//! tried, from the same step on. LSODA compares the steps that both methods could take (Petzold, *SIAM J. Sci. Stat.
+//! Comput.* 4, 1983). Here the steps that both did take are compared: an implicit step costs a known multiple of an
+//! explicit one, and if it does not reach that many times as far, the explicit method goes on, and waits twice as long
+//! before the next trial. So vain trials cost only a small part of the run.
 //!
-//! The Rosenbrock method has the Jacobian J at hand. Two products with it at each step take a vector on towards the fastest motion, and grow by |λ|²: over
-//! two products the growth does not depend on the phase of an oscillation. Where h|λ| has been inside the limit of the explicit method
-//! for [`SLOW`] steps in a row, the explicit method goes on.
+//! The Rosenbrock method has the Jacobian J at hand. At each step, two products with J turn a vector towards the
+//! fastest motion, and multiply it by |λ|²: over two products the growth does not depend on the phase of an
+//! oscillation. If h|λ| is below the limit of the explicit method for [`SLOW`] steps in a row, the explicit method
+//! takes over again.
 //!
 //! A model without its Jacobian stays with the explicit method.
 
@@ -25,37 +27,39 @@ use super::{Evaluator, Formula, Span, Stepper};
 use crate::failure::Reason;
 use crate::{Info, Real};
 
-/// Steps at the limit before the implicit method is tried for the first time. So many explicit steps take milliseconds, and no scene that is over in a few
-/// hundred steps changes its method.
+/// Steps at the limit before the implicit method is tried for the first time. This many explicit steps take
+/// milliseconds, and no scene that is over in a few hundred steps changes its method.
 const WAIT: u32 = 1000;
 /// Steps in a row below the limit after which the count begins anew (6 in DOPRI5).
 const CALM: u32 = 6;
-/// The share of the limit from which on a step is at it. The smaller the share of accelerations that is allowed, the further below the limit it is that steps
-/// settle.
+/// A step counts as at the limit if h|λ| is at least this share of the limit. The smaller the tolerated share of
+/// accelerations, the further below the limit steps settle.
 const AT: f64 = 0.6;
-/// The share of the limit from which on an oscillation has at most a few hundredths of the largest acceleration (`acceleration`), and the share of the steps
-/// at the limit that must be so before an implicit method may begin with far longer steps, which damp it.
+/// STRICT is the share of the limit above which an oscillation has at most a few hundredths of the largest acceleration
+/// (`acceleration`). If at least the share MOST of the steps at the limit are above it, an implicit method may begin
+/// with far longer steps, which damp the oscillation.
 const STRICT: f64 = 0.9;
 const MOST: f64 = 0.8;
-/// Tries of implicit steps after which it is asked whether they pay.
+/// Tries of implicit steps after which their cost is compared.
 const TRIAL: u64 = 20;
-/// Steps at the limit over which it is told how far explicit steps went lately, and by how much less that must be than in all such steps to count. A body that
-/// comes to rest on friction takes steps that are far shorter than those before.
+/// LATELY is the number of steps at the limit over which the recent length of explicit steps is averaged. This average
+/// counts only if it is below FAR_LESS times that of all such steps: a body that comes to rest on friction takes far
+/// shorter steps than before.
 const LATELY: u32 = 200;
 const FAR_LESS: f64 = 0.1;
-/// How many times cheaper the implicit method must be.
+/// The factor by which the implicit method must be cheaper.
 const PAYS: f64 = 2.0;
-/// Implicit steps in a row within the limit of the explicit method, after which that one goes on.
+/// Implicit steps in a row below the limit of the explicit method, after which the explicit method takes over again.
 const SLOW: u32 = 10;
-/// Products with the first Jacobian, and with each later one. The growth of the last two counts.
+/// Numbers of products with the first Jacobian, and with each later one. The growth over the last two counts.
 const PRODUCTS: [usize; 2] = [20, 2];
 
-/// The next step is by another formula.
+/// A change of the formula for the next step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Turn {
-    /// Whether it is to begin with far longer steps, since it did not get on otherwise.
+    /// True if the new formula is to begin with far longer steps, because it did not pay without them.
     pub leaps: bool,
-    /// The longest step that this formula is to begin with \[s\].
+    /// The longest step that the new formula may begin with \[s\].
     pub longest: f64,
 }
 
@@ -68,20 +72,21 @@ enum Limited<'w, T> {
     Dop853(Explicit<'w, T, Dop853>),
 }
 
-/// What is counted to decide when to change.
+/// The counts that decide when to change the method.
 struct Rule {
     /// Steps at the limit before the implicit method is tried.
     wait: u32,
-    /// Steps at the limit, and steps in a row below; of the implicit method those in a row within the limit.
+    /// Steps at the limit, and explicit steps in a row below it, or implicit steps in a row within it.
     at_limit: u32,
     calm: u32,
-    /// Steps at the limit that are close to it.
+    /// Steps at the limit that are very close to it ([`STRICT`]).
     strict: u32,
-    /// Time gone \[s\] and tries since the count began, and what they were when the last [`LATELY`] steps at the limit began.
+    /// Time covered \[s\] and tries since the count began, and both at the start of the last [`LATELY`] steps at the
+    /// limit.
     gone: f64,
     tries: u64,
     before: (f64, u64),
-    /// How far a try of the explicit method went lately, and in the end \[s\].
+    /// Mean length per try of the explicit method, recently, and the value that counts \[s\].
     lately: f64,
     stride: f64,
 }
@@ -98,8 +103,9 @@ impl Rule {
         self.tries += 1 + rejected;
     }
 
-    /// An explicit step was accepted, of (h|λ|)⁴ = `reach`, after so many tries that were `rejected`. Whether the implicit method is to be tried. A step
-    /// that had to be shortened was not short enough before: at the corner of a law of friction |λ| changes from step to step.
+    /// Counts an accepted explicit step with (h|λ|)⁴ = `reach` after this many `rejected` tries. True if the implicit
+    /// method is to be tried. A step after a rejected try counts as at the limit, because the first try was above it:
+    /// at the corner of a friction law |λ| changes from step to step.
     fn is_stiff(&mut self, [reach, limit]: [f64; 2], rejected: u64) -> bool {
         let is_at = |share: f64| {
             let squared = (share * limit) * (share * limit);
@@ -123,22 +129,22 @@ impl Rule {
     }
 }
 
-/// A step of one method or the other.
+/// A step of either method.
 pub(crate) struct Switching<'w, T> {
     formula: Formula,
     explicit: Limited<'w, T>,
     rosenbrock: Rosenbrock<'w, T>,
-    /// Which of them it is.
+    /// True while the implicit method is used.
     implicit: bool,
-    /// Whether there is no Jacobian.
+    /// True if the model has no Jacobian.
     never: bool,
     rule: Rule,
-    /// A step of the implicit method costs so many of the explicit one.
+    /// Cost of an implicit step over that of an explicit one.
     cost: f64,
     /// The derivative at the end of an implicit step, once it is known.
     end: &'w mut [T],
     has_end: bool,
-    /// The fastest motion, and its product with the Jacobian.
+    /// The direction of the fastest motion, and its product with the Jacobian.
     motion: &'w mut [T],
     product: &'w mut [T],
     /// |λ| of that motion \[1/s\].
@@ -157,7 +163,8 @@ impl<'w, T: Real> Switching<'w, T> {
     pub fn new(formula: Formula, info: &Info, workspace: &mut Workspace<'w, T>) -> Self {
         let state = info.state_length();
         let n = state as f64;
-        // the equations are evaluated in each stage, for the slopes, and over dual numbers for some columns of the Jacobian at once; a matrix is factored
+        // an implicit step evaluates the equations in each stage, for the slopes, and over dual numbers for several
+        // columns of the Jacobian at once, and factors a matrix
         let implicit = 9.0 + 0.5 * n + 0.01 * n * n;
         let explicit = match formula {
             Formula::Dop853 => 12.0,
@@ -217,19 +224,19 @@ impl<'w, T: Real> Switching<'w, T> {
         }
     }
 
-    /// The limit of h|λ| of the explicit method.
+    /// The limit of h|λ| for the explicit method.
     fn limit(&self) -> f64 {
         limits(self.formula).map_or(f64::INFINITY, |[limit, _]| limit)
     }
 
-    /// |λ| of the fastest motion \[1/s\], by products with the Jacobian.
+    /// Estimates |λ| of the fastest motion \[1/s\], by products with the Jacobian.
     fn follow_fastest(&mut self) {
         let [first, later] = PRODUCTS;
         let anew = self.fastest.is_nan() || self.fastest <= 0.0;
         let varying = self.rosenbrock.varying();
         if anew {
             for (i, entry) in self.motion.iter_mut().enumerate() {
-                // every entry is excited, and no two neighbours alike
+                // excites every entry, and no two neighbours alike
                 *entry = T::from_f64(1.0 + 0.1 * (i % 7) as f64);
             }
         }
@@ -266,7 +273,7 @@ impl<'w, T: Real> Switching<'w, T> {
         length.to_f64()
     }
 
-    /// An implicit step was accepted. Whether the explicit method is to go on.
+    /// Counts an accepted implicit step. True if the explicit method is to take over again.
     fn goes_back(&mut self, length: f64) -> bool {
         let reach = length * self.fastest;
         self.rule.calm = if reach < self.limit() {
@@ -306,7 +313,7 @@ impl<T: Real> Stepper<T> for Switching<'_, T> {
             if self.rosenbrock.differentiate(f).is_err() {
                 (self.implicit, self.never) = (false, true);
                 let Span { t, y, .. } = self.rosenbrock.span();
-                // where both begin
+                // both steps begin at the same state
                 let (t, rate) = (*t, self.rosenbrock.rate());
                 let explicit: &mut dyn Stepper<T> = match &mut self.explicit {
                     Limited::Heun(step) => step,

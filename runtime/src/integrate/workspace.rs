@@ -1,7 +1,7 @@
 //! Memory of a run.
 //!
-//! A run takes all of its memory from one slice, which is cut into parts when the run is set up. So the core needs neither an allocator nor
-//! arrays of a length that is known at compile time.
+//! A run takes all of its memory from one slice, which is cut into parts when the run is set up. So the core needs
+//! neither an allocator nor arrays of a length that is known at compile time.
 
 use core::ops::{Deref, DerefMut};
 
@@ -19,7 +19,7 @@ impl<'w, T> Workspace<'w, T> {
     /// The next part of this length. Its content is whatever was there before.
     ///
     /// # Panics
-    /// Where less than this is left.
+    /// If less than this length is left.
     pub fn part(&mut self, length: usize) -> &'w mut [T] {
         let rest = core::mem::take(&mut self.rest);
         let (part, rest) = rest.split_at_mut(length);

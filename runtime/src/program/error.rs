@@ -8,7 +8,7 @@ use std::fmt;
 /// What stopped a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunError {
-    /// Who or what caused it.
+    /// The origin of the error.
     pub kind: ErrorKind,
     /// Time reached \[s\], if the run had begun.
     pub t: Option<f64>,
@@ -20,7 +20,7 @@ pub struct RunError {
     pub message: String,
 }
 
-/// Who or what caused an error.
+/// The origin of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorKind {
     /// The job is invalid or does not fit the model; nothing was computed.
@@ -34,8 +34,8 @@ pub enum ErrorKind {
 }
 
 impl ErrorKind {
-    /// Exit code of a program that ends with this error: 2 for a job; 3 for a run, also for one that takes too long; 130 for one that was
-    /// stopped.
+    /// Exit code of a program that ends with this error: 2 for a job; 3 for a run, also for one that takes too long;
+    /// 130 for one that was stopped.
     pub fn exit_code(self) -> u8 {
         match self {
             ErrorKind::Job => 2,

@@ -1,4 +1,4 @@
-//! What to run: settings and parameters that differ from those of the model.
+//! Describes a run: settings and parameters that differ from those of the model.
 
 #[cfg(doc)]
 use super::ErrorKind;
@@ -35,7 +35,7 @@ pub struct Job {
     pub scalar: Scalar,
     /// Whether to compute everything but deliver no samples and no balance of energy, to measure how long a run takes.
     pub silent: bool,
-    /// How long the computation may take. The results up to then are delivered, and the run ends with [`ErrorKind::Time`].
+    /// Limit on the computing time. The results up to then are delivered, and the run ends with [`ErrorKind::Time`].
     pub time_limit: Option<Duration>,
 }
 
@@ -138,8 +138,8 @@ pub enum JobError {
 }
 
 impl Job {
-    /// The method of a run with this job: if it says none, Dormand & Prince's pair at the default tolerances, which changes to the Rosenbrock method
-    /// where the scene is stiff.
+    /// The method of a run with this job: if it says none, Dormand & Prince's pair at the default tolerances, which
+    /// changes to the Rosenbrock method where the scene is stiff.
     pub fn method(&self) -> Method {
         let default = Method::switching(Formula::Dopri5, Tolerances::default());
         self.method.unwrap_or(default)

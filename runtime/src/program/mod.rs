@@ -1,6 +1,8 @@
-//! A run described by a few words and delivered as rows of numbers: what a program needs around models, however they were made.
+//! Runs described by a few words and delivered as rows of numbers: what a program needs around models, however they
+//! were made.
 //!
-//! [`run_job`] runs a model of any [`Family`] with the arithmetic that a [`Job`] asks for. An [`Entry`] is one generated model of a table of models.
+//! [`run_job`] runs a model of any [`Family`] with the arithmetic that a [`Job`] asks for. An [`Entry`] is one
+//! generated model of a table of models.
 
 mod error;
 mod finding;
@@ -26,8 +28,8 @@ use std::ops::ControlFlow;
 /// Receives time, state and outputs of each sample. It may stop the run.
 pub type SampleWriter<'a> = dyn FnMut(f64, &[f64], &[f64]) -> ControlFlow<()> + 'a;
 
-/// Is called from time to time with the time that a run has reached \[s\], also between samples. It may stop the run, which then ends with
-/// [`ErrorKind::Stopped`].
+/// Is called from time to time with the time that a run has reached \[s\], also between samples. It may stop the run,
+/// which then ends with [`ErrorKind::Stopped`].
 pub type Observer<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
 /// A parameter: name and value (SI).
@@ -53,8 +55,8 @@ impl Entry {
         }
     }
 
-    /// The entry of a generated model without its Jacobian, for all methods but the Rosenbrock method. It saves the compilation of the equations over
-    /// dual numbers.
+    /// The entry of a generated model without its Jacobian, for all methods but the Rosenbrock method. It saves the
+    /// compilation of the equations over dual numbers.
     pub const fn without_jacobian<M: Model<f64> + 'static>() -> Entry {
         Entry {
             info: M::INFO,
@@ -65,7 +67,8 @@ impl Entry {
     /// Runs the model as the job says, in double precision, and passes every sample to `writer`.
     ///
     /// # Errors
-    /// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before the failure were delivered.
+    /// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before the failure were
+    /// delivered.
     pub fn run(&self, job: &Job, writer: &mut SampleWriter<'_>) -> Result<Report, RunError> {
         execute_in_double((self.make)(), job, false, writer, &mut going_on).result
     }
@@ -234,7 +237,8 @@ impl Entry {
         Ok(())
     }
 
-    /// The model, after a check of the lengths of the state and of other slices: (what, given, expected).
+    /// The model, after checks of the lengths of the state and of other slices, which are given as (what, given,
+    /// expected).
     fn at(
         &self,
         parameters: &[Named],
@@ -257,8 +261,9 @@ impl Entry {
     }
 }
 
-/// Runs a model of a family as the job says, with the arithmetic that it asks for, and passes every sample to `writer`. Unless the job is silent, the
-/// run is watched: the outcome says where the energy went and whether the run can be trusted.
+/// Runs a model of a family as the job says, with the arithmetic that it asks for, and passes every sample to `writer`.
+/// Unless the job is silent, the run is watched: the outcome says where the energy went and whether the run can be
+/// trusted.
 pub fn run_job(family: &impl Family, job: &Job, writer: &mut SampleWriter<'_>) -> Outcome {
     run_job_observed(family, job, writer, &mut going_on)
 }
@@ -285,7 +290,8 @@ pub fn run_job_observed(
     }
 }
 
-/// [`run_job_observed`] for one model in double precision, with the default values of its parameters, whatever arithmetic the job asks for.
+/// [`run_job_observed`] for one model in double precision, with the default values of its parameters, whatever
+/// arithmetic the job asks for.
 pub fn run_model_observed(
     model: Box<dyn Adjustable<f64> + '_>,
     job: &Job,
@@ -303,7 +309,8 @@ fn going_on(_: f64) -> ControlFlow<()> {
 /// Runs a generated model as the job says. The arithmetic is that of `T`, whatever the job asks for.
 ///
 /// # Errors
-/// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before the failure were delivered.
+/// A job that does not fit the model; a run that fails ([`crate::Failure`]). All samples before the failure were
+/// delivered.
 pub fn run<T: Real, M: Model<T> + 'static>(
     job: &Job,
     writer: &mut SampleWriter<'_>,
@@ -344,7 +351,7 @@ fn execute_in_double(
     execute(model, job, balanced, writer, observer)
 }
 
-/// Number of steps between two looks at the clock; the observer is called as often.
+/// Number of steps between two checks of the clock; the observer is called as often.
 const STEPS_BETWEEN_LOOKS: u32 = 16;
 
 /// Runs a model that has the default values of its parameters, as the job says.
@@ -448,7 +455,8 @@ fn initial_state<T: Real>(model: &dyn Adjustable<T>, job: &Job) -> Result<Vec<T>
     Ok(initial)
 }
 
-/// Largest relative difference between a given state and its normalized form. More than that is no rounding but a wrong state.
+/// Largest relative difference between a given state and its normalized form. More than that is no rounding but a wrong
+/// state.
 const OFF_MANIFOLD: f64 = 1e-6;
 
 /// Copies a given state into place and checks that it is on the manifold.
@@ -512,9 +520,11 @@ impl Numbers {
 pub struct Outcome {
     /// The report of the run, or why it failed.
     pub result: Result<Report, RunError>,
-    /// Answers to [the questions](Job::reading), in their order; empty where the run did not reach its end or cannot be trusted.
+    /// Answers to [the questions](Job::reading), in their order; empty where the run did not reach its end or cannot be
+    /// trusted.
     pub answers: Vec<Answer>,
-    /// Samples of [the kept channels](reading::Reading::kept), in their order; empty where the run did not reach its end.
+    /// Samples of [the kept channels](reading::Reading::kept), in their order; empty where the run did not reach its
+    /// end.
     pub kept: Vec<Vec<f64>>,
     /// The work of each effect over time, if the job [requests it](Reading::works_every).
     pub history: Option<History>,

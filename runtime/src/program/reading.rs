@@ -1,10 +1,11 @@
-//! Responses of a single run.
+//! Evaluates responses of a single run.
 
 use crate::batch::rows::Asked;
 use crate::response::{Answer, Channel, Response, reduce};
 use crate::{Real, Task};
 
-/// What is evaluated over a whole run. It uses equidistant samples, in addition to those of the rows.
+/// The responses, kept channels and works to record over a whole run. They use equidistant samples, in addition to
+/// those of the rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     /// Number of intervals between samples, at least 1. The samples do not change the motion.
@@ -22,7 +23,7 @@ pub struct Reading {
 pub struct Kept {
     /// The channel.
     pub channel: Channel,
-    /// The output that it replaces in what is shown, if any.
+    /// The output that this channel replaces in what is shown, if any.
     pub in_place_of: Option<usize>,
 }
 
@@ -36,7 +37,7 @@ impl Reading {
     }
 }
 
-/// Samples of the outputs that are needed.
+/// The samples of all outputs that a reading needs.
 pub(super) struct Signals<'a, T> {
     reading: &'a Reading,
     /// Index and samples of each output that is needed.

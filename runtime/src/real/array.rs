@@ -1,19 +1,21 @@
-//! Several doubles side by side, each of which behaves exactly as `f64`: products and sums are rounded one after the other, and not fused as those of
-//! [`lanes`](super::lanes).
+//! Several doubles side by side, each of which behaves exactly as `f64`: products and sums are rounded one after the
+//! other, not fused as in [`lanes`](super::lanes).
 //!
-//! Over [`Dual`](super::Dual) they hold a value, the same in every lane, and its derivatives in several directions: columns of a Jacobian side by
-//! side. Each column has the bits that `Dual<f64>` gives. They need no special instructions, and use wide ones where these exist. Machine code works on
-//! them in whole registers ([`Layout`](super::Layout)).
+//! As the scalar of [`Dual`](super::Dual) they hold a value, the same in every lane, and its derivatives in several
+//! directions: columns of a Jacobian side by side. Each column has the bits that `Dual<f64>` gives. They need no
+//! special instructions, and use wide ones where these exist. Machine code works on them in whole registers
+//! ([`Layout`](super::Layout)).
 //!
-//! On x86-64, tasks over an array of four or eight are compiled for processors that hold it in one register, and for no others: ask
-//! [`Array4::there`] and [`Array8::there`] before. Every processor runs tasks over two.
+//! On x86-64, tasks over an array of four or eight are compiled for processors that hold it in one register, and for no
+//! others: ask [`Array4::there`] and [`Array8::there`] before. Every processor runs tasks over two.
 
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{Alone, Avx2, Avx512, Instructions};
 use super::{Base, Form, Mask, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-/// A truth value for each lane: all bits of its word are set or none, so that a choice is an operation on bits, for all lanes at once.
+/// A truth value for each lane: its word has all bits set, or none, so that a choice is an operation on bits, for all
+/// lanes at once.
 #[derive(Clone, Copy, Debug)]
 pub struct Words<const N: usize>([u64; N]);
 
@@ -64,8 +66,8 @@ impl<const N: usize> Mask for Words<N> {
     }
 }
 
-/// A function of each lane. If all lanes hold the same number, as values with different derivatives do, it is computed once. It is a function
-/// of its own, because it needs no instructions of registers.
+/// Applies a function to each lane. If all lanes hold the same number, as values with different derivatives do, it is
+/// computed once. This is compiled separately, because it needs no instructions of registers.
 #[inline(never)]
 fn each<const N: usize, const A: usize, R: Copy>(
     lanes: [[f64; N]; A],
@@ -137,7 +139,8 @@ macro_rules! array {
             const FORM: Option<Form> = Some(Form::of(Base::Double).times($lanes));
 
             /// # Panics
-            /// If this processor runs no tasks over it. A second copy of each task, for such processors, would take as long to compile as the first.
+            /// If this processor runs no tasks over it. A second copy of each task, for such processors, would take as
+            /// long to compile as the first.
             #[inline(always)]
             fn dispatch<W: Task>(task: W) -> W::Output {
                 assert!(Self::there(), "registers that this processor does not have");

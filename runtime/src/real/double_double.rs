@@ -1,8 +1,8 @@
-//! Numbers of about 32 digits: an unevaluated sum hi + lo of two doubles, where lo is at most half a unit in the last place
-//! of hi (Dekker 1971). They are for reference solutions, which must be exact and need not be quick.
+//! Numbers of about 32 digits: an unevaluated sum hi + lo of two doubles, where lo is at most half a unit in the last
+//! place of hi (Dekker 1971). They are for reference solutions, which must be exact and need not be quick.
 //!
-//! With u = 2⁻⁵³ the relative errors are bounded by (Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic
-//! building blocks of double-word arithmetic", 2017, algorithms 6, 10 and 17):
+//! With u = 2⁻⁵³ the relative errors are bounded by (Joldes, Muller and Popescu, "Tight and rigorous error bounds for
+//! basic building blocks of double-word arithmetic", 2017, algorithms 6, 10 and 17):
 //!
 //! | operation | bound |
 //! |---|---|
@@ -10,12 +10,12 @@
 //! | a · b | 7 u² |
 //! | a / b | 15 u² |
 //!
-//! The bounds hold for products far from the ends of the range of doubles, between about 10⁻²⁹⁰ and 10²⁹⁰. Smaller products
-//! lose the digits of lo. Overflow gives infinity or NaN in hi; lo is always finite.
+//! The bounds hold for products far from the ends of the range of doubles, between about 10⁻²⁹⁰ and 10²⁹⁰. Smaller
+//! products lose the digits of lo. Overflow gives infinity or NaN in hi; lo is always finite.
 //!
-//! Nothing here needs the standard library or `libm`, and nothing calls a library. Operations of tens of instructions are
-//! never inlined: generated models have thousands of them in a row, and as calls they compile nearly as quickly as those of
-//! `f64`.
+//! Nothing here needs the standard library or `libm`, and nothing calls a library. Operations of tens of instructions
+//! are never inlined: generated models have thousands of them in a row, and as calls they compile nearly as quickly as
+//! those of `f64`.
 
 mod elementary;
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! A value and its derivative with respect to one variable: f + f′ε with ε² = 0.
 //!
-//! Equations evaluated over dual numbers yield derivatives exact to rounding, one column of a Jacobian at a time. The values have the
-//! bits of the scalar below. The scalar below may be a dual number itself, which gives second derivatives.
+//! Equations evaluated over dual numbers yield derivatives exact to rounding, one column of a Jacobian at a time. The
+//! values have the bits of the scalar below. The scalar below may be a dual number itself, which gives second
+//! derivatives.
 //!
-//! Where a function has no derivative, the slope is chosen as follows. "Stands still" means that the slope of the argument is 0.
+//! Where a function has no derivative, the slope is chosen as follows. "Stands still" means that the slope of the
+//! argument is 0.
 //!
 //! | where | slope |
 //! |---|---|
@@ -12,8 +14,8 @@
 //! | [`sqrt`](Real::sqrt) at 0, [`powf`](Real::powf) of 0 with an exponent below 1 | infinite, but 0 where the argument stands still |
 //! | [`atan2`](Real::atan2) at the origin | NaN, but 0 where the point stands still |
 //!
-//! The case that the argument stands still is told apart in the argument (0/1 in place of 0/0), not in the result, so the rule holds
-//! for second derivatives, too. Laws that pass such places at speed guard their argument themselves.
+//! A standing argument is treated in the argument (0/1 in place of 0/0), not in the result, so the rule holds for
+//! second derivatives, too. Laws that pass such places at speed guard their argument themselves.
 
 use super::{Form, Real, Task};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
@@ -119,7 +121,7 @@ impl<T: Real> AddAssign for Dual<T> {
     }
 }
 
-/// `argument`, which is not negative; but 1 where both it and `motion` are 0.
+/// Returns `argument`, which must not be negative, or 1 where both `argument` and `motion` are 0.
 #[inline(always)]
 fn guarded<T: Real>(argument: T, motion: T) -> T {
     let zero = T::from_f64(0.0);

@@ -1,14 +1,14 @@
-//! `f64` with a faster, less accurate sine and cosine. It shows what the exact ones cost.
+//! `f64` with a faster, less accurate sine and cosine, to measure the cost of the exact ones.
 //!
-//! x = k π/2 + r with |r| ≤ π/4. π/2 has two parts, of which the first has 33 bits, so that its product with k is exact (Cody
-//! and Waite 1980). Then
+//! x = k π/2 + r with |r| ≤ π/4. π/2 has two parts, of which the first has 33 bits, so that its product with k is exact
+//! (Cody and Waite 1980). Then
 //!
 //! sin r ≈ r + r³ (s₀ + s₁r² + s₂r⁴ + s₃r⁶),   cos r ≈ 1 + r² (c₀ + c₁r² + c₂r⁴ + c₃r⁶),
 //!
-//! and k mod 4 exchanges and negates them. The coefficients minimise the largest absolute error over \[0, π/4 + 2⁻³⁰\]. They
-//! were found by Remez's exchange of extrema in 50 digits and rounded to doubles. The remaining errors are 2.4·10⁻¹² and
-//! 5.4·10⁻¹¹; the rounding of k π/2 and r adds |x| 2⁻⁵². Nothing branches and nothing is called, so loops over several numbers
-//! become vector instructions.
+//! and k mod 4 exchanges and negates them. The coefficients minimise the largest absolute error over \[0, π/4 + 2⁻³⁰\].
+//! They were found by Remez's exchange of extrema in 50 digits and rounded to doubles. The remaining errors are
+//! 2.4·10⁻¹² and 5.4·10⁻¹¹; the rounding of k π/2 and r adds |x| 2⁻⁵². Nothing branches and nothing is called, so loops
+//! over several numbers become vector instructions.
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -18,7 +18,8 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fast(pub f64);
 
-/// 1.5 · 2⁵²: adding and subtracting it rounds to the nearest whole number; the last bits of the sum are those of that number.
+/// 1.5 · 2⁵²: adding and subtracting it rounds to the nearest whole number; the last bits of the sum are those of that
+/// number.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// π/2 to 33 bits, and the rest.
 const QUARTER_TURN: [f64; 2] = [1.570_796_326_734_125_6, 6.077_100_506_506_192e-11];

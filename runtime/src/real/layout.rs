@@ -3,7 +3,8 @@
 use super::{Array2, Array4, Array8, Dual, Real};
 use core::any::TypeId;
 
-/// The layout of a scalar that machine code can work on: numbers side by side in memory, followed, for a dual number, by the same for its slopes.
+/// The layout of a scalar that machine code can work on: numbers side by side in memory, followed, for a dual number,
+/// by its slopes in the same arrangement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
     /// Number of lanes, without those of slopes.
@@ -17,8 +18,8 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout of `f64`, `f32`, [`Array2`], [`Array4`], [`Array8`], of the registers of [`lanes`](super::lanes), and of [`Dual`] over these; `None` for
-    /// any other scalar.
+    /// The layout of `f64`, `f32`, [`Array2`], [`Array4`], [`Array8`], of the registers of [`lanes`](super::lanes), and
+    /// of [`Dual`] over these; `None` for any other scalar.
     ///
     /// Every operation of these scalars, except the elementary functions, is an operation of IEEE 754 in each lane.
     pub fn of<T: Real>() -> Option<Layout> {

@@ -1,10 +1,11 @@
-//! What the control of steps and the search for events compute with: `f64` in a single run, a number for each lane in a batch. A single run is
-//! the case of one lane, so both have the same formulas.
+//! The numbers that step-size control and the search for events compute with: `f64` in a single run, a number for each
+//! lane in a batch. A single run is the case of one lane, so both use the same formulas.
 
 use super::{Mask, Real};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number, or one in each lane. `f64` is one without a standard library, too, where it is no scalar of models.
+/// A number, or one in each lane. `f64` is a [`Number`] even without a standard library, where it is no scalar of
+/// models.
 pub trait Number:
     Copy
     + Add<Output = Self>

@@ -1,16 +1,17 @@
 //! The arithmetic of `f64` and `f32` that `core` lacks.
 //!
-//! Square roots and fused multiply-adds are correctly rounded everywhere, so they may come from the standard library or from `libm`. The elementary
-//! functions are those of [`lanes`](super::lanes), with products and sums rounded one after the other: the same bits on every processor and system.
-//! Those of the platform differ from one system to another.
+//! Square roots and fused multiply-adds are correctly rounded everywhere, so they may come from the standard library or
+//! from `libm`. The elementary functions are those of [`lanes`](super::lanes), with products and sums rounded one after
+//! the other: the same bits on every processor and system. Those of the platform differ from one system to another.
 
 use super::lanes::Alone;
 use super::lanes::elementary::Elementary;
 
-/// A number with the operations that it needs.
+/// The operations on `f64` and `f32` that `core` lacks.
 pub trait Plain: Sized {
     fn root(self) -> Self;
-    /// `self` · `a` + `b` with one rounding: one instruction in code that is compiled for it, a slow function elsewhere.
+    /// `self` · `a` + `b` with one rounding: one instruction in code that is compiled for it, a slow function
+    /// elsewhere.
     fn fused(self, a: Self, b: Self) -> Self;
     fn sin_cos(self) -> (Self, Self);
     fn atan2(self, x: Self) -> Self;
@@ -19,10 +20,11 @@ pub trait Plain: Sized {
     fn powf(self, power: Self) -> Self;
 }
 
-/// The same number, of which the compiler does not know where it comes from.
+/// Returns the number unchanged, but hides its origin from the compiler.
 ///
-/// For 64-bit ARM, LLVM makes −(a b + c) one instruction, FNMADD. But that computes −(a b) − c, which is 0 instead of −0 where a b and c cancel. So a
-/// negation must not see that its operand is such a sum. This takes no instruction.
+/// For 64-bit ARM, LLVM compiles −(a b + c) to one instruction, FNMADD. But that computes −(a b) − c, which is 0
+/// instead of −0 if a b and c cancel. So the compiler must not see that the operand of a negation is such a sum. This
+/// takes no instruction.
 #[cfg(target_arch = "aarch64")]
 macro_rules! unknown {
     ($number:ident) => {{
@@ -70,7 +72,7 @@ macro_rules! plain {
                 (sine.number(), cosine.number())
             }
 
-            // the others are long, and a law calls them often: each is compiled once, as a function of its own
+            // these functions are long, and a law calls them often, so each is compiled once, as a function of its own
 
             #[inline(never)]
             fn atan2(self, x: Self) -> Self {

@@ -1,7 +1,7 @@
 //! Scalars as plain numbers, lane by lane: the arguments and results of functions that are compiled apart.
 //!
-//! All words are doubles; a single is passed as the double of its value. A dual number is the words of its value, then those of its
-//! slope. The lanes of a register are passed one by one.
+//! All words are doubles; a single is passed as the double of its value. A dual number is the words of its value, then
+//! those of its slope. The lanes of a register are passed one by one.
 
 /// The kind of one number: one lane, without derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -17,11 +17,11 @@ pub enum Base {
     DoubleDouble = 3,
     /// A lane of doubles with fused products and sums: [`Width::One`](super::Width::One) and wider.
     Lane = 4,
-    /// A lane of doubles without: [`Width::Plain`](super::Width::Plain).
+    /// A lane of doubles whose products and sums are not fused: [`Width::Plain`](super::Width::Plain).
     PlainLane = 5,
     /// A lane of singles with fused products and sums.
     SingleLane = 6,
-    /// A lane of singles without.
+    /// A lane of singles whose products and sums are not fused.
     PlainSingleLane = 7,
 }
 
@@ -51,7 +51,8 @@ impl Base {
 pub struct Form {
     /// The kind of number of each part of each lane.
     pub base: Base,
-    /// Order of derivatives: 0 for a value alone, 1 for a value with its slope, 2 for a dual number of dual numbers, and so on.
+    /// Order of derivatives: 0 for a value alone, 1 for a value with its slope, 2 for a dual number of dual numbers,
+    /// and so on.
     pub order: u32,
     /// Number of lanes.
     pub lanes: usize,
@@ -67,12 +68,12 @@ impl Form {
         }
     }
 
-    /// The same with this many lanes.
+    /// This form with another number of lanes.
     pub const fn times(self, lanes: usize) -> Self {
         Form { lanes, ..self }
     }
 
-    /// The same with a slope beside each value.
+    /// This form with a slope beside each value.
     pub const fn dual(self) -> Self {
         Form {
             order: self.order + 1,

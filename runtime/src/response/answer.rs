@@ -2,8 +2,8 @@
 
 use super::Response;
 
-/// Differences are relative to at least this share of the largest sample of the signal: a response that is nearly 0 need not be correct in its
-/// own digits.
+/// Differences are relative to at least this share of the largest sample of the signal: a response that is nearly 0
+/// need not be correct in its own digits.
 const FLOOR: f64 = 1e-2;
 
 /// A response of a run.
@@ -33,9 +33,9 @@ impl Answer {
         }
     }
 
-    /// The difference from the response of a less accurate run, relative to the larger of both; NaN where either is NaN. Where both are
-    /// equal, it is that of the largest samples: two runs that are both far off may agree in a value that is a bound, such as the smallest value of a
-    /// force that is never negative.
+    /// The difference from the response of a less accurate run, relative to the larger of both; NaN where either is
+    /// NaN. If both are equal, the relative difference of the largest samples: two inaccurate runs may agree in a value
+    /// that is a bound, such as the smallest value of a force that is never negative.
     pub fn apart(&self, other: &Answer) -> f64 {
         let scale = self.value.abs().max(other.value.abs()).max(self.floor);
         match (self.value - other.value).abs() {

@@ -1,7 +1,7 @@
 //! A signal that is formed from outputs: each is filtered, then they are combined.
 //!
-//! Sensors measure components, and standards filter what a sensor measures. So components are filtered before their resultant is
-//! formed.
+//! Sensors measure components, and standards filter what a sensor measures. So components are filtered before their
+//! resultant is formed.
 
 use super::filter::{Filter, filtered};
 use crate::Real;
@@ -59,8 +59,8 @@ impl Channel {
         }
     }
 
-    /// The samples of the channel from those of its outputs, which are `every` \[s\] apart; `None` where they cannot be filtered, or
-    /// where there are none.
+    /// The samples of the channel from those of its outputs, which are `every` \[s\] apart; `None` where they cannot be
+    /// filtered, or where there are none.
     pub fn form<T: Real>(&self, samples: impl Fn(usize) -> Vec<T>, every: f64) -> Option<Vec<T>> {
         let signal = |output: &usize| match self.filter {
             Some(Filter { class, standard }) => filtered(&samples(*output), every, class, standard),
@@ -80,13 +80,14 @@ pub enum Combination {
     Positive(f64),
     /// √(x² + y² + z²) of two or three signals.
     Resultant,
-    /// Nij of the shear force Fx, the axial force Fz and the moment My at the load cell of the upper neck \[49 CFR 571.208 S6.6\]:
-    /// the larger of Fz/Fzc over tension and compression, and the larger of M/Mc over flexion and extension, with M = My − e Fx.
+    /// Nij of the shear force Fx, the axial force Fz and the moment My at the load cell of the upper neck \[49 CFR
+    /// 571.208 S6.6\]: the larger of Fz/Fzc over tension and compression, and the larger of M/Mc over flexion and
+    /// extension, with M = My − e Fx.
     Nij(Neck),
     /// max(−M, 0) of Fx and My, with M = My − e Fx: the moment that bends the head back.
     Extension,
-    /// S (D/D₀) dD/dt of a deflection D. The rate is that of five points; the result is 0 at the two samples of either end \[Euro
-    /// NCAP TB 021\].
+    /// S (D/D₀) dD/dt of a deflection D. The rate is that of five points; the result is 0 at the two samples of either
+    /// end \[Euro NCAP TB 021\].
     Viscous(Chest),
     /// The tibia index √(Mx² + My²)/Mc + |Fz|/Fc of Mx, My and Fz.
     Tibia {
@@ -95,7 +96,8 @@ pub enum Combination {
         /// Fc \[N\]
         force: f64,
     },
-    /// √Σ (max |ωᵢ|/ωᵢc)² of three angular velocities, with the maximum up to each time. Its last value is BrIC \[Takhounts 2013\].
+    /// √Σ (max |ωᵢ|/ωᵢc)² of three angular velocities, with the maximum up to each time. Its last value is BrIC
+    /// \[Takhounts 2013\].
     Rotation([f64; 3]),
 }
 
@@ -121,8 +123,8 @@ pub struct Chest {
     pub depth: f64,
 }
 
-/// The distance e \[m\] from the load cell at the upper neck to the joint of head and neck, for all Hybrid III dummies \[49 CFR Part
-/// 572\].
+/// The distance e \[m\] from the load cell at the upper neck to the joint of head and neck, for all Hybrid III dummies
+/// \[49 CFR Part 572\].
 pub const ARM: f64 = 0.01778;
 
 impl Combination {
@@ -146,8 +148,8 @@ impl Combination {
         )
     }
 
-    /// The combination of signals of equal length, whose samples are `every` \[s\] apart; `None` if their number is wrong or they are
-    /// empty.
+    /// The combination of signals of equal length, whose samples are `every` \[s\] apart; `None` if their number is
+    /// wrong or they are empty.
     pub fn form<T: Real>(self, signals: &[Vec<T>], every: f64) -> Option<Vec<T>> {
         let first = signals.first().filter(|_| self.takes(signals.len()))?;
         if signals.iter().any(|other| other.len() != first.len()) {

@@ -1,18 +1,19 @@
-//! The level that a signal exceeds for a given duration: in total, or without a break. The signal is linear between samples; the
-//! error of this is of the order of the square of their interval.
+//! The level that a signal exceeds for a given duration: in total, or without a break. The signal is linear between
+//! samples; the error of this is of the order of the square of their interval.
 //!
-//! In total: the time above a level decreases as the level rises. It is linear between neighbouring values of samples, and jumps
-//! where the signal stays on one value. Newton's step from any level is exact if it stays between the neighbouring values. If it
-//! does not, all levels up to a neighbour are excluded. So the search ends, and bisection makes it end soon.
+//! In total: the time above a level decreases as the level rises. It is linear between neighbouring values of samples,
+//! and jumps where the signal stays on one value. Newton's step from any level is exact if it stays between the
+//! neighbouring values. If it does not, all levels up to a neighbour are excluded. So the search ends, and bisection
+//! makes it end soon.
 //!
-//! Without a break: it is the largest of the smallest values within a window. The smallest value is the least of the two edges and
-//! of the samples between them. So the best window begins or ends on a sample; or the signal rises at its beginning, falls at its
-//! end, and both edges are on one level.
+//! Without a break: it is the largest of the smallest values within a window. The smallest value is the least of the
+//! two edges and of the samples between them. So the best window begins or ends on a sample; or the signal rises at its
+//! beginning, falls at its end, and both edges are on one level.
 
 use super::whole_and_rest;
 use crate::{Mask, Real};
 
-/// The level that is exceeded for so many intervals in total; `None` if the signal is shorter.
+/// The level that is exceeded for this number of intervals in total; `None` if the signal is shorter.
 #[inline(always)]
 pub(super) fn cumulative<T: Real>(samples: &[T], intervals: f64, scratch: &mut [T]) -> Option<T> {
     let (whole, rest) = whole_and_rest(intervals, samples.len().checked_sub(1)?)?;
@@ -67,7 +68,7 @@ pub(super) fn cumulative<T: Real>(samples: &[T], intervals: f64, scratch: &mut [
     Some(low)
 }
 
-/// How long a signal is at or above a level, in intervals between samples.
+/// The time for which a signal is at or above a level, in intervals between samples.
 struct TimeOver<T> {
     /// Number of intervals that are above from end to end.
     whole: T,
@@ -81,9 +82,9 @@ struct TimeOver<T> {
     above: T,
 }
 
-/// The time above `level`, which lies between `low` and `high`. Each pair is an interval, with the smaller value first. Intervals
-/// that have nothing between `low` and `high` in any lane are dropped; if they are above both, they are counted in `over`. Returns
-/// the number of intervals left.
+/// The time above `level`, which lies between `low` and `high`. Each pair is an interval, with the smaller value first.
+/// Intervals that have nothing between `low` and `high` in any lane are dropped; those above both are counted in
+/// `over`. Returns the number of intervals left, and the time.
 #[inline(always)]
 fn time_over<T: Real>(
     level: T,
@@ -126,7 +127,7 @@ fn time_over<T: Real>(
     (left, time)
 }
 
-/// The level that is exceeded for so many intervals without a break; `None` if the signal is shorter.
+/// The level that is exceeded for this number of intervals without a break; `None` if the signal is shorter.
 #[inline(always)]
 pub(super) fn contiguous<T: Real>(samples: &[T], intervals: f64, scratch: &mut [T]) -> Option<T> {
     let last = samples.len().checked_sub(1)?;
@@ -134,7 +135,7 @@ pub(super) fn contiguous<T: Real>(samples: &[T], intervals: f64, scratch: &mut [
     if whole == last {
         return samples.iter().copied().reduce(T::min);
     }
-    // the smallest of so many samples, from each sample on
+    // the smallest of the `whole` samples from each sample on
     scratch.copy_from_slice(samples);
     let least = match whole {
         0 => {

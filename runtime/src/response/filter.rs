@@ -1,5 +1,5 @@
-//! The filters of channel frequency classes (ISO 6487, SAE J211-1): Butterworth filters of the second order, run forward and then backward, so that
-//! there is no delay. Two passes make four poles.
+//! The filters of channel frequency classes (ISO 6487, SAE J211-1): Butterworth filters of the second order, run
+//! forward and then backward, so that there is no delay. Two passes make four poles.
 //!
 //! With T the interval of the samples and ω = tan(2π f CFC T/2),
 //!
@@ -8,12 +8,13 @@
 //! n = 1 + √2 ω + ω²    a₀ = a₂ = ω²/n    a₁ = 2 a₀    b₁ = −2 (ω² − 1)/n    b₂ = (−1 + √2 ω − ω²)/n
 //! ```
 //!
-//! The factor f is 1.25/0.6 in ISO 6487 and 2.0775 in SAE J211-1. With the latter, two passes weaken a vibration of frequency CFC/0.6 by exactly 3.01
-//! dB.
+//! The factor f is 1.25/0.6 in ISO 6487 and 2.0775 in SAE J211-1. With the latter, two passes weaken a vibration of
+//! frequency CFC/0.6 by exactly 3.01 dB.
 //!
-//! **Ends.** Before filtering, a signal is continued at both ends by its image about the end, 2 x_end − x_i. The continuation has 10 ms or 100
-//! samples, whichever is more, but at most as many as the signal. Without it, a filter that starts from rest errs at the ends: the ramp 50 + 200 t/s
-//! at 10 kHz errs by 0.36 with CFC 60, and by 0.001 with the continuation. Each pass starts from the mean of its first ten samples.
+//! **Ends.** Before filtering, a signal is continued at both ends by its image about the end, 2 x_end − x_i. The
+//! continuation has 10 ms or 100 samples, whichever is more, but at most as many as the signal. Without it, a filter
+//! that starts from rest errs at the ends: the ramp 50 + 200 t/s at 10 kHz errs by 0.36 with CFC 60, and by 0.001 with
+//! the continuation. Each pass starts from the mean of its first ten samples.
 
 use crate::Real;
 use core::f64::consts::{PI, SQRT_2};
@@ -51,7 +52,8 @@ impl Class {
         f64::from(self.number())
     }
 
-    /// The longest time between samples that can be filtered \[s\]: a tenth of the period of the class, as both standards require.
+    /// The longest time between samples that can be filtered \[s\]: a tenth of the period of the class, as both
+    /// standards require.
     pub fn longest_interval(self) -> f64 {
         1.0 / (10.0 * self.frequency())
     }
@@ -148,8 +150,9 @@ pub fn coefficients(class: Class, standard: Standard, interval: f64) -> [f64; 5]
 /// The number of samples in the mean that a pass starts from. A signal has at least as many.
 pub const MEAN: usize = 10;
 
-/// The filtered samples, for samples that are `interval` \[s\] apart. `None` where the class does not [allow](Class::allows) that interval, or where
-/// there are fewer than [`MEAN`] samples. A sample that is not finite makes all of them not finite.
+/// The filtered samples, for samples that are `interval` \[s\] apart. `None` where the class does not
+/// [allow](Class::allows) that interval, or where there are fewer than [`MEAN`] samples. A sample that is not finite
+/// makes all of them not finite.
 pub fn filtered<T: Real>(
     samples: &[T],
     interval: f64,
@@ -170,7 +173,7 @@ pub fn filtered<T: Real>(
     Some(values[more..more + count].to_vec())
 }
 
-/// The samples, continued by so many more at both ends: their image about the end.
+/// The samples, continued at both ends by `more` samples: the image of the signal about its end.
 fn continued<T: Real>(values: &[T], more: usize) -> Vec<T> {
     let last = values.len() - 1;
     let image = |end: T, value: T| end + end - value;

@@ -1,8 +1,9 @@
 //! The head injury criterion: HIC = max L (V/(g L))^2.5, over windows of a length L of at most 15 or 36 ms in which the
 //! acceleration adds up to the velocity V \[SAE J1727\].
 //!
-//! The search compares the square of L (V/(g L))^2.5, which is L² a⁵ with the mean acceleration a = V/(g L). The root is taken
-//! once, at the end. Among the windows of one length only the largest V counts: one difference and one comparison per window.
+//! The search compares the square of L (V/(g L))^2.5, which is L² a⁵ with the mean acceleration a = V/(g L). The root
+//! is taken once, at the end. Among the windows of one length only the largest V counts: one difference and one
+//! comparison per window.
 
 use super::whole_and_rest;
 use crate::{Mask, Real};
@@ -13,8 +14,8 @@ pub const STANDARD_GRAVITY: f64 = 9.806_65;
 /// The number of windows that are compared at once. Their maxima are independent, so they fill vector registers.
 const ABREAST: usize = 8;
 
-/// HIC of `samples` \[m/s²\], which are `every` \[s\] apart; 0 where no window gains velocity. `None` with fewer than two
-/// samples, or if `window` \[s\] is not positive and finite.
+/// HIC of `samples` \[m/s²\], which are `every` \[s\] apart; 0 where no window gains velocity. `None` with fewer than
+/// two samples, or if `window` \[s\] is not positive and finite.
 #[inline(always)]
 pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut [T]) -> Option<T> {
     let last = samples.len().checked_sub(1).filter(|last| *last > 0)?;
@@ -39,8 +40,8 @@ pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut
         let gain = largest_gain_of_rest(samples, velocity, longest, rest);
         largest = largest.max(squared(gain, longest as f64 + rest));
     }
-    // A window gains at most as much as a shorter one plus the highest sample over the rest. So most windows need not be
-    // checked.
+    // A window gains at most as much as a shorter one plus the highest sample over the rest. So most windows need not
+    // be checked.
     let highest = samples
         .iter()
         .fold(T::from_f64(0.0), |most, a| most.max(*a));
@@ -58,7 +59,7 @@ pub(super) fn hic<T: Real>(samples: &[T], every: f64, window: f64, scratch: &mut
     Some(largest.sqrt() * T::from_f64(every))
 }
 
-/// More than rounding, also that of singles, can subtract from a bound.
+/// Factor on a bound that allows for its rounding, also in single precision.
 const ROUNDED: f64 = 1.01;
 
 /// The integral from the first sample to each, in intervals.

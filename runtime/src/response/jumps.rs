@@ -1,10 +1,11 @@
 //! Responses of a signal that jumps between samples: where a switch fires, or where a force begins with a jump.
 //!
-//! Samples give a jump only to within their interval, and do not show how a parameter moves its time. Here the time of each jump and both its sides
-//! are known, so the signal is linear between knots: the samples, and two knots at each jump. The answers are exact for that line, and so are their
-//! derivatives. The line moves its knots along both axes: d/dp ∫ x dt contains (x⁻ − x⁺) dt_jump/dp.
+//! Samples give a jump only to within their interval, and do not show how a parameter moves its time. Here the time of
+//! each jump and both its sides are known, so the signal is linear between knots: the samples, and two knots at each
+//! jump. The answers are exact for that line, and so are their derivatives. The line moves its knots along both axes:
+//! d/dp ∫ x dt contains (x⁻ − x⁺) dt_jump/dp.
 //!
-//! One signal at a time: this code branches and allocates.
+//! This code handles one signal at a time, because it branches and allocates.
 
 use super::{Response, STANDARD_GRAVITY, extremes, reduce};
 use crate::Real;
@@ -28,12 +29,13 @@ struct Knot<T> {
     x: T,
 }
 
-/// A response of a signal that jumps between `samples`, which are `every` \[s\] apart. Jumps outside of the signal are left out. Without any jump the
-/// response is that of [`reduce`]; so is it where [`reduce`] has no answer. A jump of height 0 is a bend. Responses that need a signal that is smooth
-/// nearby ([`TimeOfPeak`](Response::TimeOfPeak) and the like) ignore it.
+/// A response of a signal that jumps between `samples`, which are `every` \[s\] apart. Jumps outside of the signal are
+/// left out. Without any jump the response is that of [`reduce`]; so is it where [`reduce`] has no answer. A jump of
+/// height 0 is a bend. Responses that need a signal that is smooth nearby ([`TimeOfPeak`](Response::TimeOfPeak) and the
+/// like) ignore it.
 ///
-/// Windows of the head injury criterion may also begin and end at a jump. The value at a time is that of the polynomial through knots on the same
-/// side of each jump.
+/// Windows of the head injury criterion may also begin and end at a jump. The value at a time is that of the polynomial
+/// through knots on the same side of each jump.
 pub fn reduce_with_jumps<T: Real>(
     response: Response,
     samples: &[T],
@@ -65,7 +67,7 @@ pub fn reduce_with_jumps<T: Real>(
     let values: Vec<T> = knots.iter().map(|knot| knot.x).collect();
     let largest = |seen: fn(T) -> T| extremes::peak_of(&values, seen);
     let answer = match response {
-        // a step in the velocity is no pulse
+        // a jump of the velocity is no pulse
         Response::Final | Response::Olc => return of_samples,
         Response::Value { at } => {
             return value_at(samples, &jumps, every, at).unwrap_or(of_samples);
@@ -87,9 +89,10 @@ pub fn reduce_with_jumps<T: Real>(
     values.iter().fold(answer, |sum, x| sum + x.taint())
 }
 
-/// Adds to samples, which are `every` \[s\] apart, the slopes that come from the times of the jumps between them. The values stay. The integral of
-/// the line through both sides of a jump differs from that of the line through the samples around it. The slope of the difference is given to these
-/// samples, more of it to the nearer one. So a filter, which takes integrals, gets the derivative that belongs to a moving jump.
+/// Adds to samples, which are `every` \[s\] apart, the slopes that come from the times of the jumps between them. The
+/// values stay. The integral of the line through both sides of a jump differs from that of the line through the samples
+/// around it. The slope of the difference is given to these samples, more of it to the nearer one. So a filter, which
+/// takes integrals, gets the derivative that belongs to a moving jump.
 pub fn move_with_jumps<T: Real>(
     samples: &mut [T],
     jumps: impl Iterator<Item = Jump<T>>,
@@ -121,7 +124,8 @@ pub fn move_with_jumps<T: Real>(
     }
 }
 
-/// Samples and both sides of jumps, in order of time. A sample at the time of a jump may be on either side, so it is left out.
+/// Samples and both sides of jumps, in order of time. A sample at the time of a jump may be on either side, so it is
+/// left out.
 fn knots<T: Real>(samples: &[T], jumps: &[Jump<T>], every: f64) -> Vec<Knot<T>> {
     let mut knots = Vec::with_capacity(samples.len() + 2 * jumps.len());
     let mut due = jumps.iter().peekable();
@@ -158,8 +162,8 @@ fn integrals<T: Real>(knots: &[Knot<T>]) -> Vec<T> {
     integrals
 }
 
-/// The time when a function of the knots is largest: the first such knot, moved to the top of the parabola through it and its neighbours. At either
-/// end of the signal and at a jump it is not moved.
+/// The time when a function of the knots is largest: the first such knot, moved to the top of the parabola through it
+/// and its neighbours. At either end of the signal and at a jump it is not moved.
 fn time_of_peak<T: Real>(knots: &[Knot<T>], seen: fn(T) -> T) -> Option<T> {
     let mut top = 0;
     for (i, knot) in knots.iter().enumerate() {
@@ -247,8 +251,8 @@ struct Window<T> {
     length: T,
 }
 
-/// The head injury criterion. It compares all windows that begin and end on knots and are shorter than the longest, and all windows of the longest
-/// length that begin or end on a knot. The length of the latter stays when a jump moves.
+/// The head injury criterion. It compares all windows that begin and end on knots and are shorter than the longest, and
+/// all windows of the longest length that begin or end on a knot. The length of the latter stays when a jump moves.
 fn hic<T: Real>(knots: &[Knot<T>], longest: f64) -> T {
     let velocity = integrals(knots);
     let mut best = Best {
@@ -266,8 +270,8 @@ fn hic<T: Real>(knots: &[Knot<T>], longest: f64) -> T {
             .any(|jump| (jump - t.to_f64()).abs() <= HAIR * longest)
     };
     for (knot, velocity_here) in knots.iter().zip(&velocity) {
-        // A window from a sample that ends at a jump gains as much as the window that is attached to the jump. Only the latter moves with the jump
-        // and has the correct derivative, so the former is left out.
+        // A window from a sample that ends at a jump gains as much as the window that is attached to the jump. Only the
+        // latter moves with the jump and has the correct derivative, so the former is left out.
         let stays = !jumps_at(knot.t);
         let to = |t: T| integral_to(knots, &velocity, t).filter(|_| !(stays && jumps_at(t)));
         let ahead = to(knot.t + length).map(|end| end - *velocity_here);
@@ -312,7 +316,8 @@ fn to_the_fifth(x: f64) -> f64 {
     square * square * x
 }
 
-/// The window found so far with the largest score, and its score: the mean to the fifth power times the square of the length.
+/// The window found so far with the largest score, and its score: the mean to the fifth power times the square of the
+/// length.
 struct Best<T> {
     score: f64,
     window: Option<Window<T>>,

@@ -13,8 +13,9 @@
 //! | `channel` (feature `std`) | a signal formed from outputs: filtered, then combined |
 //! | `jumps` (feature `std`) | all responses, for a signal that jumps between samples |
 //!
-//! They are written over [`Real`], with selections in place of branches. So dual numbers give derivatives, where the selection follows the
-//! value, and every lane of a register has a signal of its own. Nothing allocates, except for signals that jump.
+//! They are written over [`Real`], with selections in place of branches. So dual numbers give derivatives, where the
+//! selection follows the value, and every lane of a register has a signal of its own. Nothing allocates, except for
+//! signals that jump.
 
 mod answer;
 #[cfg(feature = "std")]
@@ -50,10 +51,10 @@ pub enum Response {
     Minimum,
     /// The largest absolute value of a sample.
     Magnitude,
-    /// The time of the largest value \[s\]: the first such sample, moved by at most half an interval to the top of the parabola through it
-    /// and its neighbours.
+    /// The time of the largest value \[s\]: the first such sample, moved by at most half an interval to the top of the
+    /// parabola through it and its neighbours.
     TimeOfPeak,
-    /// The time of the smallest value \[s\], likewise.
+    /// The time of the smallest value \[s\], found like [`TimeOfPeak`](Response::TimeOfPeak).
     TimeOfMinimum,
     /// The largest sample less the smallest one.
     Range,
@@ -65,36 +66,38 @@ pub enum Response {
     Mean,
     /// The last sample.
     Final,
-    /// The value at a time, by the cubic polynomial through the four nearest samples, or through all if there are fewer.
+    /// The value at a time, by the cubic polynomial through the four nearest samples, or through all if there are
+    /// fewer.
     Value {
         /// \[s\]
         at: f64,
     },
-    /// The head injury criterion of an acceleration \[m/s²\]: max L (V/(g L))^2.5 over windows of length L that gain the velocity V. Windows
-    /// begin and end on samples; a window of the longest length may have one end between two samples.
+    /// The head injury criterion of an acceleration \[m/s²\]: max L (V/(g L))^2.5 over windows of length L that gain
+    /// the velocity V. Windows begin and end on samples; a window of the longest length may have one end between two
+    /// samples.
     Hic {
         /// The longest window \[s\]: 15 or 36 ms.
         window: f64,
     },
-    /// The level that is exceeded for a duration in total, however often it is crossed: the cumulative 3 ms value. The signal is linear
-    /// between samples.
+    /// The level that is exceeded for a duration in total, however often it is crossed: the cumulative 3 ms value. The
+    /// signal is linear between samples.
     Clip {
         /// \[s\]
         duration: f64,
     },
-    /// The level that is exceeded for a duration without a break: the contiguous 3 ms value. The signal is linear between
-    /// samples.
+    /// The level that is exceeded for a duration without a break: the contiguous 3 ms value. The signal is linear
+    /// between samples.
     ContiguousClip {
         /// \[s\]
         duration: f64,
     },
-    /// The occupant load criterion of the acceleration of a vehicle along its path \[m/s²\]: the constant deceleration \[m/s²\] that stops
-    /// an occupant over 235 mm after a free flight of 65 mm.
+    /// The occupant load criterion of the acceleration of a vehicle along its path \[m/s²\]: the constant deceleration
+    /// \[m/s²\] that stops an occupant over 235 mm after a free flight of 65 mm.
     Olc,
 }
 
 impl Response {
-    /// Number of scratch entries that [`reduce`] needs for a signal of so many samples.
+    /// Number of scratch entries that [`reduce`] needs for a signal of this many samples.
     pub const fn scratch(self, samples: usize) -> usize {
         match self {
             Response::Hic { .. } | Response::ContiguousClip { .. } => samples,
@@ -104,12 +107,13 @@ impl Response {
     }
 }
 
-/// A response of a signal whose `samples` are `every` \[s\] apart. `scratch` needs [`Response::scratch`] entries, whose content does not
-/// matter.
+/// A response of a signal whose `samples` are `every` \[s\] apart. `scratch` needs [`Response::scratch`] entries, whose
+/// content does not matter.
 ///
-/// NaN where there is no answer: no samples at all; fewer than two for the head injury criterion; a time or a duration outside of the
-/// signal; an interval, a window or a duration that is not positive and finite; too little scratch. A sample that is not finite makes every
-/// response NaN except those that do not use it, [`Final`](Response::Final) and [`Value`](Response::Value).
+/// NaN where there is no answer: no samples at all; fewer than two for the head injury criterion; a time or a duration
+/// outside of the signal; an interval, a window or a duration that is not positive and finite; too little scratch. A
+/// sample that is not finite makes every response NaN except those that do not use it, [`Final`](Response::Final) and
+/// [`Value`](Response::Value).
 #[inline(always)]
 pub fn reduce<T: Real>(response: Response, samples: &[T], every: f64, scratch: &mut [T]) -> T {
     let answer = match (
@@ -123,7 +127,7 @@ pub fn reduce<T: Real>(response: Response, samples: &[T], every: f64, scratch: &
     answer.unwrap_or(T::from_f64(f64::NAN))
 }
 
-/// The same for at least one sample, a valid interval, and scratch of the right length.
+/// [`reduce`] for at least one sample, a valid interval, and scratch of the right length.
 #[inline(always)]
 fn answer<T: Real>(response: Response, samples: &[T], every: f64, scratch: &mut [T]) -> Option<T> {
     let last = *samples.last()?;
@@ -149,8 +153,8 @@ fn answer<T: Real>(response: Response, samples: &[T], every: f64, scratch: &mut 
     Some(samples.iter().fold(whole, |sum, a| sum + a.taint()))
 }
 
-/// A number of intervals as whole ones and a rest, 0 ≤ rest < 1; `None` where it is negative or beyond `most`. A billionth either way counts
-/// as rounding, so times that should meet a sample meet it.
+/// A number of intervals as whole ones and a rest, 0 ≤ rest < 1; `None` where it is negative or beyond `most`. A
+/// billionth either way counts as rounding, so times that should meet a sample meet it.
 fn whole_and_rest(intervals: f64, most: usize) -> Option<(usize, f64)> {
     const HAIR: f64 = 1e-9;
     if !(-HAIR..=most as f64 + HAIR).contains(&intervals) {

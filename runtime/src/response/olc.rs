@@ -1,10 +1,12 @@
-//! The occupant load criterion of the pulse of a vehicle. An occupant flies freely until the vehicle is 65 mm behind, and is then stopped by a
-//! constant deceleration over another 235 mm. That deceleration is the criterion \[Euro NCAP TB 021\].
+//! The occupant load criterion of the pulse of a vehicle. An occupant flies freely until the vehicle is 65 mm behind,
+//! and is then stopped by a constant deceleration over another 235 mm. That deceleration is the criterion \[Euro NCAP
+//! TB 021\].
 //!
-//! Let u be the change of velocity of the vehicle up to a time and s its integral. The flight ends at t₁ with s(t₁) = 0.065 m. A restraint with the
-//! deceleration a gives the occupant the speed of the vehicle at t₂, with u(t₂) = a (t₂ − t₁). Until then the occupant has moved forward by s(t₂) − a
-//! (t₂ − t₁)²/2 = 0.3 m. So t₂ is the first zero of s − u (t − t₁)/2 − 0.3 m. Velocity is linear between samples. Then s is quadratic there, and that
-//! function linear.
+//! Let u be the change of velocity of the vehicle up to a time, and s its integral. The flight ends at t₁ with s(t₁) =
+//! 0.065 m. A restraint with the deceleration a gives the occupant the speed of the vehicle at t₂, with u(t₂) = a (t₂ −
+//! t₁). Until then the occupant has moved forward by s(t₂) − a (t₂ − t₁)²/2 = 0.3 m. So t₂ is the first zero of s − u
+//! (t − t₁)/2 − 0.3 m. Velocity is linear between samples, so s is quadratic there, and the function whose zero is t₂
+//! is linear.
 
 use crate::{Mask, Real};
 
@@ -13,8 +15,8 @@ const FLIGHT: f64 = 0.065;
 /// The whole distance that the occupant moves forward \[m\].
 const WHOLE: f64 = 0.065 + 0.235;
 
-/// OLC \[m/s²\] of the acceleration of a vehicle along its path \[m/s²\]; NaN where the pulse ends before the occupant is stopped. `None` with fewer
-/// than two samples.
+/// OLC \[m/s²\] of the acceleration of a vehicle along its path \[m/s²\]; NaN where the pulse ends before the occupant
+/// is stopped. `None` with fewer than two samples.
 #[inline(always)]
 pub(super) fn olc<T: Real>(samples: &[T], every: f64) -> Option<T> {
     let of = T::from_f64;

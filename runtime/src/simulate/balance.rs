@@ -1,27 +1,30 @@
-//! Where the energy went: T(t) = T(0) + Σ W,   W = ∫ P dt; and whether momentum is explained: p(t) = p(0) + ∫ F dt.
+//! The balances of energy, T(t) = T(0) + Σ W with W = ∫ P dt, and of momentum, p(t) = p(0) + ∫ F dt.
 //!
-//! The work of each effect is summed up over accepted steps by a rule of Lobatto's, from the ends of the step and one or two places on its
-//! interpolant. What is known at the end of a step serves the beginning of the next, too. What is missing in the balance at the end measures
-//! the run as a whole: errors of integration, a step across a kink, a force that is not what its power says.
+//! The work of each effect is integrated over accepted steps by a Lobatto rule, from the ends of the step and one or
+//! two places on its interpolant. Values at the end of a step serve the start of the next, too. The gap of the balance
+//! at the end measures the quality of the whole run: errors of integration, a step across a kink, a force that does not
+//! belong to its power.
 
 use super::Buffer;
 use crate::{Formula, Real};
 
-/// How a power is summed up over a step: two of Lobatto's rules.
+/// The quadrature of powers over a step: one of two Lobatto rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rule {
-    /// Three points, exact for powers of degree 3 (Simpson): its error, h⁵ P⁗/2880, falls like the estimate of methods of order 5.
+    /// Three points, exact for powers of degree 3 (Simpson). Its error, h⁵ P⁗/2880, decreases with the step like the
+    /// error estimate of methods of order 5.
     Three,
     /// Four points, exact for powers of degree 5.
     Five,
 }
 
-/// Places for what is known at the nodes: the first is the beginning of the step, the last its end. A rule may leave others unused.
+/// The number of nodes for which values are kept: the first is the start of the step, the last its end. A rule may
+/// leave others unused.
 pub(crate) const NODES: usize = 4;
 
 impl Rule {
-    /// That for steps under control of their error. Steps of methods of higher order are long, and fixed ones may be as long as they like:
-    /// there the rule of degree 5 is needed.
+    /// The rule for steps under error control. Steps of methods of higher order are long, and fixed steps may be
+    /// arbitrarily long: these need the rule of degree 5.
     pub(super) fn of(formula: Formula) -> Rule {
         match formula.order() {
             0..=5 => Rule::Three,
@@ -29,7 +32,7 @@ impl Rule {
         }
     }
 
-    /// The nodes within the step, 0..1, with their places: ½, or ½ ∓ √(1/20).
+    /// The inner nodes, as parts of the step, with their indices: ½, or ½ ∓ √(1/20).
     pub(crate) fn inner(self) -> impl Iterator<Item = (usize, f64)> {
         let nodes: &[f64] = match self {
             Rule::Three => &[0.5],
@@ -38,7 +41,7 @@ impl Rule {
         nodes.iter().enumerate().map(|(i, x)| (1 + i, *x))
     }
 
-    /// The weights of all places.
+    /// The weights of all nodes.
     pub(crate) fn weights(self) -> [f64; NODES] {
         match self {
             Rule::Three => [1.0 / 6.0, 4.0 / 6.0, 0.0, 1.0 / 6.0],
@@ -46,7 +49,7 @@ impl Rule {
         }
     }
 
-    /// The weights other than 0, with their places.
+    /// The weights other than 0, with the indices of their nodes.
     fn terms(self) -> impl Iterator<Item = (usize, f64)> {
         let terms = self.weights().into_iter().enumerate();
         terms.filter(|(_, weight)| *weight != 0.0)
@@ -62,20 +65,20 @@ pub struct Balance<'a, T> {
     pub end: T,
     /// Work of each effect \[J\], in the order of [`Info::powers`](crate::Info::powers).
     pub works: Buffer<'a, T>,
-    /// Σ ∫ |P| dt \[J\]: what was exchanged one way or the other, the measure of how small a gap is.
+    /// Σ ∫ |P| dt \[J\]: the energy exchanged in either direction, by which to judge the size of a gap.
     pub exchanged: T,
-    /// Of what moves freely: momentum at the start, at the time reached, and what forces gave it.
+    /// The balance of momentum of freely moving bodies.
     pub momentum: Momentum<T>,
 }
 
 /// The balance of momentum: three components \[N s\], then three of the angular momentum about the origin \[N m s\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Momentum<T> {
-    /// At the start.
+    /// Momentum at the start.
     pub start: [T; 6],
-    /// At the time reached.
+    /// Momentum at the time reached.
     pub end: [T; 6],
-    /// ∫ of the forces and moments.
+    /// ∫ of the external forces and moments.
     pub given: [T; 6],
     /// ∫ of their magnitudes, component by component.
     pub exchanged: [T; 6],
@@ -92,7 +95,7 @@ impl<T: Real> Momentum<T> {
         }
     }
 
-    /// What is missing \[N s\], and about the origin \[N m s\].
+    /// The largest component missing in the balance \[N s\], and that about the origin \[N m s\].
     pub(super) fn missing(&self) -> [f64; 2] {
         let part = |from: usize| {
             let gap = |i: usize| (self.end[i] - self.start[i] - self.given[i]).abs().to_f64();
@@ -101,14 +104,14 @@ impl<T: Real> Momentum<T> {
         [part(0), part(3)]
     }
 
-    /// The largest number in the balance, however the roundings of it matter.
+    /// The largest number in the balance, which scales its rounding.
     pub(super) fn size(&self) -> f64 {
         let sizes = [self.start, self.end, self.exchanged];
         let sizes = sizes.iter().flatten().map(|size| size.abs().to_f64());
         sizes.fold(0.0, f64::max)
     }
 
-    /// What is missing, relative to the largest there was to miss: the larger of linear and angular momentum's. 0 where there
+    /// The gap relative to the largest term of the balance: the larger one for linear and angular momentum. 0 if there
     /// is no momentum at all.
     pub fn relative_gap(&self) -> f64 {
         let part = |from: usize| {
@@ -127,7 +130,7 @@ impl<T: Real> Momentum<T> {
 }
 
 impl<'a, T: Real> Balance<'a, T> {
-    /// Before a run, with place for the work of each effect.
+    /// A balance before a run, with a buffer for the work of each effect.
     pub fn new(mut works: Buffer<'a, T>) -> Self {
         let zero = T::from_f64(0.0);
         works.fill(zero);
@@ -140,13 +143,13 @@ impl<'a, T: Real> Balance<'a, T> {
         }
     }
 
-    /// What is missing in the balance \[J\]: T(t) − T(0) − Σ W.
+    /// The gap of the balance of energy \[J\]: T(t) − T(0) − Σ W.
     pub fn gap(&self) -> T {
         let works = self.works.iter();
         works.fold(self.end - self.start, |gap, work| gap - *work)
     }
 
-    /// Adds a step of this length with the forces on what moves freely, at the nodes.
+    /// Adds the momentum given to freely moving bodies in a step of this length, from the wrenches at the nodes.
     pub(super) fn push(&mut self, rule: Rule, length: f64, external_wrenches: &[[T; 6]; NODES]) {
         let momentum = &mut self.momentum;
         for (node, weight) in rule.terms() {
@@ -158,7 +161,7 @@ impl<'a, T: Real> Balance<'a, T> {
         }
     }
 
-    /// Adds a step of this length with its powers at the nodes, one node after the other.
+    /// Adds the work in a step of this length, from its powers at the nodes, one node after the other.
     pub(super) fn add(&mut self, rule: Rule, length: f64, powers: &[T]) {
         let effects = self.works.len();
         for (node, weight) in rule.terms() {

@@ -1,4 +1,4 @@
-//! Why a run cannot be trusted: the problems that its [watch](super::watch) can find, and what is said of each: since when, how much, what to do.
+//! The problems that the [watch](super::watch) of a run can find, and their messages: since when, how much, what to do.
 
 use crate::curve::Extrapolate;
 use crate::model::{CurveInfo, CurveKind};
@@ -10,7 +10,7 @@ use core::fmt;
 pub struct Diagnostic {
     /// The time when it began \[s\].
     pub t: f64,
-    /// What it is.
+    /// The problem.
     pub problem: Problem,
     /// The model, for its names.
     pub info: &'static Info,
@@ -44,8 +44,8 @@ pub enum Problem {
         /// The number of such steps.
         steps: u64,
     },
-    /// A flexion went through 180°; or a bushing, or a joint with laws about x, y and z, through ±90° about y; or an angle through ±180°, where its
-    /// torque jumps.
+    /// A flexion went through 180°; or a bushing, or a joint with laws about x, y and z, through ±90° about y; or an
+    /// angle through ±180°, where its torque jumps.
     Flexion {
         /// The direction of bending that jumped, an index in [`Info::curves`].
         bearing: usize,
@@ -102,8 +102,8 @@ impl Diagnostic {
         self.info.state_name(index?)
     }
 
-    /// Its size: the step over the largest stable one, the argument of a curve, the number of steps, the angle of the jump \[rad\], or the share
-    /// that is missing. 1 for the error of fixed steps.
+    /// The size of the problem: the step over the largest stable one, the argument of a curve, the number of steps, the
+    /// angle of the jump \[rad\], or the share that is missing. 1 for the error of fixed steps.
     pub fn amount(&self) -> f64 {
         match self.problem {
             Problem::Step { step, .. } => step / self.problem.largest_stable_step().unwrap_or(step),
@@ -115,7 +115,7 @@ impl Diagnostic {
         }
     }
 
-    /// A word for programs to compare.
+    /// A word that names the kind of problem, for programs.
     pub fn kind(&self) -> &'static str {
         match self.problem {
             Problem::Step { .. } => "step",
@@ -315,7 +315,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// By how much the argument of a curve exceeds its points, and how the curve is extended, in words.
+/// A message: by how much the argument of a curve exceeds its points, and how the curve is extended.
 pub(crate) struct OutOfRange<'a> {
     pub curve: &'a CurveInfo,
     pub argument: f64,

@@ -1,20 +1,21 @@
-//! Where in a step an event function or a kink changes its sign.
+//! Finds where in a step an event function or a kink changes its sign.
 //!
-//! A step is searched for the first time at which one of some functions, in any lane, has another sign than at its beginning:
-//! the root of φ(θ) = max −sign(g(0)) g(θ), negative before it, on the step's interpolant. A function that changes its sign
-//! twice within one step shows nothing of it at the end; [`Within::excursion`] looks for event functions that do, [`Within::hidden`] for kinks.
+//! A step is searched for the first time at which one of several functions, in any lane, has another sign than at the
+//! start of the step: the root of φ(θ) = max −sign(g(0)) g(θ), negative before the root, on the step's interpolant. A
+//! function that changes its sign twice within one step shows no change at the end; [`Within::excursion`] looks for
+//! event functions that do so, [`Within::hidden`] for kinks.
 
 use super::excursion::Excursion;
 use crate::integrate::Stepper;
 use crate::real::{Mask, Number};
 use crate::{Dynamics, Real};
 
-/// Iterations at most; bisection alone needs 44 for a width of 10⁻¹³.
+/// Limit of iterations; bisection alone needs 44 for a width of 10⁻¹³.
 const ITERATIONS: u32 = 100;
 /// Width of a bracket, as a part of the step. The time of an event then errs by less than the step does.
 pub(crate) const WIDTH: f64 = 1e-13;
 
-/// Which functions of a model are looked at.
+/// The kind of functions to examine.
 #[derive(Clone, Copy)]
 pub(super) enum Which {
     EventFunctions,
@@ -22,7 +23,7 @@ pub(super) enum Which {
 }
 
 impl Which {
-    /// What 0 means.
+    /// The meaning of a function value of 0.
     pub const fn zero(self) -> Zero {
         match self {
             Which::EventFunctions => Zero::Positive,
@@ -31,12 +32,12 @@ impl Which {
     }
 }
 
-/// The functions of a model within a step. After [`Stepper::complete`].
+/// The functions of a model within a step, which [`Stepper::complete`] has completed.
 pub(super) struct Within<'s, T: Real> {
     pub model: &'s dyn Dynamics<T>,
     pub step: &'s dyn Stepper<T>,
     pub which: Which,
-    /// What they are at the beginning.
+    /// The functions at the start of the step.
     pub before: &'s [T],
     /// Place for a state.
     pub state: &'s mut [T],
@@ -44,11 +45,11 @@ pub(super) struct Within<'s, T: Real> {
     pub values: &'s mut [T],
 }
 
-/// Places at which values are kept at the same time: four to look at, and a vertex.
+/// Number of places at which values are kept at the same time: four fixed ones, and a vertex.
 pub(super) const PLACES: usize = 5;
 
 impl<T: Real> Within<'_, T> {
-    /// What they are at t + θh, kept as the values of a place.
+    /// Evaluates the functions at t + θh, and keeps them as the values of a place.
     fn at(&mut self, theta: f64, place: usize) -> &[T] {
         let count = self.before.len();
         inside(self.model, self.step, theta, self.state);
@@ -62,14 +63,14 @@ impl<T: Real> Within<'_, T> {
         values
     }
 
-    /// How far any of them is on the other side at t + θh.
+    /// The largest value on the other side of zero, over all functions, at t + θh.
     fn change(&mut self, theta: f64) -> f64 {
         let (zero, before) = (self.which.zero(), self.before);
         change(zero, before, self.at(theta, 0)).to_f64()
     }
 
-    /// The fraction of the step, in 0..=`end`, just behind the first change of sign of any of them, to within `width`. At least one has changed
-    /// at `end` the sign that it had at the beginning.
+    /// The fraction of the step, in 0..=`end`, just behind the first sign change of any function, to within `width`. At
+    /// `end` at least one function must have changed its sign.
     pub fn first_change(&mut self, end: f64, width: f64) -> f64 {
         let below = change(self.which.zero(), self.before, self.before);
         let mut bracket = Bracket::new([below.to_f64(), self.change(end)], end, width);
@@ -80,8 +81,8 @@ impl<T: Real> Within<'_, T> {
         bracket.other
     }
 
-    /// The first of them that has another sign within the step than at its ends, where they are `after`, and a fraction of the step at which it
-    /// has.
+    /// The first function whose sign changes within the step and is back at the end, where the values are `after`, and
+    /// a fraction of the step at which the sign is changed.
     pub fn excursion(&mut self, after: &[T]) -> Option<(usize, f64)> {
         let (zero, count) = (self.which.zero(), self.before.len());
         for (place, theta) in [0.25, 0.5, 0.75].into_iter().enumerate() {
@@ -110,10 +111,11 @@ impl<T: Real> Within<'_, T> {
         first
     }
 
-    /// The fraction of the step at which one of them is farthest on the other side of zero, though at the end it has the sign of the
-    /// beginning: a ball in free flight, whose parabola is integrated without error in steps of any length, would fly into a wall and out
-    /// again in one of them. They are looked at in three places within the step, and where parabolas through
-    /// neighbouring values have their vertex.
+    /// A fraction of the step at which one of the functions is on the other side of zero, though its end does not show
+    /// this: a ball in free flight, whose parabola is integrated without error in steps of any length, would fly into a
+    /// wall and out again in one step. If a function is on the other side at the end, a place where it was far deeper
+    /// on this side than at the start ([`DEEPER`]). The functions are evaluated at three places within the step, and at
+    /// the vertices of parabolas through neighbouring values.
     pub fn hidden(&mut self) -> Option<f64> {
         for (place, theta) in [0.25, 0.5, 0.75, 1.0].into_iter().enumerate() {
             self.at(theta, place);
@@ -121,7 +123,7 @@ impl<T: Real> Within<'_, T> {
         (0..self.before.len()).find_map(|i| self.hidden_of(i))
     }
 
-    /// [`Within::hidden`] of one of them, whose values at the places are known.
+    /// [`Within::hidden`] for one function, whose values at the places are known.
     fn hidden_of(&mut self, i: usize) -> Option<f64> {
         let (zero, before, count) = (self.which.zero(), self.before[i], self.before.len());
         let at_place = |k: usize| match k {
@@ -147,32 +149,33 @@ impl<T: Real> Within<'_, T> {
     }
 }
 
-/// The search for the first change of sign between the beginning of a step, or of the step of each lane, and a place where it has happened.
+/// The search for the first sign change between the start of a step, or of the step of each lane, and a place where it
+/// has happened.
 ///
 /// Regula falsi with the Illinois modification (Dowell & Jarratt, BIT 11, 1971), and a bisection wherever two
-/// iterations have not halved the bracket. It asks for values and is told.
+/// iterations have not halved the bracket. The search asks for values and is told them.
 #[derive(Clone, Copy)]
 pub(crate) struct Bracket<P: Number> {
-    /// Places before the change and behind it, as parts of the step.
+    /// The ends of the bracket before and behind the sign change, as parts of the step.
     pub same: P,
     pub other: P,
-    /// What is found there, as far as it counts.
+    /// The values at these ends, as modified by the Illinois rule.
     below: P,
     above: P,
-    /// On which side the last place was.
+    /// The side of the change on which the last place was.
     was_above: P::Mask,
     was_below: P::Mask,
-    /// How far apart the places were two iterations before.
+    /// Width of the bracket two iterations before.
     apart: P,
     taken: u32,
-    /// The place that is asked for.
+    /// The place whose value is asked for.
     theta: P,
-    /// No finer than this.
+    /// Width at which the search ends.
     width: f64,
 }
 
 impl<P: Number> Bracket<P> {
-    /// With the values at the beginning and at the `end`.
+    /// A search with the values at the start of the step and at `end`.
     #[inline(always)]
     pub fn new([below, above]: [P; 2], end: P, width: f64) -> Self {
         let none = P::Mask::of_lanes(0);
@@ -190,7 +193,7 @@ impl<P: Number> Bracket<P> {
         }
     }
 
-    /// Where the search is to go on.
+    /// The lanes in which the search is to go on.
     #[inline(always)]
     pub fn open(&self) -> P::Mask {
         let wide = P::from_f64(self.width).lt(self.other - self.same);
@@ -201,7 +204,7 @@ impl<P: Number> Bracket<P> {
         wide.and(P::Mask::of_lanes(patient))
     }
 
-    /// Where to look next, where it is `open`.
+    /// The next place to evaluate, in the lanes that are `open`.
     #[inline(always)]
     pub fn next(&mut self, open: P::Mask) -> P {
         let half = P::from_f64(0.5);
@@ -222,7 +225,7 @@ impl<P: Number> Bracket<P> {
         self.theta
     }
 
-    /// What is found there, where it is `open`.
+    /// Takes the value at that place, in the lanes that are `open`.
     #[inline(always)]
     pub fn tell(&mut self, value: P, open: P::Mask) {
         let (nought, half) = (P::from_f64(0.0), P::from_f64(0.5));
@@ -239,18 +242,20 @@ impl<P: Number> Bracket<P> {
     }
 }
 
-/// How far a function is on the other side of zero, at five places of a step.
+/// The values of a function at five places of a step, positive on the other side of zero than at the start.
 #[derive(Clone, Copy)]
 pub(crate) struct Course<P>(pub [P; 5]);
 
 impl<P: Number> Course<P> {
-    /// Where it is on the other side at the end: it is seen there, but not how deep it was on this one.
+    /// True where the function is on the other side at the end: the change is noticed there, but not how deep the
+    /// function was on this side before.
     #[inline(always)]
     fn seen(&self) -> P::Mask {
         P::from_f64(0.0).lt(self.0[4])
     }
 
-    /// Where such a value would be worth a look.
+    /// True where a value of this size within the step is to be searched for: it is on the other side, and the end is
+    /// not; or the end is on the other side, and the value is [`DEEPER`] times deeper on this side than the start.
     #[inline(always)]
     pub fn matters(&self, value: P) -> P::Mask {
         let nought = P::from_f64(0.0);
@@ -261,8 +266,8 @@ impl<P: Number> Course<P> {
         seen.and(deep).or(seen.not().and(nought.lt(value)))
     }
 
-    /// Where it may be worth a look at all, told by few operations: no vertex between the neighbours of a place is farther from its value
-    /// than half of what the parabola bends by.
+    /// True where a vertex may matter, by a quick test: no vertex between the neighbours of a place is farther from the
+    /// value there than half of the second difference.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub fn likely(&self) -> P::Mask {
@@ -281,8 +286,8 @@ impl<P: Number> Course<P> {
         seen.and(deep).or(seen.not().and(nought.lt(highest)))
     }
 
-    /// Of the parabola through a place within and its neighbours: where its vertex is at stake, how far that is from the middle,
-    /// as a part of the distance of places.
+    /// For the parabola through an inner place and its neighbours: true where its vertex may matter, and the distance
+    /// of the vertex from the place, as a part of the distance between places.
     #[inline(always)]
     pub fn vertex(&self, k: usize) -> (P::Mask, P) {
         let (half, nought) = (P::from_f64(0.5), P::from_f64(0.0));
@@ -299,7 +304,7 @@ impl<P: Number> Course<P> {
     }
 }
 
-/// The state at t + θh inside a step, on its manifold. After [`Stepper::complete`].
+/// The state at t + θh within a step that [`Stepper::complete`] has completed, normalized to its manifold.
 pub(super) fn inside<T: Real>(
     model: &dyn Dynamics<T>,
     step: &dyn Stepper<T>,
@@ -310,19 +315,21 @@ pub(super) fn inside<T: Real>(
     model.normalize(state);
 }
 
-/// What begins a trifle inside a contact, goes at least so many times deeper, and leaves it within one step, is looked at.
+/// A visit that begins slightly inside a contact is searched for if it gets at least this many times deeper and ends
+/// within the same step.
 const DEEPER: f64 = 4.0;
 
-/// What 0 at the beginning of a step means; at its end it is always no change yet.
+/// The meaning of a value of 0 at the start of a step. At the end of a step, 0 is never a change of sign yet.
 #[derive(Clone, Copy)]
 pub(crate) enum Zero {
-    /// Positive: an event function may rest there, and what comes of it is decided by what it becomes.
+    /// 0 counts as positive: an event function may rest at 0, and has changed once it is negative.
     Positive,
-    /// Neither: a step that begins on a kink and leaves it has a first stage on one side and the others on the other.
+    /// 0 has no sign, and any other value is a change: a step that begins on a kink and leaves it has its first stage
+    /// on one side and the others on the other.
     Neither,
 }
 
-/// Positive where a function has not the sign that it had.
+/// Positive if the sign of a function differs from that before.
 #[inline(always)]
 pub(crate) fn opposite<T: Real>(zero: Zero, before: T, after: T) -> T {
     let nought = T::from_f64(0.0);
@@ -333,7 +340,7 @@ pub(crate) fn opposite<T: Real>(zero: Zero, before: T, after: T) -> T {
     T::select(before.lt(nought), after, otherwise)
 }
 
-/// The largest of [`opposite`] over all functions, positive where one of them has changed its sign.
+/// The largest of [`opposite`] over all functions, positive if one of them has changed its sign.
 #[inline(always)]
 pub(crate) fn change<T: Real>(zero: Zero, before: &[T], after: &[T]) -> T {
     let mut worst = T::from_f64(f64::NEG_INFINITY);

@@ -1,76 +1,84 @@
-//! Whether an event function changes its sign within a step and changes it back, so that nothing of it shows at the end.
+//! Finds event functions that change their sign within a step and change it back, so that the ends of the step do not
+//! show this.
 //!
-//! 1. **Is it possible?** Three values, a step before, at the beginning and at the end, tell how much the event function bends. An event function that bends so
-//!    much cannot come farther off its chord than h²/8 times its second derivative. Where that is less than its distance from zero, even with a
-//!    margin, and it would not come to zero on the line that it was on in the step before, nothing is spent ([`overshoot`], [`heads_for`]).
-//! 2. **Does it?** Otherwise it is evaluated within the step, at the ends of its quarters, and then wherever it may be on the other side
-//!    ([`Excursion`]). Between two places, a concave function is below the lines through each of them and the one known next beyond. That holds for
-//!    distances in straight motion, however close something passes, and for a parabola four times over. An interval in which these lines stay on
-//!    this side is left; in another the event function is evaluated where the lines meet, or a parabola has its vertex, and both parts are looked at.
+//! 1. **Is it possible?** Three values, at the start of the previous step, at the start of this one and at its end,
+//!    tell how much the event function bends. Its largest distance from its chord is h²/8 times its second derivative.
+//!    The step is not searched if this distance, even with a margin, is less than the distance from zero, and if the
+//!    event function would not reach zero on the line that it followed in the previous step ([`overshoot`],
+//!    [`heads_for`]).
+//! 2. **Does it?** Otherwise the event function is evaluated within the step, at the ends of its quarters, and then
+//!    wherever it may be on the other side ([`Excursion`]). Between two places, a concave function is below the lines
+//!    through each of them and the next known place beyond. This holds for distances in straight motion, however close
+//!    a body passes, and for a parabola with a margin of a factor of four. An interval in which these lines stay on
+//!    this side of zero is excluded; in any other the event function is evaluated where the lines meet, or where a
+//!    parabola has its vertex, and both parts are examined.
 //!
-//! The step is then cut where the event function changes its sign first, as where the change shows at the end.
+//! The step is then cut at the first sign change, as it is for a change that shows at the end.
 
 use crate::Real;
 
-/// An event function may bend so many times as much as is known.
+/// Assumed bound on the second derivative of an event function, over that known from three values.
 const MARGIN: f64 = 4.0;
-/// And come near zero so many times as fast.
+/// Assumed bound on how fast an event function approaches zero, over its rate in the previous step.
 const FASTER: f64 = 1.5;
-/// Evaluations in a step at most.
+/// Limit of evaluations in a step.
 const PATIENCE: u32 = 100;
-/// Parts of parts of a quarter at most.
+/// Limit of nested divisions of a quarter.
 const LEVELS: usize = 60;
-/// Parts of a step that are not divided.
+/// Parts of a step no wider than this are not divided.
 const NARROW: f64 = 1e-14;
-/// No place is looked at nearer to a known one, as a part of the interval.
+/// Least distance of an evaluation from the ends of its interval, as a part of the interval.
 const NEAREST: f64 = 1e-2;
 
-/// Positive where an event function may have come to zero between `before` and `after`, a step of length `h` apart, by how much it bends since `past`, a step
-/// of length `h_past` before.
+/// Positive if an event function may have reached zero between `before` and `after`, the values at the ends of a step
+/// of length `h`, judged by its bend since `past`, the value at the start of the previous step, of length `h_past`.
 #[inline(always)]
 pub(crate) fn overshoot<T: Real>([past, before, after]: [T; 3], [h_past, h]: [T; 2]) -> T {
     let slopes = [(before - past) / h_past, (after - before) / h];
-    // half of the second derivative
+    // half the second derivative
     let bend = ((slopes[1] - slopes[0]) / (h_past + h)).abs();
     T::from_f64(0.25 * MARGIN) * bend * h * h - before.abs().min(after.abs())
 }
 
-/// Positive where an event function would come to zero in a step of length `h` that is `before` now, if it went on as it did since `past`, a step of length
-/// `h_past` before: what passes zero straight and close shows nothing of it at the ends of a step but that.
+/// Positive if an event function with the value `before` would reach zero in a step of length `h` by going on as it did
+/// since `past`, in the previous step of length `h_past`. A function that passes zero briefly and straight is
+/// recognized at the ends of a step by nothing else.
 #[inline(always)]
 pub(crate) fn heads_for<T: Real>([past, before]: [T; 2], [h_past, h]: [T; 2]) -> T {
     let approach = (past.abs() - before.abs()) / h_past;
     T::from_f64(FASTER) * approach * h - before.abs()
 }
 
-/// A place in a step, as a part of it, and how far the event function is on the other side there.
+/// A place in a step, as a part of the step, and the value of the event function there, positive on the other side of
+/// zero.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     theta: f64,
     value: f64,
 }
 
-/// The search for a place in a step at which an event function is on the other side, which it is not at its ends. It asks for values and is told.
+/// The search for a place within a step at which an event function is on the other side of zero, though it is not at
+/// the ends. It asks for values and is told them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Excursion {
-    /// At the beginning, the ends of the quarters, and the end: negative on this side.
+    /// The values at the start, the ends of the quarters, and the end: negative on this side.
     values: [f64; 5],
-    /// The next quarter.
+    /// The next quarter to examine.
     quarter: usize,
-    /// The place known next before the interval that is looked at, and its left end.
+    /// The known place just before the current interval, and the left end of the interval.
     before: Option<Place>,
     left: Place,
-    /// Right ends of it and of those around it, so many.
+    /// Right ends of the current interval and of the intervals that contain it; `depth` is their number.
     right: [Place; LEVELS],
     depth: usize,
     taken: u32,
-    /// The place that is asked for.
+    /// The place whose value is asked for.
     theta: f64,
     found: Option<f64>,
 }
 
 impl Excursion {
-    /// With the values at the beginning, the ends of the quarters, and the end.
+    /// A search with the values at the start, the ends of the quarters, and the end.
     pub fn new(values: [f64; 5]) -> Self {
         let seen = values[..4].iter().position(|value| *value > 0.0);
         let begin = Place {
@@ -90,12 +98,12 @@ impl Excursion {
         }
     }
 
-    /// A place at which it is on the other side.
+    /// A place at which the event function is on the other side, if one has been found.
     pub fn found(&self) -> Option<f64> {
         self.found
     }
 
-    /// Where it is to be evaluated next, as a part of the step; `None` where the search is over.
+    /// The next place to evaluate, as a part of the step; `None` when the search is over.
     pub fn next(&mut self) -> Option<f64> {
         while self.found.is_none() && self.taken < PATIENCE {
             if self.depth == 0 {
@@ -121,7 +129,7 @@ impl Excursion {
         None
     }
 
-    /// What it is there.
+    /// Takes the value at that place.
     pub fn tell(&mut self, value: f64) {
         self.taken += 1;
         let theta = self.theta;
@@ -140,7 +148,7 @@ impl Excursion {
         Some(Place { theta, value })
     }
 
-    /// The place known next beyond the interval.
+    /// The known place just beyond the current interval.
     fn beyond(&self) -> Option<Place> {
         match self.depth {
             0 | 1 => self.end_of_quarter(self.quarter + 1),
@@ -148,7 +156,7 @@ impl Excursion {
         }
     }
 
-    /// Where in the interval the lower one of the lines from both sides is highest, and how high.
+    /// The place in the interval where the lower one of the lines from both sides is highest, with its value.
     fn meet(&self, right: Place) -> Place {
         let slope = |a: Place, b: Place| (b.value - a.value) / (b.theta - a.theta);
         let left = self.left;
@@ -156,7 +164,7 @@ impl Excursion {
         let up = self.before.map(|before| slope(before, left));
         let down = self.beyond().map(|beyond| slope(right, beyond));
         match (up, down) {
-            // what is no number is not above anything
+            // NaN is not above anything
             (Some(up), _) if up <= 0.0 || up.is_nan() => left,
             (_, Some(down)) if down >= 0.0 || down.is_nan() => right,
             (Some(up), Some(down)) => {
@@ -182,8 +190,8 @@ impl Excursion {
         }
     }
 
-    /// Where in the interval it is evaluated: where the lines meet, which is the peak of what goes straight up and down, and, in turns, where a
-    /// parabola has its vertex.
+    /// The place in the interval to evaluate: where the lines meet, which is the peak of a function that goes straight
+    /// up and down; and, in turns, the vertex of a parabola.
     fn choose(&self, meet: Place, right: Place) -> f64 {
         let left = self.left;
         let vertex = match self.taken.is_multiple_of(2) {
@@ -196,7 +204,7 @@ impl Excursion {
         theta.clamp(left.theta + least, right.theta - least)
     }
 
-    /// The vertex of the parabola through both ends of the interval and the higher of the places beyond.
+    /// The vertex of the parabola through both ends of the interval and the higher of the known places beyond.
     fn vertex(&self, right: Place) -> Option<f64> {
         let left = self.left;
         let [a, b, c] = match (self.before, self.beyond()) {

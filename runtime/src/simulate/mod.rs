@@ -1,18 +1,22 @@
-//! A run: from the initial state at its start to the duration, sampled at the start, at every multiple of `every`, and at the duration.
+//! A run: integrates a model from its initial state to the duration. It delivers samples at the start, at every
+//! multiple of `every`, and at the duration.
 //!
-//! Steps end on every kink of a curve of time ([`Info::breakpoints`](crate::Info::breakpoints)), for an error estimate assumes a smooth
-//! derivative. Fixed steps also end on every sample; steps under control of their error are chosen freely, and samples are
-//! interpolated. A step ends where an event function of the model changes its sign ([`Model::event_functions`]), and, where asked to, on kinks of
-//! force laws ([`Model::kinks`]). After each accepted step the memory of force laws is renewed.
+//! Steps end on every kink of a curve of time ([`Info::breakpoints`](crate::Info::breakpoints)), because an error
+//! estimate assumes a smooth derivative. Fixed steps also end on every sample. Steps under error control are chosen
+//! freely, and samples are interpolated. A step also ends where an event function of the model changes its sign
+//! ([`Model::event_functions`]), and, if the settings ask for it, on kinks of force laws ([`Model::kinks`]). After each
+//! accepted step the memory of force laws is renewed.
 //!
-//! **One loop and the other.** A batch (`crate::batch`) has a time loop of its own. Both have the same parts where something is decided: the
-//! controller and the first step (`integrate::control`), how a step meets a time (`schedule`), where an event function changes its sign and
-//! what hides within a step (`event`, `excursion`), what a step may go over (`onset`), when a balance does not close (`watch::account`), and what is
-//! wanted of a model where a step ends ([`Dynamics::arrive`]). These parts compute with a number, which is `f64` here and a register there, or
-//! they ask for values and are told. The loops around them differ. Lanes select where a run branches; they take scenarios one after the other, pack
-//! places of several lanes into one register, and have derivatives of the times of events. A run takes any scalar, implicit steppers
-//! and up to sixteen stages; it approaches kinks, says what decided the length of its steps, can be left and entered again, and needs no allocator. One
-//! loop would have to do all of this with masks, over scalars that are no lanes, too.
+//! **Two time loops.** A batch (`crate::batch`) has a time loop of its own. Both loops share the parts that decide
+//! something: the controller and the first step (`integrate::control`), how a step meets a time (`schedule`), where an
+//! event function changes its sign and what hides within a step (`event`, `excursion`), which contacts a step may pass
+//! over (`onset`), when a balance does not close (`watch::account`), and what is evaluated where a step ends
+//! ([`Dynamics::arrive`]). The shared parts either compute with a number type, which is `f64` here and a register in a
+//! batch, or they ask for values and are told them. The loops around them differ. In a batch, lanes use selection where
+//! a run branches; they take scenarios one after the other, pack places of several lanes into one register, and carry
+//! derivatives of event times. A run takes any scalar, implicit steppers and up to sixteen stages; it approaches kinks,
+//! reports what decided the length of its steps, can be left and entered again, and needs no allocator. A common loop
+//! would have to do all of this with masks, also for scalars that are no lanes.
 
 pub(crate) mod balance;
 mod diagnostic;
@@ -64,26 +68,26 @@ pub struct Sample<'a, T> {
     pub state: &'a [T],
     /// The outputs, in the order and units of [`Info::outputs`].
     pub outputs: &'a [T],
-    /// Which sample it is.
+    /// The purpose of the sample.
     pub kind: SampleKind,
 }
 
-/// What a sample is for.
+/// The purpose of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleKind {
-    /// A row, at the start, at a multiple of [`Settings::every`], or at the end: all of it is finite.
+    /// A row: at the start, at a multiple of [`Settings::every`], or at the end. All its numbers are finite.
     Row,
-    /// One at the end of a [part](Settings::parts), or at the start. Outputs may be no numbers.
+    /// A sample at the end of a [part](Settings::parts), or at the start. Its outputs may be NaN or infinite.
     Part,
 }
 
-/// Who receives the samples of a run; may break it off.
+/// Receives the samples of a run, and may break the run off.
 pub type Receiver<'a, T> = dyn FnMut(Sample<'_, T>) -> ControlFlow<()> + 'a;
 
-/// Hears of every step that was tried, by the time reached \[s\]; may stop the run.
+/// Is called before every try of a step with the time reached \[s\], and may stop the run.
 pub type Observer<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
-/// What a run took.
+/// Statistics of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// Time reached \[s\]: the duration, unless the receiver of the samples asked to stop.
@@ -94,19 +98,20 @@ pub struct Report {
     pub rejected: u64,
     /// Evaluations of the derivative.
     pub evaluations: u64,
-    /// Jacobians of the Rosenbrock method, each as many evaluations over dual numbers as the state has entries, and one.
+    /// Jacobians evaluated for the Rosenbrock method. Each takes one evaluation over dual numbers per entry of the
+    /// state, and one more.
     pub jacobians: u64,
-    /// Changes of sign of event functions at which a step ended, and kinks that were approached and crossed.
+    /// Events: steps that ended at a sign change of an event function, and kinks that were approached and crossed.
     pub events: u64,
-    /// Samples delivered, but for those at the ends of [parts](Settings::parts).
+    /// Samples delivered, without those at the ends of [parts](Settings::parts).
     pub samples: u64,
-    /// Steps accepted of the Rosenbrock method, where the run changed to it because the scene is stiff.
+    /// Steps accepted with the Rosenbrock method after the run changed to it because the scene is stiff.
     pub stiff: u64,
     /// Smallest step accepted \[s\].
     pub smallest_step: f64,
-    /// Where it begins \[s\].
+    /// Time at which the smallest step begins \[s\].
     pub smallest_step_at: f64,
-    /// What forced it.
+    /// What forced the smallest step.
     pub smallest_step_for: Cause,
     /// Largest step accepted \[s\].
     pub largest_step: f64,
@@ -115,9 +120,9 @@ pub struct Report {
 /// What decided the length of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// It is the first, whose length is a guess.
+    /// The step is the first one; its length is a guess.
     First,
-    /// The tolerance, most of all that of this entry of the state.
+    /// The error tolerance; the entry of the state with this index had the largest error.
     Tolerance(usize),
     /// The largest step allowed.
     Largest,
@@ -125,7 +130,7 @@ pub enum Cause {
     Fixed,
     /// A kink of a curve of time.
     Breakpoint,
-    /// A sample, on which fixed steps end.
+    /// A sample; fixed steps end on samples.
     Sample,
     /// A kink of a force law, by its index in [`Info::kinks`](crate::Info::kinks).
     Kink(usize),
@@ -140,8 +145,8 @@ pub enum Cause {
 /// The method may be any but [`Formula::Rodas5`](crate::Formula::Rodas5): see [`simulate_stiff`].
 ///
 /// # Errors
-/// Settings that make no sense; a state that ceases to be finite; a step below the smallest; too many steps. All samples
-/// before have been delivered.
+/// Invalid settings; a state that ceases to be finite; a step below the smallest; too many steps. All samples before
+/// the failure have been delivered.
 #[cfg(feature = "std")]
 pub fn simulate<T: Real, M: Model<T>>(
     model: &M,
@@ -166,7 +171,8 @@ fn to_the_end<T: Real>(
 
 /// [`simulate`] by any method, the Rosenbrock method for stiff models included.
 ///
-/// That needs the Jacobian of the model, so the equations are compiled a second time, over dual numbers.
+/// The Rosenbrock method needs the Jacobian of the model, so the equations are compiled a second time, over dual
+/// numbers.
 ///
 /// # Errors
 /// As [`simulate`].
@@ -201,8 +207,9 @@ pub fn simulate_from<T: Real, M: Model<T>>(
     run(&Direct(model), initial.as_ref(), settings, None, sink)
 }
 
-/// [`simulate_from`], watched: where the energy went and whether the run can be trusted. It takes two evaluations of the powers
-/// more for each step, three with methods of higher order and with fixed steps. What is found is that of the time reached, of a failed run too.
+/// [`simulate_from`] with a watch, which records where the energy went and whether the run can be trusted. The watch
+/// takes two more evaluations of the powers per step, three with methods of higher order and with fixed steps. Its
+/// findings hold up to the time reached, for a failed run too.
 ///
 /// # Errors
 /// As [`simulate`].
@@ -226,7 +233,8 @@ pub fn simulate_watched<T: Real, M: Model<T>>(
     )
 }
 
-/// Runs any model, from any state, watched or not: what all of the above do. It allocates its memory once, before it begins.
+/// Runs any model from any state, watched or not. All functions above call this one. It allocates its memory once,
+/// before the run begins.
 ///
 /// A generated model is given as [`Direct`], or as [`Differentiable`] where the method needs its Jacobian.
 ///
@@ -266,11 +274,11 @@ pub fn run<T: Real>(
     run_in(&mut workspace, model, initial, settings, watch, sink)
 }
 
-/// [`run`], with somebody who hears of every step that was tried, by the time reached \[s\], and may stop the run: to show progress, or to keep to a
-/// limit of time.
+/// [`run`] with an observer, which is called before every try of a step with the time reached \[s\] and may stop the
+/// run: to show progress, or to keep a time limit.
 ///
 /// # Errors
-/// As [`simulate`]. A run that is stopped is no error: its report has the time reached.
+/// As [`simulate`]. A stopped run is no error: its report has the time reached.
 ///
 /// # Panics
 /// As [`run`].
@@ -289,14 +297,15 @@ pub fn run_observed<T: Real>(
     T::march(&mut run, sink, Some(observer))
 }
 
-/// [`run`] in memory that is given, of which [`workspace_length`] says how much there has to be: for targets without an allocator, and for
-/// many runs one after the other. What the memory holds before does not matter.
+/// [`run`] in the given memory, of at least [`workspace_length`] scalars with any values: for targets without an
+/// allocator, and for many runs one after the other.
 ///
 /// # Errors
 /// As [`simulate`].
 ///
 /// # Panics
-/// Where the memory is too short; where `initial` is not as long as a state of the model; with a watch for another model.
+/// Where the memory is too short; where `initial` is not as long as a state of the model; with a watch for another
+/// model.
 pub fn run_in<T: Real>(
     workspace: &mut [T],
     model: &dyn Dynamics<T>,
@@ -309,7 +318,7 @@ pub fn run_in<T: Real>(
     T::march(&mut run, sink, None)
 }
 
-/// How many scalars a run of this model takes as its workspace.
+/// The number of scalars that a run of this model needs as its workspace.
 pub const fn workspace_length(info: &Info, settings: &Settings) -> usize {
     time_loop::length(info) + crate::integrate::step_length(&settings.method, info)
 }

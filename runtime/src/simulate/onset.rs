@@ -1,77 +1,92 @@
-//! Whether a step went over something that began and ended in it: exclusion, by bounds that follow from the motion.
+//! Finds laws that begin and end to act within one step, such as a contact that is passed over. Excludes them by bounds
+//! that follow from the motion.
 //!
-//! Each law that may begin to act has a gap g, positive while it does not, and a speed c, by which g changes at most
-//! ([`crate::Model::onsets`]). Between two places of a step that are a time d apart, with the gaps g₀ and g₁,
+//! Each law that may begin to act has a gap g, positive while the law is idle, and a speed c, a bound on how fast g
+//! changes ([`crate::Model::onsets`]). Between two places of a step that are a time d apart, with the gaps g₀ and g₁,
 //!
 //! g ≥ (g₀ + g₁ − c d)/2.
 //!
-//! Where that is above the limit, nothing is there. Elsewhere the gap is evaluated in the middle, on the step's interpolant, and both
-//! halves are looked at, the first one first, until all is excluded or a place is found where g is below the limit. A motion close
-//! by that does not touch would be halved without end: with the gap g in the middle, whose second difference is b = g₀ − 2 g + g₁, both
-//! halves are excluded where min(g₀, g) − |b| and min(g, g₁) − |b| are above the limit. That holds of every convex function, such as the
-//! distance of what moves straight past a ball, a plate or an edge, and of a parabola eight times over.
+//! Where this bound is above the limit, the law does not act between the two places. Elsewhere the gap is evaluated in
+//! the middle, on the step's interpolant, and both halves are examined, the first one first, until all are excluded or
+//! a place with g below the limit is found. A motion that passes close by without touching would be halved without end.
+//! Therefore a second test uses the gap g in the middle, with the second difference b = g₀ − 2 g + g₁: both halves are
+//! excluded if min(g₀, g) − |b| and min(g, g₁) − |b| are above the limit. This is valid for every convex function, such
+//! as the distance of a point that moves straight past a ball, a plate or an edge; for a parabola it has a margin of a
+//! factor of eight.
 //!
-//! **Limit.** 0, of a law that is idle at both ends. Of a law that acts at an end it is [`DEEPER`] times the lowest gap there: the
-//! force at that end is seen by the estimate of the error, but not what is far deeper between. A law that is idle where the step begins is
-//! found where it begins to act; of another any place that is so deep will do, and the next step sees its force.
+//! **Limit.** The limit is 0 for a law that is idle at both ends of the step. For a law that acts at an end it is
+//! [`DEEPER`] times the lowest gap there: the error estimate notices the force at that end, but not a much deeper visit
+//! between. For a law that is idle at the start of the step, the search finds the place where it begins to act; for any
+//! other, some place below the limit is enough, and the next step then notices its force.
 //!
-//! **Shortcuts.** Most steps need no search. A step is excluded by the gaps at three places that are known anyway, where the step before began and at the
-//! ends of this one ([`straight`]), or with one more in the middle ([`calm`]): the gap bends too little to reach the limit.
+//! **Shortcuts.** Most steps need no search. A step is excluded by the gaps at three places that are known anyway, at
+//! the start of the previous step and at both ends of this one ([`straight`]), or with one more in the middle
+//! ([`calm`]), if the gap bends too little to reach the limit.
 //!
-//! **Corners.** A force that acts already may change its slope at a corner of its curve: a soft layer over a hard ground. What is told of it is how
-//! far the nearest corner is, positive on one side and negative on the other. Either side may be the one that is left and come back to, and so a
-//! corner stands for two laws, one with that gap and one with its negative ([`sides`]). A step ends behind the first corner that it passes
-//! without a sign of it at its end, or barely one.
+//! **Corners.** A force that acts already may change its slope at a corner of its curve: a soft layer over a hard
+//! ground. The model reports the distance to the nearest corner, positive on one side and negative on the other. A
+//! motion may leave either side and come back, so a corner stands for two laws, one with this gap and one with its
+//! negative ([`sides`]). A step is ended behind the first corner that it passes with no, or hardly any, trace at its
+//! end.
 //!
-//! **Fixed steps** cannot be taken again. Where one goes over a law or a corner, it is told if that matters: what the rates at the deepest place
-//! differ by from a straight line through those where the visit begins and as long before, times how long it lasts, is what the step did not
-//! see ([`Visit`]). Of a law that acts at an end of the step, the line is that between both ends. A visit that would change no velocity by more
-//! than [`UNSEEN`] of itself is as well resolved as what the step does see. A corner at which the step begins is not told: motions begin there.
+//! **Fixed steps** cannot be taken again. If one passes over a law or a corner, this is reported if it matters. The
+//! part of a rate that the step missed is estimated as follows ([`Visit`]): the rate at the deepest place, minus the
+//! value there of a straight line through the rates where the visit begins and as long before, times the duration of
+//! the visit. For a law that acts at an end of the step, the line is that between both ends. A visit that would change
+//! no velocity by more than [`UNSEEN`] of itself is resolved well enough. A corner at which the step begins is not
+//! reported, because motions begin at corners.
 //!
-//! **What is assumed.** In a step that is no longer than the time between samples, no speed is more than [`NEAR`] times the larger of those at its
-//! ends. Or no speed is more than [`STRAIGHT`] times that, and the second derivative of the gap is at most 4 times that of the parabola through the
-//! three places. Or, with the gap in the middle, the second derivative is at most 8 times that of the parabola through the step's own three places,
-//! and one of the conditions before holds. Any other step is searched: between the places that are looked at, quarters of a step or less, no speed
-//! is more than [`MARGIN`] times the largest that was found. Where a second difference excludes, in eighths of a step or less, the gap is convex, or no
-//! second derivative is above 8 times that of the parabola through the three.
+//! **Assumptions.** A step no longer than the time between samples is excluded without a search under one of three
+//! assumptions. (1) No speed is more than [`NEAR`] times the larger of those at its ends. (2) No speed is more than
+//! [`STRAIGHT`] times that, and the second derivative of the gap is at most 4 times that of the parabola through the
+//! three places. (3) With the gap in the middle: the second derivative is at most 8 times that of the parabola through
+//! the step's own three places, and the speed or the bend condition of (2) holds. Any other step is searched, assuming
+//! that between the places evaluated, quarters of a step or less, no speed is more than [`MARGIN`] times the largest
+//! found. Where a second difference excludes, in eighths of a step or less, the gap is assumed to be convex, or to have
+//! no second derivative above 8 times that of the parabola through the three places.
 
 use super::excursion::overshoot;
 use crate::Real;
 use crate::real::{Mask, Number};
 
-/// How many times deeper than at the ends of a step a law must act within it to be looked at.
+/// A visit of a law that acts at an end of a step is searched for if it gets this many times deeper within the step.
 const DEEPER: f64 = 4.0;
-/// How many times the speeds at the ends of a step may be exceeded in it where nothing else is looked at.
+/// Assumed bound on speeds in a step, over those at its ends, if nothing else is known.
 pub(crate) const NEAR: f64 = 4.0;
-/// The same of a gap that hardly bends. What flies freely is never faster than at the faster one of two places.
+/// Assumed bound on speeds if the gap hardly bends. A freely flying body is never faster than at the faster of two
+/// places.
 const STRAIGHT: f64 = 1.05;
-/// How many times the largest speed that was found may be exceeded.
+/// Assumed bound on speeds in a search, over the largest speed found.
 const MARGIN: f64 = 1.5;
-/// A step is looked at in its quarters before anything is halved.
+/// A step is evaluated at its quarters before anything is halved.
 pub(crate) const QUARTERS: usize = 4;
-/// Halvings at most.
+/// Largest number of halvings.
 const LEVELS: usize = 50;
-/// Halvings of a quarter before a second derivative counts: eighths of a step.
+/// Depth from which a second difference may exclude a visit: 1 halving of a quarter, i.e. 1/8 step.
 const RESOLVED: usize = 1;
-/// Evaluations for one law in a quarter of a step; what is not excluded by then is left to a shorter step.
+/// Limit of evaluations for one law in a quarter of a step; if it is reached, a shorter step is taken.
 const PATIENCE: u32 = 500;
-/// A place is found to this part of the way to it, or to this depth below the limit \[m, rad\].
+/// Accuracy of a found place, as a share of its distance from the start of the step; or its depth below the limit \[m,
+/// rad\].
 const WIDTH: f64 = 1e-9;
 const SHALLOW: f64 = 1e-7;
-/// Where a search ends without an answer, at least this part of the step is taken.
+/// If a search is given up, at least this part of the step is taken.
 const PART: f64 = 0.25;
-/// Share of a velocity that a fixed step may miss without a word.
+/// Share of a velocity that a fixed step may miss without a report.
 const UNSEEN: f64 = 0.01;
-/// The same of a corner, where a force goes on that is there already, and how deep one must be passed \[m, rad\].
+/// The same for a corner, where a force that acts already goes on; and how deep a corner must be passed to be reported
+/// \[m, rad\].
 const UNSEEN_OF_CORNERS: f64 = 0.1;
 const DEEP: f64 = 1e-5;
-/// Velocities below this share of the fastest are measured by it: what rests does so but for roundings.
+/// Velocities below this share of the fastest are compared with that share of it: a resting body has velocities of
+/// rounding size.
 const SLOW: f64 = 1e-6;
-/// Halvings of the way from where a law is found to the end of the step: of the places between, one is well within the visit.
+/// Number of halvings of the way from where a law is found to the end of the step; one of these places lies well within
+/// the visit.
 const HALVINGS: u32 = 30;
 
-/// Gaps below this are none \[m, rad\], of doubles and of scalars with few digits: what rounding leaves; of corners, whose curve acts on both
-/// sides, what passes them by too little to matter.
+/// Depth of a gap below which a contact is ignored \[m, rad\], for doubles and for scalars with few digits: for a
+/// touch, the size of rounding; for a corner, whose curve acts on both sides, a passage too small to matter.
 pub(crate) const fn finest_gap(few_digits: bool, corner: bool) -> f64 {
     match (few_digits, corner) {
         (true, _) => 1e-5,
@@ -80,17 +95,18 @@ pub(crate) const fn finest_gap(few_digits: bool, corner: bool) -> f64 {
     }
 }
 
-/// The finest gaps of a touch and of a corner.
+/// [`finest_gap`] for a touch and for a corner.
 pub(crate) const fn finest_gaps(few_digits: bool) -> [f64; 2] {
     [finest_gap(few_digits, false), finest_gap(few_digits, true)]
 }
 
-/// How many laws are searched for, of so many onsets, of which the last are `corners`: these from both sides.
+/// Number of laws to search for: every onset, and once more the corners, which are searched from both sides. `corners`
+/// counts the last onsets.
 pub(crate) const fn sides(onsets: usize, corners: usize) -> usize {
     onsets + corners
 }
 
-/// Which onset such a law is, and whether it is the far side of a corner, where the gap is the negative.
+/// The onset of a side, and true if the side is the far side of a corner, whose gap is the negative of the onset's.
 #[inline(always)]
 pub(crate) const fn onset_of(side: usize, onsets: usize, corners: usize) -> (usize, bool) {
     if side < onsets {
@@ -100,35 +116,38 @@ pub(crate) const fn onset_of(side: usize, onsets: usize, corners: usize) -> (usi
     }
 }
 
-/// A gap and where in a step it is, as a part of the step.
+/// A gap at a place of a step, given as a part of the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Place {
     pub theta: f64,
     pub gap: f64,
 }
 
-/// The lowest gap that need not be looked for, by those at both ends of the step; `finest` is what rounding leaves of one.
+/// The limit that a gap must fall below to be searched for, from the gaps at both ends of the step; `finest` as
+/// [`finest_gap`].
 #[inline(always)]
 pub(crate) fn limit<P: Number>([a, b]: [P; 2], finest: f64) -> P {
     let c = P::from_f64;
     c(DEEPER) * a.min(b).min(c(0.0)) - c(finest)
 }
 
-/// Whether a gap stays above the limit between two places, if it changes by no more than `way` on the way from one to the other.
+/// True if a gap stays above the limit between two places, given that it changes by no more than `way` from one to the
+/// other.
 #[inline(always)]
 fn stays_above<T: Real>([a, b]: [T; 2], way: T, limit: T) -> T::Mask {
     let lowest = T::from_f64(0.5) * (a + b - way);
     limit.lt(a).and(limit.lt(b)).and(limit.lt(lowest))
 }
 
-/// Whether a step of this length is excluded by the gaps at its ends, if no speed is above [`NEAR`] times `speed`.
+/// True if the gaps at its ends exclude a step of this length, given that no speed is above [`NEAR`] times `speed`.
 #[inline(always)]
 pub(crate) fn far<T: Real>(gaps: [T; 2], speed: T, length: T, limit: T) -> T::Mask {
     stays_above(gaps, T::from_f64(NEAR) * speed * length, limit)
 }
 
-/// Whether a step is excluded by the gaps where the step before began, where it begins and where it ends: they hardly bend, and no speed is above [`STRAIGHT`] times
-/// `speed`. `lengths` are those of the step before, above 0, and of this one.
+/// True if a step is excluded by the gaps at the start of the previous step, at its start and at its end: they hardly
+/// bend, and no speed is above [`STRAIGHT`] times `speed`. `lengths` are those of the previous step, above 0, and of
+/// this one.
 #[inline(always)]
 pub(crate) fn straight<T: Real>(gaps: [T; 3], speed: T, lengths: [T; 2], limit: T) -> T::Mask {
     let way = T::from_f64(STRAIGHT) * speed * lengths[1];
@@ -138,8 +157,9 @@ pub(crate) fn straight<T: Real>(gaps: [T; 3], speed: T, lengths: [T; 2], limit: 
     stays_above([gaps[1], gaps[2]], way, limit).and(bends.not())
 }
 
-/// Whether a step is excluded by the gaps where it begins, in its middle and where it ends, which hardly bend, and by one thing more: no speed is above
-/// [`STRAIGHT`] times `speed`, or neither does the gap bend since the step before, as [`straight`] is told of it, if `known`.
+/// True if a step is excluded by the gaps at its start, in its middle and at its end. They must hardly bend, and in
+/// addition no speed is above [`STRAIGHT`] times `speed`, or the gap hardly bends since the previous step either, as in
+/// [`straight`], if that step is `known`.
 #[inline(always)]
 pub(crate) fn calm<T: Real>(
     [past, a, middle, b]: [T; 4],
@@ -148,7 +168,7 @@ pub(crate) fn calm<T: Real>(
     known: T::Mask,
     limit: T,
 ) -> T::Mask {
-    // 8 times as far as the parabola comes off the chord of a half
+    // 8 times the distance of the parabola from the chord of a half
     let bend = (a - middle - middle + b).abs();
     let lowest = limit + bend;
     let bends_little = lowest.lt(a).and(lowest.lt(middle)).and(lowest.lt(b));
@@ -159,7 +179,8 @@ pub(crate) fn calm<T: Real>(
     bends_little.and(slow.or(straight))
 }
 
-/// What is searched for, one after the other as long as something is found: places below a limit, the first or any.
+/// The limits to search below, in this order as long as something is found; true if the first place below the limit is
+/// wanted, false if any place will do.
 fn limits(ends: [f64; 2], finest: f64) -> [Option<(f64, bool)>; 2] {
     let touch = (-finest, true);
     let deep = (limit(ends, finest), false);
@@ -170,36 +191,36 @@ fn limits(ends: [f64; 2], finest: f64) -> [Option<(f64, bool)>; 2] {
     }
 }
 
-/// Whether no gap between two places a time `length` apart is below the limit, if no speed there is above `speed`.
+/// True if no gap between two places, a time `length` apart, is below the limit, given that no speed is above `speed`.
 pub(crate) fn excluded(gaps: [f64; 2], speed: f64, length: f64, limit: f64) -> bool {
     let [a, b] = gaps;
     a > limit && b > limit && 0.5 * (a + b - speed * length) > limit
 }
 
-/// The search for a law in a part of a step. It says where the gap is to be evaluated next ([`Search::next`]) and is told what it is
-/// ([`Search::tell`]), so that a single run and a lane search alike.
+/// The search for a law in a part of a step. [`Search::next`] says where to evaluate the gap next, and [`Search::tell`]
+/// receives it, so that a single run and a lane search alike.
 #[derive(Clone, Copy, Debug)]
 struct Search {
     /// Length of the whole step \[s\].
     length: f64,
-    /// No speed is higher.
+    /// Upper bound of the speed.
     speed: f64,
     limit: f64,
-    /// Left end of the interval that is looked at; nothing is below the limit before it.
+    /// Left end of the current interval; no gap before it is below the limit.
     left: Place,
-    /// Right ends of it and of those around it, the innermost at `depth`.
+    /// Right ends of the current interval and of the intervals that contain it, the innermost at `depth`.
     right: [Place; LEVELS + 1],
     depth: usize,
-    /// Evaluations.
+    /// Number of evaluations so far.
     taken: u32,
-    /// Whether the first place is wanted, or any.
+    /// True if the first place below the limit is wanted, false if any place will do.
     first: bool,
-    /// What came of it: the part of the step that is to be taken instead, if any.
+    /// The result, once the search is over: the part of the step to take instead, if there is one.
     result: Option<Option<f64>>,
 }
 
 impl Search {
-    /// In a step of this length, between two of its places, for the `first` place below the limit or any.
+    /// A search in a step of this length between two of its places, for the `first` place below the limit or for any.
     pub fn new(length: f64, ends: [Place; 2], speed: f64, limit: f64, first: bool) -> Self {
         let mut search = Search {
             length,
@@ -216,18 +237,19 @@ impl Search {
         search
     }
 
-    /// What came of it: the part of the step to be taken instead, which ends just behind the first place below the limit, or
-    /// nothing where there is none. `None` while [`Search::next`] is to be evaluated.
+    /// The result: the part of the step to take instead, which ends just behind the first place below the limit, or
+    /// `Some(None)` if there is no such place. `None` while the gap at [`Search::next`] is to be evaluated.
     pub fn result(&self) -> Option<Option<f64>> {
         self.result
     }
 
-    /// Where the gap is to be evaluated next, as a part of the step.
+    /// The place at which the gap is to be evaluated next, as a part of the step.
     pub fn next(&self) -> f64 {
         0.5 * (self.left.theta + self.right[self.depth].theta)
     }
 
-    /// Where it may be evaluated after that: in the middle of either half, then in the middle of their halves.
+    /// The places at which the gap may be evaluated after the next one: in the middle of either half, then in the
+    /// middle of their halves.
     #[cfg(feature = "std")]
     fn ahead(&self) -> [f64; 6] {
         let half = |a: f64, b: f64| 0.5 * (a + b);
@@ -239,7 +261,7 @@ impl Search {
         [left, right, halves[0], halves[1], behind[0], behind[1]]
     }
 
-    /// What the gap is there.
+    /// Takes the gap at the place [`Search::next`].
     pub fn tell(&mut self, gap: f64) {
         self.taken += 1;
         let (theta, right) = (self.next(), self.right[self.depth]);
@@ -256,7 +278,7 @@ impl Search {
         }
     }
 
-    /// Leaves the intervals behind that are excluded. `bend` is the second difference over the innermost two, where it is to count.
+    /// Moves on past all excluded intervals. `bend` is the second difference over the innermost two, if it is to count.
     fn pass(&mut self, bend: Option<f64>) {
         let (mut bend, mut second) = (bend, false);
         loop {
@@ -280,42 +302,43 @@ impl Search {
                 return;
             }
             self.depth -= 1;
-            // it counts for the second half, too, but not for what is around both
+            // `bend` counts for the second half, too, but not for the intervals around both
             bend = bend.filter(|_| !second);
             second = true;
         }
     }
 }
 
-/// What is known of one law in a step: the gaps at its beginning, at the ends of its quarters and at its end, and the largest speed there.
+/// The gaps of one law at the start of a step, at the ends of its quarters and at its end, and the largest speed there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Course {
     pub gaps: [f64; QUARTERS + 1],
     pub speed: f64,
 }
 
-/// The search for all laws in one step, one after the other. Like [`Search`] it asks and is told.
+/// The search for all laws in one step, one after the other. Like [`Search`], it asks for gaps and is told them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hunt {
     /// Length of the step \[s\].
     length: f64,
     finest: [f64; 2],
     laws: usize,
-    /// The first law that is a side of a corner.
+    /// The index of the first law that is a side of a corner.
     corners: usize,
     law: usize,
-    /// Which of [`limits`].
+    /// The current one of the [`limits`].
     phase: usize,
     quarter: usize,
-    /// Whether there is a second limit.
+    /// True if there is a second limit.
     second: bool,
     search: Option<Search>,
-    /// The shortest part of the step to be taken instead, and because of which law.
+    /// The shortest part of the step to take instead, and the law that requires it.
     best: Option<(f64, usize)>,
 }
 
 impl Hunt {
-    /// In a step of this length, for so many laws, of which those from `corners` on are sides of corners; `finest` as [`finest_gaps`].
+    /// A search in a step of this length for this number of laws, of which those from `corners` on are sides of
+    /// corners; `finest` as [`finest_gaps`].
     pub fn new(length: f64, laws: usize, corners: usize, finest: [f64; 2]) -> Self {
         Hunt {
             length,
@@ -331,17 +354,17 @@ impl Hunt {
         }
     }
 
-    /// The law that is looked at.
+    /// The law that is being searched for.
     pub fn law(&self) -> usize {
         self.law
     }
 
-    /// What came of it.
+    /// The shortest part of the step to take instead, and the law that requires it, once the search is over.
     pub fn best(&self) -> Option<(f64, usize)> {
         self.best
     }
 
-    /// Where the gap of [`Hunt::law`] is to be evaluated next; `None` where all laws are done with.
+    /// The place at which the gap of [`Hunt::law`] is to be evaluated next; `None` when all laws are done.
     pub fn next(&mut self, course: impl Fn(usize) -> Course) -> Option<f64> {
         while self.law < self.laws {
             if let Some(search) = &self.search {
@@ -389,12 +412,12 @@ impl Hunt {
         None
     }
 
-    /// How many places [`Hunt::ahead`] knows of.
+    /// The number of places that [`Hunt::ahead`] can name.
     #[cfg(feature = "std")]
     pub const AHEAD: usize = 6 + QUARTERS;
 
-    /// A place at which a gap may be wanted after the next one, the likeliest first: about the next one, in the middle of the quarters that are
-    /// left, for this law or another, and closer about the next one.
+    /// A place at which a gap may be needed after the next one, the likeliest first: close to the next one, in the
+    /// middle of the quarters left, for this law or another, and closer to the next one.
     #[cfg(feature = "std")]
     pub fn ahead(&self, k: usize) -> Option<f64> {
         const NEAREST: usize = 2;
@@ -408,14 +431,14 @@ impl Hunt {
         search.ahead().get(about).copied()
     }
 
-    /// What the gap is there.
+    /// Takes the gap at the place [`Hunt::next`].
     pub fn tell(&mut self, gap: f64) {
         if let Some(search) = &mut self.search {
             search.tell(gap);
         }
     }
 
-    /// A law was searched for below one of its limits.
+    /// Ends the search for a law below one of its limits.
     fn ended(&mut self, found: Option<f64>) {
         (self.search, self.quarter) = (None, 0);
         match found {
@@ -434,27 +457,27 @@ impl Hunt {
     }
 }
 
-/// A law that a fixed step went over: from where it was found, and how deep and how long it acts behind.
+/// A law that a fixed step passed over: where it was found, and how deep and how long it acts from there on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Visit {
     found: f64,
-    /// Whether the law acts where the step begins or ends.
+    /// True if the law acts at the start or at the end of the step.
     at_end: bool,
-    /// Whether it is a corner.
+    /// True if the law is a side of a corner.
     corner: bool,
-    /// Whether the step begins at the corner, as motions do: what else begins in the step is not told apart from it.
+    /// True if the step begins at the corner, as motions do; another visit in this step cannot be told apart from that.
     begins_there: bool,
-    /// The deepest place that was looked at.
+    /// The deepest place evaluated.
     deepest: Place,
-    /// The farthest place behind at which the law acts.
+    /// The last evaluated place at which the law acts.
     last: f64,
 }
 
 impl Visit {
-    /// How many places are to be looked at.
+    /// The number of places to evaluate.
     pub const PLACES: u32 = HALVINGS + 1;
 
-    /// Found at this part of the step, with these gaps at its ends; of a law, or of a corner.
+    /// A visit of a law or a `corner`, found at this part of the step, with these gaps at the ends of the step.
     pub fn new(found: f64, gaps: [f64; 2], corner: bool) -> Self {
         let deepest = Place {
             theta: found,
@@ -470,7 +493,7 @@ impl Visit {
         }
     }
 
-    /// The place to be looked at as number `k`, from where it was found to half of what is left of the step.
+    /// Place number `k` to be evaluated: from where the law was found to half of the rest of the step.
     pub fn place(&self, k: u32) -> f64 {
         match k {
             0 => self.found,
@@ -478,7 +501,7 @@ impl Visit {
         }
     }
 
-    /// What the gap is there.
+    /// Takes the gap at place number `k`.
     pub fn tell(&mut self, k: u32, gap: f64) {
         let theta = self.place(k);
         if gap < self.deepest.gap {
@@ -489,12 +512,12 @@ impl Visit {
         }
     }
 
-    /// Where it is deepest, as a part of the step.
+    /// The place where the visit is deepest, as a part of the step.
     pub fn deepest(&self) -> f64 {
         self.deepest.theta
     }
 
-    /// The places whose rates tell what the step sees where it is deepest.
+    /// The two places whose rates give, by a straight line, the rate that the step assumes at the deepest place.
     pub fn seen_from(&self) -> [f64; 2] {
         let before = 2.0 * self.found - self.deepest.theta;
         match self.at_end {
@@ -503,7 +526,7 @@ impl Visit {
         }
     }
 
-    /// What the step sees where it is deepest, by what it sees at those places.
+    /// The rate that the step assumes at the deepest place, from the rates at [`Visit::seen_from`].
     pub fn seen(&self, [a, b]: [f64; 2]) -> f64 {
         let [from, to] = self.seen_from();
         let slope = if from < to {
@@ -514,7 +537,8 @@ impl Visit {
         b + (self.deepest.theta - to) * slope
     }
 
-    /// How long it lasts, as a part of the step: the next place that was looked at is twice as far and beyond.
+    /// The duration of the visit, as a part of the step. The next place evaluated was twice as far, and already outside
+    /// of the visit.
     fn part(&self) -> f64 {
         match self.at_end {
             true => 1.0,
@@ -522,8 +546,8 @@ impl Visit {
         }
     }
 
-    /// Whether it would have changed a velocity by more than [`UNSEEN`] of itself in a step of this length \[s\]; a corner by more than
-    /// [`UNSEEN_OF_CORNERS`], and passed by more than [`DEEP`].
+    /// True if the visit would have changed a velocity by more than [`UNSEEN`] of itself in a step of this length
+    /// \[s\]; for a corner, by more than [`UNSEEN_OF_CORNERS`], if it is passed by more than [`DEEP`].
     pub fn matters(&self, length: f64, all: impl Iterator<Item = Unseen> + Clone) -> bool {
         let (share, depth) = match self.corner {
             true => (UNSEEN_OF_CORNERS, DEEP),
@@ -538,20 +562,20 @@ impl Visit {
         all.any(|v| {
             let unseen = (v.rate - v.seen).abs() * self.part() * length;
             let size = size(&v).max(v.begin.abs() * length);
-            // what is no number matters
+            // NaN matters
             unseen.is_nan() || unseen > share * size.max(SLOW * fastest)
         })
     }
 }
 
-/// What is known of a velocity in a step.
+/// A velocity and its rates in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unseen {
-    /// It at both ends.
+    /// The velocity at both ends of the step.
     pub ends: [f64; 2],
-    /// Its rate at the beginning.
+    /// Its rate at the start of the step.
     pub begin: f64,
-    /// Its rate where a law is deepest, as the step sees it and as it is.
+    /// Its rate where a law is deepest: as the step assumes it, and as evaluated.
     pub seen: f64,
     pub rate: f64,
 }

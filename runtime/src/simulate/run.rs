@@ -1,4 +1,4 @@
-//! A run that is taken from time to time by its caller.
+//! A run that its caller advances in portions.
 
 use super::time_loop::{End, TimeLoop};
 use super::watch::Watch;
@@ -9,11 +9,12 @@ use crate::integrate::{AnyStepper, first_non_finite};
 use crate::{Dynamics, Info, Real};
 use core::ops::ControlFlow;
 
-/// A run that goes on when it is asked to, as far as it is asked to: for a caller that does something of its own between.
+/// A run that advances only as far as it is asked to: for a caller that does something of its own in between.
 ///
-/// It keeps all that a run knows: the length of the next step and the control of the error, events and memory of force laws, charts. Its
-/// samples have the bits of one [`run_in`](super::run_in) with the same settings whose samples are at the same times. Steps under control of their
-/// error do not end at samples, so it costs no step to ask for one.
+/// Between calls it keeps the whole state of the run: the length of the next step and the error control, events and
+/// memory of force laws, charts. Its samples are equal, bit for bit, to those of [`run_in`](super::run_in) with the
+/// same settings and sampling times. Steps under error control do not end at samples, so asking for a sample costs no
+/// step.
 ///
 /// ```
 /// # use bryant_runtime::{Direct, Failure, Model, Settings, simulate::{Run, workspace_length}};
@@ -36,20 +37,21 @@ pub struct Run<'a, 'w, T: Real> {
     time_loop: TimeLoop<'a, 'w, T>,
     step: AnyStepper<'a, T>,
     info: &'static Info,
-    /// Why it cannot go on.
+    /// The failure, if the run has failed.
     failed: Option<Failure>,
     duration: f64,
 }
 
 impl<'a, 'w, T: Real> Run<'a, 'w, T> {
-    /// A run from a state at [`Settings::start`], in memory of which [`workspace_length`] says how much there has to be. What the memory holds
-    /// before does not matter. Nothing is evaluated yet.
+    /// A run from a state at [`Settings::start`], in the given memory, of at least [`workspace_length`] scalars with
+    /// any values. Nothing is evaluated yet.
     ///
     /// # Errors
-    /// Settings that make no sense; parameters that the model refuses; a state that is not finite.
+    /// Invalid settings; parameters that the model refuses; a state that is not finite.
     ///
     /// # Panics
-    /// Where the memory is too short; where `initial` is not as long as a state of the model; with a watch for another model.
+    /// Where the memory is too short; where `initial` is not as long as a state of the model; with a watch for another
+    /// model.
     pub fn new(
         workspace: &'a mut [T],
         model: &'a dyn Dynamics<T>,
@@ -103,12 +105,12 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         })
     }
 
-    /// Takes the run to a time \[s\] and samples it there: the start for the initial state, the duration at the latest. The same time may be
+    /// Advances the run to a time \[s\] from the start to the duration, and samples it there. The same time may be
     /// asked for again.
     ///
     /// # Errors
-    /// A time before that of the last sample or after the duration, which leaves the run as it is; and as [`simulate`](super::simulate()), with
-    /// the same error when it is asked to go on after that.
+    /// A time before that of the last sample or after the duration, which leaves the run as it is; and as
+    /// [`simulate`](super::simulate()). After a failure, each further call returns the same failure.
     pub fn advance_to(&mut self, t: f64) -> Result<Sample<'_, T>, Failure> {
         let reached = self.report().t;
         if !(reached..=self.duration).contains(&t) {
@@ -127,12 +129,12 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         Ok(self.time_loop.last_sample())
     }
 
-    /// What the run took so far; its time is that of the last sample.
+    /// The statistics of the run so far; its time is that of the last sample.
     pub fn report(&self) -> Report {
         self.time_loop.report()
     }
 
-    /// Takes the run to its end, or until the receiver of samples or the observer has it stop.
+    /// Advances the run to its end, or until the receiver of samples or the observer stops it.
     pub(crate) fn go(
         &mut self,
         sink: &mut Receiver<'_, T>,

@@ -1,36 +1,38 @@
-//! When to sample and where to stop.
+//! The times of samples, and the times at which steps must end.
 
 use super::{SampleKind, Settings};
 use crate::real::{Mask, Number};
 use crate::{Dynamics, Real};
 
-/// Whether the step that is to go towards a place at the distance `span`, when `h` is wanted, goes all the way, and, where not, whether it goes
-/// half of it: never is a tiny rest left.
+/// Decides how a step of the wanted length `h` approaches a place at the distance `span`: the first mask is true if the
+/// step goes all the way; the second, where the first is false, if it goes half of the way. So no tiny rest is ever
+/// left.
 #[inline(always)]
 pub fn to_meet<P: Number>(span: P, h: P) -> [P::Mask; 2] {
     let lands = (P::from_f64(1.05) * h).lt(span).not();
     [lands, span.lt(P::from_f64(2.0) * h)]
 }
 
-/// How many steps of at most this length go a way \[s\], of which a trifle may be left.
+/// The number of steps of at most length `step` that cover a `way` \[s\], up to a rest of `trifle` steps.
 pub fn count_steps(way: f64, step: f64, trifle: f64) -> u64 {
     ((way / step - trifle).max(0.0) as u64).saturating_add(1)
 }
 
-/// When to sample and where to stop.
+/// The times of samples and of the next stop.
 pub struct Schedule {
     start: f64,
     duration: f64,
     every: f64,
-    /// Indices of the first sample, which is due at the start, and of the last, which is due at the duration.
+    /// Indices of the first row, at the start, and of the last row, at the duration.
     first: u64,
     last: u64,
-    /// Index of the next sample.
+    /// Index of the next row.
     next: u64,
-    /// Parts at whose ends there are samples besides, and the index of the next such, 0 at the start.
+    /// The number of parts at whose ends there are additional samples, and the index of the next of these samples, 0 at
+    /// the start.
     parts: u64,
     part: u64,
-    /// The only sample, where samples are asked for one by one: its time, +∞ once it has been delivered.
+    /// If samples are asked for one by one: the time of the only one, +∞ once it has been delivered.
     only: Option<f64>,
 }
 
@@ -42,7 +44,7 @@ impl Schedule {
             every,
             ..
         } = *settings;
-        // times within rounding of a multiple are one
+        // times within rounding of a multiple count as that multiple
         let first = (start / every * (1.0 + 1e-14) + 1e-9) as u64;
         let last = (duration / every * (1.0 - 1e-14) - 1e-9).max(0.0) as u64 + 1;
         Schedule {
@@ -58,12 +60,13 @@ impl Schedule {
         }
     }
 
-    /// The next sample is at this time, and there is none after it.
+    /// Sets the time of the next sample, which is the only one.
     pub fn ask_for(&mut self, t: f64) {
         self.only = Some(t);
     }
 
-    /// Time of the next sample of any kind, +∞ after the last, and its kind. Where there are two, the row is first.
+    /// Time and kind of the next sample, +∞ after the last. If a row and a part are due at the same time, the row comes
+    /// first.
     pub fn next_sample(&self) -> (f64, SampleKind) {
         let (row, part) = (self.next_row(), self.next_part());
         match part < row {
@@ -98,7 +101,7 @@ impl Schedule {
         }
     }
 
-    /// The next sample of this kind has been delivered.
+    /// Notes that the next sample of this kind has been delivered.
     pub fn advance(&mut self, kind: SampleKind) {
         match (kind, &mut self.only) {
             (SampleKind::Part, _) => self.part += 1,
@@ -107,7 +110,7 @@ impl Schedule {
         }
     }
 
-    /// The first kink after `t`, at most the duration.
+    /// Time of the first kink after `t`, at most the duration.
     pub fn kink_after<T: Real>(&self, model: &dyn Dynamics<T>, t: f64) -> f64 {
         let breakpoints = model.info().breakpoints;
         let passed = breakpoints.partition_point(|kink| *kink <= t);
@@ -119,22 +122,22 @@ impl Schedule {
     }
 }
 
-/// Fixed steps from one time that they must meet to the next, all equally long. The times between are counted, not added up: a
-/// million additions would be off by as many roundings, and the last step would be another one.
+/// Equal fixed steps from one time that a step must end at to the next. Times between are computed by multiplication: a
+/// million additions would accumulate as many roundings, and change the length of the last step.
 #[derive(Clone, Copy)]
 pub struct Grid {
     start: f64,
     stop: f64,
-    /// Of every step \[s\].
+    /// Length of every step \[s\].
     pub length: f64,
     steps: u64,
     taken: u64,
 }
 
 impl Grid {
-    /// From `start` to `stop` in steps of at most this length.
+    /// A grid from `start` to `stop` in steps of at most this length.
     pub fn new(start: f64, stop: f64, step: f64) -> Grid {
-        // rounding may leave a hair more than a whole number of steps
+        // by rounding, the way may exceed a whole number of steps slightly
         let steps = count_steps(stop - start, step, 1e-9);
         Grid {
             start,
@@ -145,7 +148,7 @@ impl Grid {
         }
     }
 
-    /// Time after so many steps \[s\].
+    /// Time after this number of steps \[s\].
     fn time(&self, steps: u64) -> f64 {
         match steps == self.steps {
             true => self.stop,
@@ -153,19 +156,19 @@ impl Grid {
         }
     }
 
-    /// The grid where its last step, or the one before, ended at `t`; `None` where `t` is not on it.
+    /// The grid at `t`, where the step tried last ended or began; `None` if `t` is neither, or if the stop has changed.
     pub fn at(self, t: f64, stop: f64) -> Option<Grid> {
         let taken = [self.taken + 1, self.taken];
         let taken = taken.into_iter().find(|steps| self.time(*steps) == t)?;
         (stop == self.stop && taken < self.steps).then_some(Grid { taken, ..self })
     }
 
-    /// Where the next step ends, and whether the grid does.
+    /// The time at which the next step ends, and true if that is the end of the grid.
     pub fn next(&self) -> (f64, bool) {
         (self.time(self.taken + 1), self.taken + 1 == self.steps)
     }
 
-    /// Steps that are left.
+    /// The number of steps left.
     pub fn left(&self) -> u64 {
         self.steps - self.taken
     }

@@ -1,58 +1,60 @@
-//! How to run, and which settings make sense.
+//! The settings of a run, and their check.
 
 use crate::failure::Setting;
 use crate::integrate::Formula;
 use crate::{Info, Tolerances};
 
-/// How to run.
+/// Settings of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Time at which the run begins \[s\], that of its initial state: 0, unless it continues another one.
+    /// Time at which the run begins \[s\], that of its initial state: 0, unless the run continues another one.
     pub start: f64,
-    /// Time at which the run ends \[s\], beyond its start: its length, where it begins at 0.
+    /// Time at which the run ends \[s\], after `start`; the length of the run if that is 0.
     pub duration: f64,
-    /// Time between samples \[s\], positive. There is a sample at the start, at every multiple of it, and at the end: those between are at
-    /// the same times wherever the run begins.
+    /// Time between samples \[s\], positive. There is a sample at the start, at every multiple of this time, and at the
+    /// end: samples between are at the same times wherever the run begins.
     pub every: f64,
-    /// Equal parts of the run at whose ends there are samples besides, for signals to be read off; 0 for none. No step ends on them, so they
-    /// leave no trace in the motion.
+    /// Number of equal parts of the run at whose ends there are additional samples, from which signals can be read; 0
+    /// for none. No step ends on them, so they do not affect the motion.
     pub parts: u64,
-    /// Which integrator, and how long its steps.
+    /// The integrator, and the length of its steps.
     pub method: Method,
-    /// Whether steps end on the kinks of force laws ([`Model::kinks`](crate::Model::kinks)): where a contact touches, a belt goes
-    /// taut, a curve bends. Otherwise a step passes them, and its error is whatever the control of the error makes of it.
+    /// Whether steps end on the kinks of force laws ([`Model::kinks`](crate::Model::kinks)): where a contact touches, a
+    /// belt goes taut, a curve bends. Otherwise steps pass over them, and only the error control limits the error
+    /// there.
     pub locate: bool,
     /// Limit on the number of steps, accepted and rejected.
     pub max_steps: u64,
 }
 
-/// Which integrator, and how long its steps.
+/// The integrator, and the length of its steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
-    /// Which integrator.
+    /// The integrator.
     pub formula: Formula,
-    /// How long its steps.
+    /// The length of its steps.
     pub pace: Pace,
 }
 
-/// How long the steps are.
+/// The length of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// At most so long \[s\]: shortened evenly so that samples and kinks in time are met.
+    /// Fixed steps of at most this length \[s\]: shortened evenly so that steps end on samples and on kinks of curves
+    /// of time.
     Fixed(f64),
-    /// As the tolerances allow.
+    /// As long as the tolerances allow.
     Adaptive(Adaptive),
 }
 
 impl Method {
-    /// With steps of a fixed length \[s\].
+    /// A method with steps of a fixed length \[s\].
     pub const fn fixed(formula: Formula, step: f64) -> Method {
         let pace = Pace::Fixed(step);
         Method { formula, pace }
     }
 
-    /// With steps as the tolerances allow, by this formula, and by [`Formula::Rodas5`] for as long as the scene is stiff
-    /// ([`Adaptive::switches`]).
+    /// A method with steps as long as the tolerances allow, by this formula, and by [`Formula::Rodas5`] for as long as
+    /// the scene is stiff ([`Adaptive::switches`]).
     pub const fn switching(formula: Formula, tolerances: Tolerances) -> Method {
         let pace = Pace::Adaptive(Adaptive {
             switches: true,
@@ -69,7 +71,7 @@ impl Method {
         }
     }
 
-    /// With steps as the tolerances allow, by one formula from the start to the end.
+    /// A method with steps as long as the tolerances allow, by one formula from the start to the end.
     pub const fn adaptive(formula: Formula, tolerances: Tolerances) -> Method {
         let pace = Pace::Adaptive(Adaptive::of(tolerances));
         Method { formula, pace }
@@ -81,20 +83,20 @@ impl Method {
 pub struct Adaptive {
     /// Error allowed in a step.
     pub tolerances: Tolerances,
-    /// First step \[s\]; `None`: found from the first derivatives.
+    /// First step \[s\]; if `None`, it is derived from the first derivatives.
     pub first_step: Option<f64>,
     /// Largest step \[s\]; +∞ for none.
     pub largest_step: f64,
     /// Smallest step \[s\]: a run that needs a smaller one fails. Never less than 16 units in the last place of time.
     pub smallest_step: f64,
-    /// Whether the run changes to [`Formula::Rodas5`] where the scene is stiff, and back where it is not. It has no effect on a formula that does
-    /// not [estimate its error at the end of a step](Formula::may_switch), and on a model without its Jacobian. The run needs more workspace, see
-    /// [`workspace_length`](crate::simulate::workspace_length).
+    /// Whether the run changes to [`Formula::Rodas5`] where the scene is stiff, and back where it is not. This has no
+    /// effect on a formula that does not [estimate its error at the end of a step](Formula::may_switch), and on a model
+    /// without its Jacobian. The run needs more workspace, see [`workspace_length`](crate::simulate::workspace_length).
     pub switches: bool,
 }
 
 impl Adaptive {
-    /// With these tolerances, steps from 10⁻¹⁴ s upwards, by one formula.
+    /// Settings with these tolerances, steps of 10⁻¹⁴ s or more, and one formula.
     pub const fn of(tolerances: Tolerances) -> Adaptive {
         Adaptive {
             tolerances,
@@ -121,7 +123,8 @@ impl Default for Method {
 }
 
 impl Settings {
-    /// From 0, duration and sampling as the model says, the default method, kinks passed, ten million steps.
+    /// Settings with start 0, duration and sampling as the model says, the default method, kinks passed over, and at
+    /// most ten million steps.
     pub fn of(info: &Info) -> Settings {
         Settings {
             start: 0.0,
@@ -134,7 +137,7 @@ impl Settings {
         }
     }
 
-    /// Whether the settings make sense.
+    /// Fails if a setting is invalid.
     pub(super) fn check(&self) -> Result<(), Setting> {
         positive("duration", self.duration)?;
         within(
@@ -177,7 +180,7 @@ impl Settings {
 }
 
 impl Adaptive {
-    /// Whether they make sense.
+    /// Fails if a setting is invalid.
     fn check(&self) -> Result<(), Setting> {
         let tolerances = &self.tolerances;
         share("relative tolerance", tolerances.relative)?;
@@ -204,7 +207,7 @@ impl Adaptive {
     }
 }
 
-/// A setting of this name and value, as it must be or not.
+/// Fails with a setting of this name and value, and with what it must be, unless it is `good`.
 fn within(
     good: bool,
     (name, value): (&'static str, f64),
@@ -221,7 +224,7 @@ fn positive(name: &'static str, value: f64) -> Result<(), Setting> {
     within(good, (name, value), "positive and finite")
 }
 
-/// A part of a value, as tolerances are.
+/// Fails unless a value is positive and below 1, as relative tolerances must be.
 fn share(name: &'static str, value: f64) -> Result<(), Setting> {
     positive(name, value)?;
     within(
@@ -231,5 +234,5 @@ fn share(name: &'static str, value: f64) -> Result<(), Setting> {
     )
 }
 
-/// More samples than this are a mistake in `every`, not a wish.
+/// Limit of samples: a larger number is taken as a mistake in `every`.
 const MAX_SAMPLES: f64 = 1e9;

@@ -41,89 +41,91 @@ use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, matters};
 #[cfg(feature = "std")]
 pub(crate) use search::{EASY, SEARCHES};
 
-/// Tries of an implicit method, and the h|λ| of the fastest motion, until what the explicit method has let grow is damped. That is an oscillation within the
-/// share of accelerations that is allowed, or one that is lost in roundings of the coordinates, or of which nobody can say more than the tolerances do.
+/// Limit of tries of an implicit method, and the h|λ| of the fastest motion, until whatever the explicit method has let
+/// grow is damped. That is an oscillation within the tolerated share of accelerations, or one that is lost in the
+/// rounding of coordinates, or one that the tolerances do not resolve.
 const SETTLES: u32 = 20;
 const SETTLED: f64 = 1e3;
-/// The first step that is tried of an implicit method, over the last one of the explicit method. Where h|λ| is about 1, what the explicit method has let grow
-/// is an error as large as is allowed, and is damped slowly; in a step that is far longer it makes an error that falls like 1/(h|λ|), and is gone.
+/// Ratio of the first step tried by an implicit method to the last one of the explicit method. Where h|λ| is about 1,
+/// the fast motion that the explicit method has let grow is as large as the allowed error, and is damped slowly. In a
+/// far longer step its error falls like 1/(h|λ|), so it vanishes.
 const LEAP: f64 = 1e5;
 
 /// Why the time loop is left before the end of the run.
 pub(crate) enum End {
-    /// The receiver of the samples or the observer asked for it. It can go on.
+    /// The receiver of the samples or the observer asked to stop. The run can go on.
     Stopped,
     Failed(Reason),
 }
 
-/// How far a step goes.
+/// The end and length of a step to be taken.
 struct Reach {
     /// The next time that a step must end at \[s\].
     stop: f64,
-    /// Where this one ends \[s\].
+    /// The time at which this step ends \[s\].
     reached: f64,
-    /// How long it is \[s\]: what the clock says but for its rounding.
+    /// Length of the step \[s\]: the difference of the rounded times at its ends.
     length: f64,
-    /// Whether that is there.
+    /// True if the step ends at `stop`.
     lands: bool,
-    /// A shorter step is a failure \[s\].
+    /// The smallest step \[s\]; a shorter one is a failure.
     smallest: f64,
 }
 
-/// A step that was accepted, and all that the next one needs of it.
+/// An accepted step, with all that the next step needs of it.
 struct Landed {
     reach: Reach,
     landing: Landing,
-    /// The time where it ended \[s\].
+    /// The time at which the step ended \[s\].
     end: f64,
-    /// Where it is watched: the kinetic energy before it, and what was exchanged in it \[J\].
+    /// If the run is watched: the kinetic energy before the step, and the energy exchanged in it \[J\].
     energy: Option<[f64; 2]>,
 }
 
-/// What renewing memory changed.
+/// What renewing the memory of force laws changed.
 #[derive(Clone, Copy, PartialEq)]
 enum Renewed {
     /// Nothing.
     No,
-    /// Memory, but neither event functions nor onsets.
+    /// Memory, but neither event functions nor onsets changed.
     Alike,
-    /// More than that.
+    /// Memory, and also event functions or onsets.
     Other,
 }
 
-/// Which state something is wanted of.
+/// Selects one of two states.
 #[derive(Clone, Copy)]
 enum State {
-    /// That where a step leads.
+    /// The state at the end of the step being tried (`ahead`).
     Ahead,
-    /// That which is reached.
+    /// The state reached (`y`).
     Reached,
 }
 
-/// Where a step that was accepted ended.
+/// How an accepted step ended.
 struct Landing {
-    /// Where it began \[s\].
+    /// The time at which the step began \[s\].
     begin: f64,
-    /// How long it is \[s\].
+    /// Length of the step \[s\].
     length: f64,
-    /// Whether it went all the way; otherwise an event function changed its sign in it.
+    /// True if the step went its full length; false if it was cut at a sign change of an event function.
     whole: bool,
-    /// What forced its length, if not its error.
+    /// What forced the length of the step, if not its error.
     forced: Option<Cause>,
 }
 
-/// A length of time that is more than rounding at `t`.
+/// The smallest difference of times at `t` that exceeds rounding.
 pub(crate) fn finest(t: f64) -> f64 {
     16.0 * (t.next_up() - t)
 }
 
-/// The same as a scalar tells the time, at which it evaluates the equations: of singles 2²⁹ times as long. Over less, nothing that it computes is
-/// of another time.
+/// [`finest`] in the resolution of a scalar type: 2²⁹ times as long for single precision. Equations that are evaluated
+/// at two closer times are evaluated at the same rounded time.
 fn finest_of<T: Real>(t: f64) -> f64 {
     epsilon_of::<T>() / f64::EPSILON * finest(t)
 }
 
-/// The distance from 1 to the next number of a scalar: of doubles, or of singles.
+/// The machine epsilon of a scalar type: that of `f64`, or of `f32` for scalars with few digits.
 pub(crate) fn epsilon_of<T: Real>() -> f64 {
     match T::from_f64(1.0 + 1e-10).to_f64() == 1.0 {
         true => f64::from(f32::EPSILON),
@@ -131,7 +133,8 @@ pub(crate) fn epsilon_of<T: Real>() -> f64 {
     }
 }
 
-/// The time loop of a run; the time reached is `report.t`. It can be left at a sample and entered again, which changes no bit of what follows.
+/// The time loop of a run; the time reached is `report.t`. The loop can be left at a sample and entered again without
+/// changing a bit of the results.
 pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     model: &'a dyn Dynamics<T>,
     info: &'static Info,
@@ -140,56 +143,58 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     pub schedule: Schedule,
     watch: Option<&'a mut Watch<'w, T>>,
     report: Report,
-    /// What forced most of the last steps before there are too many.
+    /// The most frequent cause of step lengths among the last steps before the limit on their number.
     vote: Vote,
-    /// Whether the first step may be taken.
+    /// True once [`TimeLoop::open`] has prepared the first step.
     opened: bool,
-    /// The last step, as long as samples in it may be delivered.
+    /// The last accepted step, until all samples within it are delivered.
     landed: Option<Landed>,
 
-    /// The state reached, and its derivative as far as the next step needs it.
+    /// The state reached, and its derivative for the next step.
     y: &'a mut [T],
     rate: &'a mut [T],
-    /// Where a step leads, and what renewing memory makes of that.
+    /// The state at the end of the step being tried; a second state for renewing memory.
     ahead: &'a mut [T],
     renewed: &'a mut [T],
-    /// The event functions where the step before began, where this one begins, and where it ends.
+    /// The event functions at the start of the previous step, at the start of this one, and at its end.
     event_functions_past: &'a mut [T],
     event_functions: &'a mut [T],
     event_functions_ahead: &'a mut [T],
-    /// Length of the step before \[s\]; 0 where this one goes on otherwise than it ended.
+    /// Length of the previous step \[s\]; 0 if the motion does not continue smoothly from it.
     past: f64,
-    /// Whether it is not accuracy that decides the length of this step.
+    /// True if something other than accuracy decides the length of this step (`search::EASY`).
     easy: bool,
-    /// The kinks where this step begins, once they are asked for.
+    /// The kink functions at the start of this step, valid if `kinks_known`.
     kinks: &'a mut [T],
     kinks_known: bool,
     onsets: Onsets<'a, T>,
-    /// Errors allowed, which count where steps are chosen by them.
+    /// Errors allowed; used for adaptive steps only.
     allowed: Allowed<'a, T>,
     accelerations: Accelerations<f64>,
-    /// (h|λ|)⁴ of the last try by an explicit method that may be changed, and tries of this step that were rejected.
+    /// (h|λ|)⁴ of the last try by an explicit method that may switch to the implicit one; and the number of rejected
+    /// tries of this step.
     fastness: f64,
     retries: u64,
     /// Tries left in which an implicit method may damp what the explicit one has let grow.
     settles: u32,
-    /// Room for the powers of all effects, twice.
+    /// Workspace for the powers of all effects, twice.
     powers: [&'a mut [T]; 2],
 
-    /// What the controller asks for next \[s\].
+    /// Length that the controller wants for the next step \[s\].
     h: f64,
     controller: Controller<f64>,
-    /// Fixed steps.
+    /// The grid of fixed steps.
     grid: Option<Grid>,
     /// The next kink of a curve of time, or the end of the run \[s\].
     breakpoint: f64,
     approach: Option<Approach>,
-    /// Kinks in a row that were approached, and steps in a row that were taken again because of something hidden in them.
+    /// `restless`: kinks approached in a row. `searches`: tries in a row repeated because of a kink hidden in the step.
     restless: u32,
     standing: Standing,
     searches: u32,
 
-    /// A state within a step; another one; values of event functions or kinks at [`PLACES`] places; outputs; arguments of curves.
+    /// Workspaces: a state within a step; another state; values of event functions or kinks at [`PLACES`] places;
+    /// outputs; arguments of curves.
     inside: &'a mut [T],
     spare: &'a mut [T],
     values: &'a mut [T],
@@ -197,7 +202,7 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     curves: &'a mut [T],
 }
 
-/// Scalars of workspace that a run takes, but for those of its step.
+/// Number of scalars in the workspace of the time loop, without that of its stepper.
 pub(super) const fn length(info: &Info) -> usize {
     let (event_functions, kinks) = (info.event_functions.len(), info.kinks.len());
     let state = info.state_length();
@@ -212,7 +217,7 @@ pub(super) const fn length(info: &Info) -> usize {
         + 2 * info.powers.len()
 }
 
-/// How many values of event functions or kinks are kept at the same time.
+/// Number of values of event functions or kinks that are kept at the same time.
 const fn values(info: &Info) -> usize {
     let (event_functions, kinks) = (info.event_functions.len(), info.kinks.len());
     PLACES
@@ -304,7 +309,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// What the run took so far.
+    /// The statistics of the run so far.
     pub fn report(&self) -> Report {
         Report {
             evaluations: self.f.count,
@@ -313,7 +318,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// By one method to the end of the run, or until it is to stop; from where it was left before.
+    /// Continues the run from where it was left, until its end or until it is stopped.
     pub fn go(
         &mut self,
         step: &mut dyn Stepper<T>,
@@ -335,7 +340,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// Everything before the first step.
+    /// Prepares the first step: initial memory, watch, derivative, first step length.
     fn open(&mut self, step: &mut dyn Stepper<T>) -> Result<(), End> {
         let start = self.report.t;
         self.arrive_at(start, State::Reached, false);
@@ -376,7 +381,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         Ok(())
     }
 
-    /// Takes a step, as often as it needs to be accepted.
+    /// Tries steps until one is accepted.
     fn step(
         &mut self,
         step: &mut dyn Stepper<T>,
@@ -420,7 +425,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// Leaves a step that was accepted, for the next one.
+    /// Finishes an accepted step and prepares the next one.
     fn leave(&mut self, step: &mut dyn Stepper<T>, landed: Landed) -> Result<(), End> {
         let Landed {
             reach,
@@ -457,7 +462,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         Ok(())
     }
 
-    /// Lets a step change its formula, where the scene has become stiff or is no longer.
+    /// Lets the stepper change its formula if the scene has become stiff or ceased to be so.
     fn turn(&mut self, step: &mut dyn Stepper<T>, landing: &Landing) {
         let retries = core::mem::take(&mut self.retries);
         let Some(turn) = step.turn(landing.length, retries, self.fastness) else {
@@ -470,11 +475,11 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             self.accelerations.forget();
         }
         self.controller = Controller::new(step.order_of_estimate());
-        // the derivative at the end of the last step is no longer at hand
+        // the new formula does not have the derivative at the end of the last step
         self.past = 0.0;
     }
 
-    /// How far the next step goes.
+    /// The end and length of the next step to try.
     fn reach(&mut self) -> Result<Reach, End> {
         let t = self.report.t;
         let finest = finest_of::<T>(t);
@@ -511,8 +516,9 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 let smallest = adaptive.smallest_step.max(finest);
                 let largest = adaptive.largest_step.min(self.info.longest_step);
                 self.h = self.h.min(largest).max(smallest);
-                // a user force is looked at in each sample at least; and within a step that damps what the explicit method has let grow, the interpolant
-                // still has its share of that, so a row is at its end
+                // A user force must be evaluated once per sample at least, so steps end on rows. While an implicit
+                // method settles, the interpolant still contains the fast motion that the explicit method let grow, so
+                // rows are taken at ends of steps.
                 let stop = match self.info.longest_step.is_finite() || self.settles > 0 {
                     true => self.breakpoint.min(self.schedule.next_row()),
                     false => self.breakpoint,
@@ -532,7 +538,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 [false, false] => (wanted, false),
             },
         };
-        // the step is as long as the clock will say: a million rounded additions would put it off by as many roundings
+        // the length is the difference of rounded times: adding up a million rounded lengths would accumulate as many
+        // roundings
         let reached = if lands { stop } else { t + length };
         Ok(Reach {
             stop,
@@ -543,8 +550,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         })
     }
 
-    /// Whether a step is to be accepted; otherwise it is known how long the next try is. `hop` is the share of a fixed step that may cross a
-    /// kink.
+    /// True if the step just tried is to be accepted; otherwise sets the length of the next try. `hop` is the share of
+    /// a fixed step that may cross a kink.
     fn good(&mut self, step: &mut dyn Stepper<T>, reach: &Reach, hop: f64) -> Result<bool, End> {
         let pace = self.settings.method.pace;
         let length = reach.length;
@@ -580,7 +587,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             }
             if let (Pace::Adaptive(_), None) = (pace, self.approach) {
                 let grown = length * self.controller.accepted(error);
-                // a step cut short to meet a kink says little of the next
+                // the length of a step cut short to meet a kink says little about the next one
                 self.h = if length < self.h {
                     self.h.max(grown)
                 } else {
@@ -589,7 +596,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             }
             return Ok(true);
         }
-        // the fixed step that is not finite, too
+        // a fixed step gets here only if its result is not finite
         let shorter = length * self.controller.rejected(error);
         if matches!(pace, Pace::Fixed(_)) || shorter < reach.smallest {
             self.report.rejected += 1;
@@ -602,7 +609,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         Ok(false)
     }
 
-    /// Estimated error over tolerance; 0 of a fixed step; `None` where something is not finite.
+    /// The estimated error over the tolerance; 0 for a fixed step; `None` if a value is not finite.
     fn error(&mut self, step: &mut dyn Stepper<T>) -> Option<f64> {
         match self.settings.method.pace {
             Pace::Fixed(_) => first_non_finite(step.span().end).is_none().then_some(0.0),
@@ -619,7 +626,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// Of a step that is good otherwise: the error of the accelerations at its end over what is allowed.
+    /// The error of the accelerations at the end of a step, over what is allowed. Only for a step whose other errors
+    /// are within tolerance.
     fn error_of_accelerations(&mut self, step: &mut dyn Stepper<T>) -> f64 {
         if step.switched() {
             return self.error_of_slopes(step);
@@ -646,7 +654,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
         let of = [span.h, 1.0];
         let epsilon = epsilon_of::<T>();
-        // states of laws have no share in accelerations, but may be what bounds the steps
+        // states of force laws do not contribute to accelerations, but may be what limits stable steps
         let mut fastest = Fastest::default();
         for i in 0..self.info.varying_length() {
             let group = usize::from(i >= coordinates)
@@ -671,9 +679,9 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         error
     }
 
-    /// The same of an implicit step, which damps what is too fast for it: the slope of its interpolant is compared with the derivative there, where the step
-    /// begins, in its middle and where it ends. The slope at the beginning is not the derivative for as long as a decay or an oscillation goes on that
-    /// is faster than the step.
+    /// [`TimeLoop::error_of_accelerations`] for an implicit step, which damps motions that are too fast for it.
+    /// Compares the slope of the interpolant with the derivative at the start, in the middle and at the end of the
+    /// step. At the start the two differ as long as a decay or an oscillation goes on that is faster than the step.
     fn error_of_slopes(&mut self, step: &mut dyn Stepper<T>) -> f64 {
         step.finish(&mut self.f);
         if self.settles > 0 {
@@ -686,7 +694,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         let velocities = first..first + self.info.velocities.len();
         let size = |value: T| value.abs().to_f64();
         let mut largest = [0.0f64; 2];
-        // neither state is needed before the step is accepted
+        // both states are free until the step is accepted
         let (apart, between) = (&mut *self.renewed, &mut *self.ahead);
         apart.fill(T::from_f64(0.0));
         for theta in [0.0, 0.5, 1.0] {
@@ -727,7 +735,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         error
     }
 
-    /// Takes over the end of a step that is accepted. It is cut short where an event function changes its sign.
+    /// Moves the run to the end of an accepted step, or to the first sign change of an event function within it.
     fn land(&mut self, step: &mut dyn Stepper<T>, reach: &Reach) -> Landing {
         let begin = self.report.t;
         let mut landing = Landing {
@@ -767,7 +775,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         landing
     }
 
-    /// Whether the kink that was approached is behind the step just accepted.
+    /// Ends the approach to a kink if the accepted step has passed it; else sets the length of the next step towards
+    /// it.
     fn leave_kink(&mut self, step: &dyn Stepper<T>, landing: &Landing) {
         if let Some(approach) = self.approach {
             let crossed = self.kink_within(step).is_some();
@@ -792,12 +801,12 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
         self.kinks_known = false;
         if self.approach.is_some() {
-            // before memory is renewed
+            // the kinks must be evaluated before memory is renewed
             self.know_kinks();
         }
     }
 
-    /// The next step begins where this one ended, unless that is the end of the run. Whether there is one.
+    /// Prepares the next step to begin where this one ended. Returns false at the end of the run.
     fn begin(
         &mut self,
         step: &dyn Stepper<T>,
@@ -811,7 +820,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             if self.breakpoint >= self.settings.duration {
                 return Ok(false);
             }
-            // beyond the kink the derivative is another one
+            // the derivative changes at the kink
             self.breakpoint = self.schedule.kink_after(self.model, self.report.t);
             self.f.latest = self.breakpoint.next_down();
             self.controller = Controller::new(step.order_of_estimate());
@@ -820,7 +829,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         let whole = landing.whole && !arrived;
         let smooth = whole && renewed == Renewed::No;
         match step.end_rate().filter(|_| smooth) {
-            // putting a state back on its manifold moves it by no more than the error of the step
+            // normalizing a state moves it by no more than the error of the step
             Some(rate) => self.rate.copy_from_slice(rate),
             None => self.f.at(self.report.t, self.y, self.rate),
         }
@@ -842,9 +851,10 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         Ok(true)
     }
 
-    /// Evaluates what is wanted of the state ahead, at this time: the end of a step, or of the first part of one.
+    /// Evaluates event functions, onsets, memory and what the watch needs at the state ahead and this time, which ends
+    /// a step or the first part of one.
     fn arrive(&mut self, t: f64) {
-        // balances are closed just before a kink of a curve of time
+        // the watch closes its balances just before a kink of a curve of time
         let closed = self.f.time(t);
         let watched = self.watch.is_some();
         if watched && closed != t {
@@ -853,7 +863,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.arrive_at(t, State::Ahead, watched && closed == t);
     }
 
-    /// The same of one of two states, with what the watch wants or without.
+    /// [`TimeLoop::arrive`] for either state; `watched` says whether to evaluate what the watch needs.
     fn arrive_at(&mut self, t: f64, of: State, watched: bool) {
         let (curves, account) = match self.watch.as_mut().filter(|_| watched) {
             Some(watch) => {
@@ -876,7 +886,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.model.arrive(T::from_f64(t), state, &mut arrival);
     }
 
-    /// Evaluates the kinks where the next step begins, unless they are known.
+    /// Evaluates the kink functions at the start of the next step, unless they are known.
     fn know_kinks(&mut self) {
         if !self.kinks_known {
             let t = T::from_f64(self.report.t);
@@ -885,9 +895,10 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// Renews the memory of force laws, and the charts of Bryant angles with their coordinates, from the state reached, until that
-    /// changes nothing: what one switch does may be what another waits for. Each event function stands for at most one link of such a chain.
-    /// What is wanted of that state is known before and after; `watched` says whether with what the watch wants.
+    /// Renews the memory of force laws, and the charts of Bryant angles with their coordinates, at the state reached.
+    /// Repeats this until nothing changes, because one switch may trigger another. Each event function stands for at
+    /// most one link of such a chain. Afterwards event functions and onsets are those of the renewed state; `watched`
+    /// says whether to evaluate what the watch needs, too.
     fn renew(&mut self, watched: bool) -> Renewed {
         if self.info.memory.is_empty() || self.y == self.renewed {
             return Renewed::No;
@@ -909,9 +920,9 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
-    /// Whether the motion goes on as it did in a step of this length, although memory was renewed: over such a step, the change of the derivative,
-    /// which is known, makes no more than the error allowed. So it is of a hysteresis under load, whose memory goes along with the state. Never of
-    /// fixed steps, for which no error is allowed.
+    /// True if the motion goes on as before although memory was renewed: the change of the derivative, over a step of
+    /// this length, makes no more than the allowed error. This holds for a hysteresis under load, whose memory follows
+    /// the state. Always false for fixed steps, for which no error is allowed.
     fn moves_alike(&mut self, step: &dyn Stepper<T>, length: f64) -> bool {
         let (Pace::Adaptive(_), Some(before)) = (self.settings.method.pace, step.end_rate()) else {
             return false;

@@ -12,28 +12,32 @@
 //! | bushings beyond 60° about y | by how much the angle about x leaps | a quarter turn |
 //! | two ellipsoids that push each other | by how much the direction of the force leaps | a quarter turn |
 //!
-//! What disagrees becomes a [`Diagnostic`], which has the words.
+//! Each disagreement becomes a [`Diagnostic`], which has the words.
 //!
-//! **Scales.** The largest energy so far is the scale of energy. The sum of all exchanged energies is not: a pendulum exchanges its energy four
-//! times a period, so a small but steady loss would never count. By Cauchy and Schwarz, masses of the kinetic energy T have
-//! at most the momentum √(2 T m) and, about the origin, √(2 T I). A gap that the tolerance explains does not count. With e the kinetic energy
-//! of velocities as large as their absolute tolerance, a step may change √T by √e, and the work at kinetic energies below e is not resolved.
+//! **Scales.** The largest energy so far is the scale of energy. The sum of all exchanged energies would be no good
+//! scale: a pendulum exchanges its energy four times a period, so a small but steady loss would never count. By Cauchy
+//! and Schwarz, masses m (moments of inertia I) of the kinetic energy T have at most the momentum √(2 T m) and, about
+//! the origin, √(2 T I). A gap that the tolerance explains does not count. With e the kinetic energy of velocities as
+//! large as their absolute tolerance, a step may change √T by √e, and the work at kinetic energies below e is not
+//! resolved.
 //!
-//! **A gap is forgotten** when the energy that comes later is so large that the gap is within the limit: at the start there is nothing to
-//! compare with.
+//! **A gap is forgotten** when the energy that comes later is so large that the gap is within the limit: at the start
+//! there is nothing to compare with.
 //!
-//! **A flexion through 180°** makes the direction of bending leap by half a turn in no time, and the forces in this direction leap with it. A
-//! motion that passes beside 180° turns the direction fast, but continuously. To tell the two apart, the part of the step that has the leap is
-//! halved on the step's interpolant until the leap is gone, or the part is a thousandth of the step.
+//! **A flexion through 180°** makes the direction of bending leap by half a turn in no time, and the forces in this
+//! direction leap with it. A motion that passes beside 180° turns the direction fast, but continuously. To tell the two
+//! apart, the part of the step that has the leap is halved on the step's interpolant until the leap is gone, or the
+//! part is a thousandth of the step.
 //!
-//! **Two ellipsoids that sink through each other** suddenly push in the opposite direction: the direction of least overlap leaps.
-//! Bodies that pass each other turn this direction continuously, however deep they overlap. Where the centres coincide there is no direction
-//! at all. A step is halved, as above, if the direction differs between its ends or exists at one of them only.
+//! **Two ellipsoids that sink through each other** suddenly push in the opposite direction: the direction of least
+//! overlap leaps. Bodies that pass each other turn this direction continuously, however deep they overlap. Where the
+//! centres coincide there is no direction at all. A step is halved, as above, if the direction differs between its ends
+//! or exists at one of them only.
 //!
-//! **The fastest motion** (Hairer & Wanner, *Solving ODEs II*, IV.2): where a step is unstable, its error soon consists of the fastest
-//! motion alone, and so does the difference of two states a, b that are computed for the same time. Then
-//! ‖f(a) − f(b)‖/‖a − b‖ is |λ|. As the geometric mean over coordinates and over velocities it is |λ| for an oscillation, too,
-//! whatever its phase and whatever the units.
+//! **The fastest motion** (Hairer & Wanner, *Solving ODEs II*, IV.2): where a step is unstable, its error soon consists
+//! of the fastest motion alone, and so does the difference of two states a, b that are computed for the same time. Then
+//! ‖f(a) − f(b)‖/‖a − b‖ is |λ|. The geometric mean of this ratio over coordinates and over velocities is |λ| for an
+//! oscillation, too, whatever its phase and whatever the units.
 
 pub(crate) mod account;
 pub(crate) mod error;
@@ -55,8 +59,9 @@ use error::{Errors, Estimated, over_halves};
 
 /// The default of the share of the energy that may be missing: 2 %.
 ///
-/// An error of 1 % in a velocity is an error of 2 % in the energy. The default tolerance keeps it well below a thousandth (docs/accuracy.md).
-/// Crash simulations with finite elements usually accept 10 % over a run (NCHRP Web-Only Document 179, 2010).
+/// An error of 1 % in a velocity is an error of 2 % in the energy. The default tolerance keeps it well below a
+/// thousandth (docs/accuracy.md). Crash simulations with finite elements usually accept 10 % over a run (NCHRP Web-Only
+/// Document 179, 2010).
 pub const ENERGY_LIMIT: f64 = 0.02;
 
 /// A curve whose argument left its points.
@@ -71,8 +76,8 @@ pub struct Left {
 }
 
 impl Left {
-    /// Whether the value of the curve there is made up: a straight line extends over more than the whole width of the points, or a value
-    /// other than 0 is held though the model does not ask for it.
+    /// Whether the value of the curve there is made up: a straight line extends over more than the whole width of the
+    /// points, or a value other than 0 is held though the model does not ask for it.
     pub fn made_up(&self, info: &Info) -> bool {
         let curve = info.curves.get(self.curve);
         curve.is_some_and(|curve| {
@@ -86,7 +91,7 @@ impl Left {
 #[derive(Debug)]
 pub struct Watch<'a, T: Real> {
     info: &'static Info,
-    /// Where energy and momentum went.
+    /// The balances of energy and momentum.
     pub balance: Balance<'a, T>,
     account: Account,
     /// The effect whose power was largest when the gap in the energy began.
@@ -101,30 +106,32 @@ pub struct Watch<'a, T: Real> {
     missed: Option<(f64, usize, u64)>,
     /// Whether the run ended in numbers that are not finite.
     failed: bool,
-    /// For each curve of the state, the time when its argument left the points; for each bearing or direction, the time when it leapt. NaN if
-    /// it never did.
+    /// For each curve of the state, the time when its argument left the points; for each bearing or direction, the time
+    /// when it leapt. NaN if this never happened.
     since: Buffer<'a, T>,
-    /// For each curve of the state, the argument that was farthest outside; for each bearing or direction, its entry where the step begins.
+    /// For each curve of the state, the argument that was farthest outside; for each bearing or direction, its entry at
+    /// the start of the step.
     farthest: Buffer<'a, T>,
     /// The arguments of the curves of the state.
     arguments: Buffer<'a, T>,
     /// The arguments at three places within a step.
     within: Buffer<'a, T>,
-    /// The powers of all effects, node by node of a step. The first node is the beginning of the step, the last is its end.
+    /// The powers of all effects, node by node of a step. The first node is the beginning of the step, the last is its
+    /// end.
     powers: Buffer<'a, T>,
     /// The smallest value of each event function at the ends of steps.
     nearest: Buffer<'a, T>,
     /// The state at the start.
     start: Buffer<'a, T>,
-    /// How far each entry of the state is from the solution in steps half as long.
+    /// The difference of each entry of the state from the solution in steps half as long.
     error: Buffer<'a, T>,
-    /// Room for a derivative.
+    /// Workspace for a derivative.
     rates: Buffer<'a, T>,
-    /// Whether the model has coordinates that change their charts, and whether they may have changed them just now.
+    /// Whether the model has coordinates that change their charts, and whether they may have changed in the last step.
     charts: [bool; 2],
     /// The external wrench on the freely moving bodies, at each node of a step.
     external_wrenches: [[T; 6]; NODES],
-    /// Kinetic energy and momentum where a step leads.
+    /// Kinetic energy and momentum at the end of the step.
     kinetic_ahead: T,
     momentum_ahead: [T; 6],
     /// The quadrature rule over the nodes.
@@ -160,8 +167,8 @@ impl History {
 
 #[cfg(feature = "std")]
 impl<T: Real> Watch<'static, T> {
-    /// A watch for one run of this model ([`Model::INFO`](crate::Model::INFO)). `limit` is the share of energy and momentum that may be
-    /// missing. The watch allocates its memory here.
+    /// A watch for one run of this model ([`Model::INFO`](crate::Model::INFO)). `limit` is the share of energy and
+    /// momentum that may be missing. The watch allocates its memory here.
     pub fn new(info: &'static Info, limit: f64) -> Self {
         let buffer = |length| Buffer::Owned(std::vec![T::from_f64(0.0); length]);
         Watch::with(info, limit, buffer)
@@ -311,7 +318,7 @@ impl<'a, T: Real> Watch<'a, T> {
         *steps += 1;
     }
 
-    /// Takes up the event functions at the end of a step.
+    /// Notes the event functions at the end of a step.
     pub(super) fn look_at_event_functions(&mut self, values: &[T]) {
         for (nearest, value) in self.nearest.iter_mut().zip(values) {
             *nearest = nearest.min(*value);
@@ -392,13 +399,15 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// Takes the powers where a step begins, at `t` and `y`, if they are not those of the end of the step before.
+    /// Evaluates the powers at the start of a step, at `t` and `y`, if they differ from those at the end of the
+    /// previous step.
     pub(super) fn begin(&mut self, model: &dyn Dynamics<T>, t: f64, y: &[T]) {
         let powers = &mut self.powers[..self.info.powers.len()];
         model.exchange(T::from_f64(t), y, powers, &mut self.external_wrenches[0]);
     }
 
-    /// Takes up a discrete update at the end of a step that began at `before`. The next step begins with what [`Watch::arrival`] received last.
+    /// Notes a discrete update at the end of a step that began at `before`. The next step begins with the values that
+    /// [`Watch::arrival`] received last.
     pub(super) fn renew(&mut self, before: f64) {
         self.charts[1] = self.charts[0];
         self.advance();
@@ -412,7 +421,8 @@ impl<'a, T: Real> Watch<'a, T> {
         self.external_wrenches[0] = self.external_wrenches[last];
     }
 
-    /// Places for the arguments of curves, energies and powers where a step ends: before a kink there, and before the discrete update.
+    /// Returns the places that receive arguments of curves, energies and powers at the end of a step: before a kink
+    /// there, and before the discrete update.
     pub(super) fn arrival(&mut self) -> (&mut [T], AccountArrival<'_, T>) {
         let last = NODES - 1;
         let account = AccountArrival {
@@ -424,8 +434,9 @@ impl<'a, T: Real> Watch<'a, T> {
         (&mut self.arguments, account)
     }
 
-    /// Adds the work of a step, or of its first part of this length, whose end is known ([`Watch::arrival`]), and returns the kinetic energy before
-    /// it and the exchanged energy \[J\]. `state` is room for a state.
+    /// Adds the work of a step, or of its first part of the given length, whose end has been evaluated
+    /// ([`Watch::arrival`]). Returns the kinetic energy before the step and the energy exchanged in it \[J\]. `state`
+    /// is room for a state.
     pub(super) fn add_work(
         &mut self,
         model: &dyn Dynamics<T>,
@@ -458,7 +469,8 @@ impl<'a, T: Real> Watch<'a, T> {
         [kinetic, self.balance.exchanged - before].map(T::to_f64)
     }
 
-    /// Carries the estimate of the error over a step of this length, which ended at `y`. It overwrites the step. `state` is room for a state.
+    /// Continues the error estimate over a step of this length, which ended at `y`. It overwrites the step. `state` is
+    /// room for a state.
     pub(super) fn estimate_error(
         &mut self,
         step: &mut dyn Stepper<T>,
@@ -503,7 +515,7 @@ impl<'a, T: Real> Watch<'a, T> {
         self.errors.observe(t, self.info, entry);
     }
 
-    /// Takes a state at `t` as far as `length` in two steps.
+    /// Integrates a state from `t` over `length` in two steps.
     fn step_twice(
         &mut self,
         step: &mut dyn Stepper<T>,
@@ -518,7 +530,7 @@ impl<'a, T: Real> Watch<'a, T> {
         state.copy_from_slice(step.span().end);
         f.model.normalize(state);
         match step.end_rate() {
-            // putting a state back on its manifold moves it by no more than the error of the step
+            // normalizing a state moves it by no more than the error of the step
             Some(rate) => self.rates.copy_from_slice(rate),
             None => f.at(t + half, state, &mut self.rates),
         }
@@ -529,8 +541,9 @@ impl<'a, T: Real> Watch<'a, T> {
         Ok(())
     }
 
-    /// Closes a step that began at `t` and ended at `y`, after [`Watch::add_work`]. The last argument has the kinetic energy at its beginning and
-    /// the energy that was exchanged in it \[J\]. The next step begins with the powers that this one ended with.
+    /// Closes a step that began at `t` and ended at `y`, after [`Watch::add_work`]. The last argument has the kinetic
+    /// energy at its beginning and the energy that was exchanged in it \[J\]. The next step begins with the powers that
+    /// this one ended with.
     pub(super) fn close(&mut self, t: f64, y: &[T], [before, exchanged]: [f64; 2]) {
         let effects = self.info.powers.len();
         let energies = Energies {
@@ -566,7 +579,7 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// Looks which of the arguments at the end of a step, which began at `t`, are outside of the points of their curves.
+    /// Notes which arguments are outside of the points of their curves at the end of a step that began at `t`.
     fn look_at_curves(&mut self, t: f64) {
         for (i, curve) in self.info.curves.iter().enumerate() {
             if !curve.kind.may_be_left() {
@@ -602,8 +615,9 @@ impl<'a, T: Real> Watch<'a, T> {
             if let Some(count) = curve.turning(info.dimension) {
                 let ends = [&self.farthest, &self.arguments].map(|of| entries(of, i, count));
                 suspected |= match curve.kind {
-                    // A joint may pass its singular position and come back within one step. If it is far from it at both ends, it can do
-                    // so in a fixed step alone: in another the error would be too large.
+                    // A joint may pass its singular position and come back within one step. If it is far from this
+                    // position at both ends, this is possible in a fixed step only: otherwise the error would be too
+                    // large.
                     CurveKind::Bearing => {
                         self.fixed.is_some() || ends.iter().any(|end| end[0] < curve.last)
                     }
@@ -655,7 +669,8 @@ impl<'a, T: Real> Watch<'a, T> {
         }
     }
 
-    /// Estimates |λ| of the fastest motion from a step that ends at `y` with the derivative `rate`. `near` is room for a state.
+    /// Estimates |λ| of the fastest motion from a step that ends at `y` with the derivative `rate`. `near` is room for
+    /// a state.
     pub(super) fn compare(&mut self, step: &dyn Stepper<T>, y: &[T], rate: &[T], near: &mut [T]) {
         let Some(limit) = self.fixed.and_then(Formula::stability_limit) else {
             return;

@@ -4,18 +4,18 @@
 //!
 //! h h' = tᵀ Q n,   h'' = ρ − h,   ρ = det Q/h³,   ρ' = −3 ρ h'/h,   φ'' = ρ₁ + ρ₂ − φ
 //!
-//! ρ is the radius of curvature. Halley's iteration finds the root of φ' next to the start: Δα = −φ'φ''/(φ''² − φ'φ'''/2), with Δα as the
-//! tangent of an angle. It raises errors to their third power. φ' changes its sign between the last n where it was negative and the last
-//! where it was positive. If a step would leave this interval, or follows one that did not halve φ', the next n is the middle of the
-//! interval.
+//! ρ is the radius of curvature. Halley's iteration finds the root of φ' next to the start: Δα = −φ'φ''/(φ''² −
+//! φ'φ'''/2), with Δα as the tangent of an angle. It raises errors to their third power. φ' changes its sign between
+//! the last n where it was negative and the last where it was positive. If a step would leave this interval, or follows
+//! one that did not halve φ', the next n is the middle of the interval.
 
 use super::{Ending, LONGEST, STEPS, at_end, unless_far};
 use crate::{Mask, Real, Task};
 
 /// \[n_x, n_z, φ, p_x, p_z\] of two ellipses.
 ///
-/// Q₁ and Q₂ are matrices \[m²\], each given as xx, zz, xz. d is the vector from the first centre to the second \[m\]. p is the vector from
-/// the first centre to the middle between the two points that are furthest along n \[m\].
+/// Q₁ and Q₂ are matrices \[m²\], each given as xx, zz, xz. d is the vector from the first centre to the second \[m\].
+/// p is the vector from the first centre to the middle between the two points that are furthest along n \[m\].
 #[expect(
     clippy::too_many_arguments,
     reason = "generated code calls functions of scalars"
@@ -29,8 +29,8 @@ pub fn approach<T: Real>(xx1: T, zz1: T, xz1: T, xx2: T, zz2: T, xz2: T, dx: T, 
     })
 }
 
-/// The same for two ellipses that touch. If they do not touch, n is the normal of a line between them, and −φ, which is then positive, is
-/// at most their distance.
+/// [`approach`] for two ellipses that touch. If they do not touch, n is the normal of a line between them, and −φ,
+/// which is then positive, is at most their distance.
 #[expect(
     clippy::too_many_arguments,
     reason = "generated code calls functions of scalars"
@@ -61,7 +61,7 @@ pub fn touch<T: Real>(xx1: T, zz1: T, xz1: T, xx2: T, zz2: T, xz2: T, dx: T, dz:
 #[derive(Clone, Copy)]
 pub(super) struct Quadric<T>(pub(super) [T; 3]);
 
-/// The search for the smallest φ. It is a function of its own because it is too long to be inlined.
+/// The search for the smallest φ. It is compiled as a function of its own because it is too long to be inlined.
 pub(super) struct Search<T: Real> {
     pub(super) both: [Quadric<T>; 2],
     pub(super) between: [T; 2],
@@ -88,8 +88,8 @@ struct Overlap<T> {
     furthest: [T; 2],
 }
 
-/// The interval in which φ' changes its sign: the last n where φ' was negative, and the last where it was positive; zero until there is
-/// one.
+/// The interval in which φ' changes its sign: the last n where φ' was negative, and the last where it was positive;
+/// zero until there is one.
 #[derive(Clone, Copy)]
 struct Bracket<T>([[T; 2]; 2]);
 
@@ -98,7 +98,7 @@ impl<T: Real> Task for Search<T> {
 
     #[inline(always)]
     fn run(self) -> [T; 5] {
-        // a branch on a constant
+        // a branch on a constant, decided at compile time
         match T::SLOPES {
             true => self.with_slopes(),
             false => self.found().0,
@@ -107,8 +107,8 @@ impl<T: Real> Task for Search<T> {
 }
 
 impl<T: Real> Search<T> {
-    /// The result of a search by values, with the derivatives that one more step gives it. The step does not depend on where it starts, to first
-    /// order, so derivatives of the direction that was found are not needed.
+    /// The result of a search on values alone, with the derivatives that one more step gives it. To first order, the
+    /// step's result does not depend on where the step starts, so derivatives of the direction found are not needed.
     #[inline(always)]
     fn with_slopes(self) -> [T; 5] {
         let Search {
@@ -141,7 +141,7 @@ impl<T: Real> Search<T> {
         ]
     }
 
-    /// The result by values, and the number of steps.
+    /// The result on values alone, and the number of steps.
     #[inline(always)]
     pub(super) fn found(self) -> ([T; 5], u32) {
         let Search {
@@ -218,7 +218,7 @@ fn overlap<T: Real>(
     let squares = [dot(n, stretched[0]), dot(n, stretched[1])];
     let turning = [dot(across, stretched[0]), dot(across, stretched[1])];
     let reach = [squares[0].sqrt(), squares[1].sqrt()];
-    // 1/h², and 1/h in a way that does not wait for h
+    // 1/h², and 1/h computed without waiting for h
     let inverse = [one / squares[0], one / squares[1]];
     let bend = [reach[0] * inverse[0], reach[1] * inverse[1]];
     let squared = dot(n, n);
@@ -242,7 +242,8 @@ fn overlap<T: Real>(
     }
 }
 
-/// The tangent of the angle of Halley's step, limited to the longest step. Where φ'' is not positive the step goes downhill.
+/// The tangent of the angle of Halley's step, limited to the longest step. Where φ'' is not positive the step goes
+/// downhill.
 #[inline(always)]
 fn halley<T: Real>(now: &Overlap<T>, small: T) -> T {
     let c = T::from_f64;
@@ -280,7 +281,7 @@ impl<T: Real> Bracket<T> {
         let other = pick(falls, self.0[1], self.0[0]);
         let known = zero.lt(dot(other, other));
         let moved = turned(now.direction, tangent);
-        // whether it is beyond the other end, which lies in the direction of the step
+        // true if the new n is beyond the other end, which lies in the direction of the step
         let turn = moved[0] * other[1] - moved[1] * other[0];
         let beyond = T::select(falls, turn, -turn).lt(zero);
         let halved = known.and(slow.or(beyond));

@@ -1,22 +1,23 @@
 //! The approach of two ellipsoids in space.
 //!
-//! Let u_i = Q_i n/h_i be the points of the bodies that are furthest along n, and r = u₁ + u₂ − d the gap between them. Where φ is
-//! smallest, r = φ n. Newton's step s in the tangent plane of a unit vector n, with P = 1 − n nᵀ, is
+//! Let u_i = Q_i n/h_i be the points of the bodies that are furthest along n, and r = u₁ + u₂ − d the gap between them.
+//! Where φ is smallest, r = φ n. Newton's step s in the tangent plane of a unit vector n, with P = 1 − n nᵀ, is
 //!
 //! M s = −P r,   M = K₁ + K₂ − φ P,   K_i = (Q_i − u_i u_iᵀ)/h_i = ∂²h_i/∂n²
 //!
-//! M n = 0, so the inverse of M in the tangent plane is (tr(M) P − M)/m, where m is the sum of the principal minors of M, the product of
-//! its two other eigenvalues (Cayley and Hamilton). The step uses M + σ P in place of M. σ makes it positive definite, and is larger after
-//! a step that went uphill (Levenberg). M itself is not positive only where the overlap is deeper than the radii of curvature. The search
-//! still finds the smallest φ next to the start there.
+//! M n = 0, so the inverse of M in the tangent plane is (tr(M) P − M)/m, where m is the sum of the principal minors of
+//! M, the product of its two other eigenvalues (Cayley and Hamilton). The step uses M + σ P in place of M. σ makes it
+//! positive definite, and is larger after a step that went uphill (Levenberg). M itself is not positive only where the
+//! overlap is deeper than the radii of curvature. The search still finds the smallest φ next to the start there.
 
 use super::{Ending, LONGEST, STEPS, at_end, unless_far};
 use crate::{Mask, Real, Task};
 
 /// \[n_x, n_y, n_z, φ, p_x, p_y, p_z\] of two ellipsoids.
 ///
-/// Q₁ and Q₂ are matrices \[m²\], each given as xx, yy, zz, yz, xz, xy. d is the vector from the first centre to the second \[m\]. p is the
-/// vector from the first centre to the middle between the two points that are furthest along n \[m\].
+/// Q₁ and Q₂ are matrices \[m²\], each given as xx, yy, zz, yz, xz, xy. d is the vector from the first centre to the
+/// second \[m\]. p is the vector from the first centre to the middle between the two points that are furthest along n
+/// \[m\].
 #[expect(
     clippy::too_many_arguments,
     reason = "generated code calls functions of scalars"
@@ -50,8 +51,8 @@ pub fn approach<T: Real>(
     })
 }
 
-/// The same for two ellipsoids that touch. If they do not touch, n is the normal of a plane between them, and −φ, which is then positive,
-/// is at most their distance.
+/// [`approach`] for two ellipsoids that touch. If they do not touch, n is the normal of a plane between them, and −φ,
+/// which is then positive, is at most their distance.
 #[expect(
     clippy::too_many_arguments,
     reason = "generated code calls functions of scalars"
@@ -102,7 +103,7 @@ pub fn touch<T: Real>(
 #[derive(Clone, Copy)]
 pub(super) struct Quadric<T>(pub(super) [T; 6]);
 
-/// The search for the smallest φ. It is a function of its own because it is too long to be inlined.
+/// The search for the smallest φ. It is compiled as a function of its own because it is too long to be inlined.
 pub(super) struct Search<T: Real> {
     pub(super) both: [Quadric<T>; 2],
     pub(super) between: [T; 3],
@@ -139,7 +140,7 @@ impl<T: Real> Task for Search<T> {
 
     #[inline(always)]
     fn run(self) -> [T; 7] {
-        // a branch on a constant
+        // a branch on a constant, decided at compile time
         match T::SLOPES {
             true => self.with_slopes(),
             false => self.found().0,
@@ -148,8 +149,9 @@ impl<T: Real> Task for Search<T> {
 }
 
 impl<T: Real> Search<T> {
-    /// The result of a search by values, with the derivatives that one more Newton step gives it. The step does not depend on where it starts, to
-    /// first order, so derivatives of the direction that was found are not needed.
+    /// The result of a search on values alone, with the derivatives that one more Newton step gives it. To first order,
+    /// the step's result does not depend on where the step starts, so derivatives of the direction found are not
+    /// needed.
     #[inline(always)]
     fn with_slopes(self) -> [T; 7] {
         let Search {
@@ -186,7 +188,7 @@ impl<T: Real> Search<T> {
         ]
     }
 
-    /// The result by values, and the number of steps.
+    /// The result on values alone, and the number of steps.
     #[inline(always)]
     pub(super) fn found(self) -> ([T; 7], u32) {
         let Search {
@@ -221,7 +223,7 @@ impl<T: Real> Search<T> {
             let new_damping = T::select(
                 uphill,
                 (c(8.0) * damping).max(c(0.1) * step.stiff),
-                // it soon becomes 0, so that the last steps are pure Newton steps
+                // damping soon becomes 0, so the last steps are pure Newton steps
                 (c(0.1) * damping - c(1e-3) * step.stiff).max(zero),
             );
             damping = T::select(ended, damping, new_damping);
@@ -264,7 +266,7 @@ pub(super) fn overlap<T: Real>(both: &[Quadric<T>; 2], between: [T; 3], n: [T; 3
     let stretched = [both[0].times(n), both[1].times(n)];
     let squares = [dot(n, stretched[0]), dot(n, stretched[1])];
     let reach = [squares[0].sqrt(), squares[1].sqrt()];
-    // 1/h, in a way that does not wait for h
+    // 1/h, computed without waiting for h
     let bend = [reach[0] * (one / squares[0]), reach[1] * (one / squares[1])];
     let scale = one / dot(n, n).sqrt();
     Overlap {

@@ -1,5 +1,5 @@
-//! Dormand & Prince's pairs of orders 5 and 4 (J. Comp. Appl. Math. 6, 1980) and 8, 5 and 3 (Prince & Dormand, J. Comp. Appl.
-//! Math. 7, 1981, in the form of Hairer, Nørsett & Wanner, *Solving ODEs I*, II.5 and II.10).
+//! Dormand & Prince's pairs of orders 5 and 4 (J. Comp. Appl. Math. 6, 1980) and 8, 5 and 3 (Prince & Dormand, J. Comp.
+//! Appl. Math. 7, 1981, in the form of Hairer, Nørsett & Wanner, *Solving ODEs I*, II.5 and II.10).
 
 use super::Tableau;
 use crate::Real;

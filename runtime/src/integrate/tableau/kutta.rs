@@ -1,12 +1,14 @@
 //! The historical methods: modified Euler (Heun 1900), the classical one of order 4 (Kutta 1901), Merson's (1957).
 //!
-//! They were published without interpolants. Heun's method gets Hermite's cubic through the states and derivatives at both
-//! ends. The methods of order 4 get a quartic p (after Shampine, SIAM J. Numer. Anal. 22, 1985). The error of the cubic H is
-//! O(h⁴) inside the step. H gives a state at θ* = (1 − 1/√3)/2, and p has at θ* the derivative of the model in that state:
+//! They were published without interpolants. Heun's method gets Hermite's cubic through the states and derivatives at
+//! both ends. The methods of order 4 get a quartic p (after Shampine, SIAM J. Numer. Anal. 22, 1985). The error of the
+//! cubic H is O(h⁴) inside the step. H gives a state at θ* = (1 − 1/√3)/2, and p has at θ* the derivative of the model
+//! in that state:
 //!
 //! p(θ) = H(θ) + θ²(1−θ)² (h f(H(θ*)) − H′(θ*)) / (2θ*(1−θ*)(1−2θ*)).
 //!
-//! The error of f in that state is O(h⁴), so that of h f, and that of p, is O(h⁵). The denominator is largest at this θ*.
+//! The error of f in that state is O(h⁴), so that of h f, and that of p, is O(h⁵). The denominator is largest at this
+//! θ*.
 
 use super::{Tableau, hermite};
 use crate::Real;

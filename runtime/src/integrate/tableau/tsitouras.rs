@@ -1,5 +1,5 @@
-//! Tsitouras's pair of orders 5 and 4 (Computers & Mathematics with Applications 62, 2011), which satisfies fewer simplifying
-//! assumptions than that of Dormand and Prince and so has smaller errors for the same number of stages.
+//! Tsitouras's pair of orders 5 and 4 (Computers & Mathematics with Applications 62, 2011), which satisfies fewer
+//! simplifying assumptions than that of Dormand and Prince and so has smaller errors for the same number of stages.
 
 use super::Tableau;
 use crate::Real;

@@ -1,16 +1,16 @@
-//! Elementary functions of [`DoubleDouble`]: argument reduction, and the series of Taylor, Gregory and the inverse hyperbolic
-//! tangent with coefficients computed at compile time.
+//! Elementary functions of [`DoubleDouble`]: argument reduction, and the series of Taylor, Gregory and the inverse
+//! hyperbolic tangent with coefficients computed at compile time.
 //!
-//! Relative errors, as sums of the errors of the operations (u = 2⁻⁵³): square root 8 u², sine and cosine 16 u², exponential
-//! 16 u², logarithm 32 u², angle 48 u², power (40 |p ln x| + 16) u², where u² = 1.2·10⁻³².
+//! Relative errors, as sums of the errors of the operations (u = 2⁻⁵³): square root 8 u², sine and cosine 16 u²,
+//! exponential 16 u², logarithm 32 u², angle 48 u², power (40 |p ln x| + 16) u², where u² = 1.2·10⁻³².
 
 use super::{DoubleDouble, two_product, two_sum};
 use crate::Real;
 
 /// 1.5 · 2⁵²: adding and subtracting it rounds to the nearest whole number.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// π/2 in five parts, 265 bits. An argument may be equal to a multiple of π/2 in all its digits; this many bits still leave a
-/// remainder.
+/// π/2 in five parts, 265 bits. An argument may be equal to a multiple of π/2 in all its digits; this many bits still
+/// leave a remainder.
 const QUARTER_TURN: [f64; 5] = [
     core::f64::consts::FRAC_PI_2,
     6.123_233_995_736_766e-17,
@@ -74,7 +74,8 @@ pub(super) fn sqrt(a: DoubleDouble) -> DoubleDouble {
     if a.hi > 1e250 {
         return sqrt(a.scaled(-600)).scaled(300);
     }
-    // 1/√a: halving the exponent gives it within 4 %, and each Newton step squares the error: 2·10⁻³, 5·10⁻⁶, 3·10⁻¹¹, ε
+    // 1/√a: halving the exponent gives it within 4 %, and each Newton step squares the error: 2·10⁻³, 5·10⁻⁶, 3·10⁻¹¹,
+    // ε
     let mut inverse = f64::from_bits(0x5fe6_eb50_c7b5_37a9 - (a.hi.to_bits() >> 1));
     for _ in 0..4 {
         inverse *= 1.5 - 0.5 * a.hi * inverse * inverse;
@@ -107,7 +108,7 @@ pub(super) fn sin_cos(x: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     }
 }
 
-/// (sin, cos) of |`r`| ≤ π/4 and a little: Taylor's series by Horner's rule.
+/// (sin, cos) of `r`, where |`r`| is at most slightly above π/4: Taylor's series by Horner's rule.
 fn sin_cos_of_eighth(r: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     let minus = -(r * r);
     let mut sine = DoubleDouble::ZERO;
@@ -210,8 +211,8 @@ fn ln_of_normal(x: DoubleDouble, shift: i32) -> DoubleDouble {
     remainder(half + half, -f64::from(exponent + shift), &LN_2)
 }
 
-/// `x` to the power `power`: by squaring for whole exponents up to 64, with a square root for their halves; otherwise e^(p ln
-/// x).
+/// `x` to the power `power`: by squaring for whole exponents up to 64, with a square root for their halves; otherwise
+/// e^(p ln x).
 #[inline(never)]
 pub(super) fn powf(x: DoubleDouble, power: DoubleDouble) -> DoubleDouble {
     let size = power.hi.abs();
@@ -248,8 +249,8 @@ fn whole_power(x: DoubleDouble, power: u32) -> DoubleDouble {
     result
 }
 
-/// Angle of the point (`x`, `y`). An angle θ₀ in double precision is refined to the last digits by turning the point back by
-/// θ₀: θ = θ₀ + arctan((y cos θ₀ − x sin θ₀)/(x cos θ₀ + y sin θ₀)).
+/// Angle of the point (`x`, `y`). An angle θ₀ in double precision is refined to the last digits by turning the point
+/// back by θ₀: θ = θ₀ + arctan((y cos θ₀ − x sin θ₀)/(x cos θ₀ + y sin θ₀)).
 #[inline(never)]
 pub(super) fn atan2(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble {
     if y.hi.is_nan() || x.hi.is_nan() {

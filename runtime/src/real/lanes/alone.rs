@@ -1,5 +1,5 @@
-//! A single number as a register: for processors without wide registers, for `f64` and `f32` alone, and for tests that the width changes
-//! nothing.
+//! A single number as a register: for processors without wide registers, for `f64` and `f32` alone, and for tests that
+//! the width changes nothing.
 
 use super::elementary::Elementary;
 use super::register::{Doubles, Instructions, MOST_LANES, Register, Singles};
@@ -34,8 +34,8 @@ fn compiled_for_fused<W: Task>(task: W) -> W::Output {
 }
 
 impl<F> Instructions for Alone<F, true> {
-    /// On x86-64, whether there are registers of four, of which it is one lane. Every 64-bit ARM has fused multiply-adds. Elsewhere a function has
-    /// the same bits.
+    /// On x86-64, true if there are registers of four lanes, of which this is one lane. Every 64-bit ARM has fused
+    /// multiply-adds. On other processors a function gives the same bits.
     #[inline(always)]
     fn there() -> bool {
         #[cfg(target_arch = "x86_64")]
@@ -234,7 +234,7 @@ where
 
     #[inline(always)]
     fn round(self) -> Self {
-        // keeps the sign, as the instruction does
+        // restores the sign, as the instruction of wide registers does
         let magnitude = self.0.abs();
         let whole = match magnitude < WHOLE {
             true => magnitude + ROUND - ROUND,

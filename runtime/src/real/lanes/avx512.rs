@@ -35,7 +35,7 @@ impl Instructions for Avx512 {
             && is_x86_feature_detected!("bmi2")
             && is_x86_feature_detected!("lzcnt")
             && is_x86_feature_detected!("popcnt");
-        // without the standard library, what the program is compiled for
+        // without the standard library, the features that the program is compiled for decide
         #[cfg(not(any(feature = "std", test)))]
         return cfg!(all(
             target_feature = "avx512f",

@@ -7,15 +7,15 @@
 //! | `elementary` | the elementary functions, over any register |
 //! | `several` | the operations on lanes that the time loop of a batch needs |
 //!
-//! One program has the code for all of them, and [`Width::widest`] is the widest that the processor has. Instructions that not every
-//! processor has are used in functions that are compiled for them. A whole evaluation of the equations must be inlined into such a
-//! function: see [`Real::dispatch`].
+//! One program has the code for all of them, and [`Width::widest`] is the widest that the processor has. Instructions
+//! that not every processor has are used in functions that are compiled for them. A whole evaluation of the equations
+//! must be inlined into such a function: see [`Real::dispatch`].
 //!
-//! Addition, multiplication, fused multiply-add, division and roots are correctly rounded in every width, and everything else consists
-//! of them. So a lane has the same bits whatever register it is in and whatever its neighbours hold.
+//! Addition, multiplication, fused multiply-add, division and roots are correctly rounded in every width, and all other
+//! functions consist of these operations. So a lane has the same bits in every register, whatever its neighbours hold.
 //!
-//! A register of singles has twice the lanes of the same register of doubles. Its elementary functions are those of doubles, rounded: as
-//! fast as eight lanes, and exact to the last bit.
+//! A register of singles has twice the lanes of the same register of doubles. Its elementary functions are those of
+//! doubles, rounded: as fast as eight lanes, and exact to the last bit.
 
 mod alone;
 #[cfg(target_arch = "x86_64")]
@@ -55,12 +55,15 @@ pub struct Lanes<R>(pub(crate) R);
 #[derive(Clone, Copy)]
 pub struct LaneMask<R: Register>(pub(crate) R::Mask);
 
-/// A width of registers: the number of doubles in one. If there is more than one, a register holds twice as many singles.
+/// A width of registers: the number of doubles in one. If there is more than one, a register holds twice as many
+/// singles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Width {
-    /// One double, where a product and a sum are rounded one after the other. Results differ from those of the other widths by rounding.
+    /// One double, where a product and a sum are rounded one after the other. Results differ from those of the other
+    /// widths by rounding.
     Plain,
-    /// One double, with fused multiply-adds. On x86-64 the processor must have them; processors of other kinds that lack them call a function.
+    /// One double, with fused multiply-adds. On x86-64 the processor must have them; processors of other kinds that
+    /// lack them call a function.
     One,
     /// Two doubles: 64-bit ARM (NEON).
     Two,
@@ -151,8 +154,9 @@ pub trait OfAnyWidth<F: Real = f64> {
     fn run<T: Several<One = F>>(self) -> Self::Output;
 }
 
-/// Does the work with registers of doubles of this width; `None` if the processor does not have them. Registers are made only here, in
-/// [`with_one_lane`] and in [`with_width_of_singles`], so none is made on a processor without its instructions.
+/// Does the work with registers of doubles of this width; `None` if the processor does not have them. Registers are
+/// made only here, in [`with_one_lane`] and in [`with_width_of_singles`], so none is made on a processor without its
+/// instructions.
 pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
     if !width.there() {
         return None;
@@ -179,8 +183,8 @@ pub fn with_one_lane<W: OfAnyWidth>(task: W) -> Option<W::Output> {
     there.then(|| task.run::<Lanes<Alone<f64, true>>>())
 }
 
-/// Does the work with the registers of singles of this width, which have twice as many lanes; `None` if the processor does not have
-/// them.
+/// Does the work with the registers of singles of this width, which have twice as many lanes; `None` if the processor
+/// does not have them.
 pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Option<W::Output> {
     if !width.there() {
         return None;
@@ -307,7 +311,8 @@ impl<R: Register> Mask for LaneMask<R> {
     }
 }
 
-/// A power as a function of its own. It is long, and a law has several; a call takes a small part of its time.
+/// Computes a power in a function of its own: the code is long, and a law has several powers; the call takes a small
+/// part of the time.
 struct Power<R>(Lanes<R>, Lanes<R>);
 
 impl<R: Register> Task for Power<R> {
@@ -318,7 +323,7 @@ impl<R: Register> Task for Power<R> {
     }
 }
 
-/// A logarithm likewise.
+/// Computes a logarithm in a function of its own.
 struct Logarithm<R>(Lanes<R>);
 
 impl<R: Register> Task for Logarithm<R> {

@@ -1,7 +1,7 @@
 //! The operations of a register, lane by lane.
 //!
-//! All arithmetic is that of IEEE 754, so registers of all widths give the same bits. The elementary functions are written once, over
-//! [`Doubles`].
+//! All arithmetic is that of IEEE 754, so registers of all widths give the same bits. The elementary functions are
+//! written once, over [`Doubles`].
 
 use super::elementary::Elementary;
 use crate::real::{Base, Real, Task};
@@ -59,7 +59,8 @@ pub trait Register: Instructions + Elementary + Copy + Debug + 'static {
     fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     fn or(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     fn not(a: Self::Mask) -> Self::Mask;
-    /// The permutation that moves into each lane i the number of the lane `lanes[i]`. A narrower register uses the first entries.
+    /// The permutation that moves into each lane i the number of the lane `lanes[i]`. A narrower register uses the
+    /// first entries.
     fn order(lanes: &[u8; MOST_LANES]) -> Self::Order;
     /// The numbers, permuted.
     fn ordered(self, order: Self::Order) -> Self;
@@ -139,9 +140,9 @@ pub const MOST_LANES: usize = 16;
 #[repr(align(64))]
 struct Line(#[expect(dead_code, reason = "its place is what counts")] u8);
 
-/// Aligns the frame of the function that it is inlined into to cache lines. The compiler keeps in the frame what does not fit into
-/// registers, and it decides that too late to align the frame. Without this a wide register crosses a cache line at every store and
-/// load, which takes twice as long.
+/// Aligns to cache lines the stack frame of the function that this is inlined into. The compiler keeps in the frame
+/// what does not fit into registers, but decides this too late to align the frame. In an unaligned frame a wide
+/// register crosses a cache line at every store and load, which takes twice as long.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(crate) fn aligned_frame() {

@@ -14,7 +14,7 @@ pub trait Several: Real {
     const EPSILON: f64;
     /// The scalar of one lane.
     fn lane(self, index: usize) -> Self::One;
-    /// The same, with another scalar in one lane.
+    /// These scalars with another one in one lane.
     fn with_lane(self, index: usize, value: Self::One) -> Self;
 
     /// The scalars of all lanes; the entries behind them are arbitrary.

@@ -1,19 +1,19 @@
-//! What decided the length of steps, counted.
+//! Counts what decided the length of steps.
 
 use super::{Landing, TimeLoop};
 use crate::Real;
 use crate::integrate::Stepper;
 use crate::simulate::{Cause, Pace};
 
-/// Steps before the last that is allowed among which it is counted what forces them.
+/// The last steps before the limit on their number whose causes are counted.
 const VOTERS: u64 = 1000;
 
-/// The majority of what is counted (Boyer & Moore), without keeping it.
+/// A running majority vote over causes (Boyer & Moore), without storing them.
 #[derive(Clone, Copy)]
 pub(super) struct Vote {
-    /// What leads.
+    /// The leading cause.
     pub cause: Cause,
-    /// By how much.
+    /// Its lead.
     pub lead: u32,
 }
 
@@ -30,7 +30,7 @@ impl Vote {
 }
 
 impl<T: Real> TimeLoop<'_, '_, T> {
-    /// Counts a step.
+    /// Counts an accepted step in the report.
     pub(super) fn accept(&mut self, step: &mut dyn Stepper<T>, landing: &Landing) {
         let taken = self.report.steps + self.report.rejected;
         let last = self.settings.max_steps - taken.min(self.settings.max_steps) <= VOTERS;
@@ -51,7 +51,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         report.largest_step = report.largest_step.max(length);
     }
 
-    /// What decided the length of a step.
+    /// The cause of the length of a step.
     #[cold]
     fn cause(&mut self, step: &mut dyn Stepper<T>, landing: &Landing) -> Cause {
         match (landing.forced, self.settings.method.pace) {

@@ -6,11 +6,12 @@ use crate::integrate::{NotFinite, Stepper, first_non_finite};
 use crate::simulate::Pace;
 use crate::{Dynamics, Extrapolate, Real};
 
-/// A pivot below this share of what stands in its place before has lost half of its digits, and accelerations have with it.
+/// Relative pivot below which half of the digits of accelerations are lost: a pivot over the diagonal element before
+/// the elimination.
 const VANISHES: f64 = 1e-8;
 
 impl<T: Real> TimeLoop<'_, '_, T> {
-    /// Whether the derivative at the state reached is finite.
+    /// Fails if the derivative at the state reached is not finite.
     pub(super) fn check_rate(&mut self) -> Result<(), End> {
         let Some(index) = first_non_finite(self.rate) else {
             return Ok(());
@@ -24,7 +25,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         Err(self.not_finite_at(stage))
     }
 
-    /// The failure at a stage whose state is `f.found_at`, with the first output that is not finite there.
+    /// The failure at a stage whose state is `f.found_at`, naming the first output that is not finite there.
     #[cold]
     fn not_finite_at(&mut self, stage: NotFinite) -> End {
         let NotFinite {
@@ -45,7 +46,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         })
     }
 
-    /// The failure of a step from the state reached that leads to no number in an entry.
+    /// The failure of a step from the state reached that makes an entry of the state not finite.
     #[cold]
     fn not_finite_here(&mut self, index: usize) -> End {
         End::Failed(Reason::NonFinite {
@@ -56,13 +57,13 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         })
     }
 
-    /// What is known to be wrong at the state reached.
+    /// The likely cause of a failure at the state reached.
     #[cold]
     pub(super) fn culprit(&mut self) -> Culprit {
         culprit(self.model, self.report.t, self.y, self.curves)
     }
 
-    /// The failure of a step that cannot be made small enough, or that is fixed.
+    /// The failure of a step that would have to be shorter than allowed, or of a fixed step.
     #[cold]
     pub(super) fn too_small(
         &mut self,
@@ -85,7 +86,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         })
     }
 
-    /// Takes a step again, to see where it ceases to be finite.
+    /// Takes the failed step again to find the stage at which numbers cease to be finite.
     #[cold]
     fn look_again(&mut self, step: &mut dyn Stepper<T>) -> Option<End> {
         let (t, h) = (step.span().t, step.span().h);
@@ -105,7 +106,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         Some(self.not_finite_here(index))
     }
 
-    /// The entry of the state that errs most; the first where steps are fixed.
+    /// The entry of the state with the largest error over tolerance; 0 if steps are fixed.
     #[cold]
     pub(super) fn worst(&mut self, step: &mut dyn Stepper<T>) -> usize {
         match self.settings.method.pace {
@@ -119,7 +120,8 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     }
 }
 
-/// What is known to be wrong with a model at a state where something is. Arguments of curves are written to `arguments`.
+/// The likely cause of a failure at a state: a curve outside of its points, or a vanishing pivot. Arguments of curves
+/// are written to `arguments`.
 #[cold]
 fn culprit<T: Real>(model: &dyn Dynamics<T>, t: f64, y: &[T], arguments: &mut [T]) -> Culprit {
     let t = T::from_f64(t);

@@ -1,4 +1,4 @@
-//! Whether a step of a run went over something that begins and ends in it.
+//! Finds contacts and other laws that begin and end to act within one step of a run.
 
 use super::{TimeLoop, finest_of};
 use crate::integrate::Stepper;
@@ -9,42 +9,44 @@ use crate::simulate::onset::{
 };
 use crate::{Dynamics, Real};
 
-/// What a step went over.
+/// A law that a step passed over.
 #[derive(Clone, Copy)]
 pub(super) struct Found {
-    /// The part of the step at which it was found.
+    /// The part of the step at which the law was found to act.
     part: f64,
-    /// Which of the [`sides`].
+    /// The law, an index in [`sides`].
     side: usize,
-    /// Whether it was found on the cubic, for a force has spoiled the step's own interpolant.
+    /// True if the law was found on the cubic instead of the step's own interpolant, which the force has spoiled.
     on_cubic: bool,
 }
 
-/// Steps whose lengths differ by less, as a share, are one.
+/// Two steps whose lengths differ by less than this share count as the same.
 const SAME: f64 = 1e-9;
 
-/// What is known of the onsets in a step: gaps and speeds where it begins, where it ends, and at the ends of its quarters between; at one
-/// place more; and where the step before began.
+/// Gaps and speeds of all onsets: at the start of a step, at its end, at the ends of its quarters between, at one
+/// further place, and at the start of the previous step.
 pub(super) struct Onsets<'w, T> {
-    /// By place: beginning, end, three between, any, beginning of the step before. Each gaps, then speeds.
+    /// All values. The places are start, end, three quarters between, further place, start of the previous step; each
+    /// has all gaps, then all speeds.
     values: &'w mut [T],
-    /// How many there are, and how many of them, the last ones, are corners.
+    /// The number of onsets, and the number of corners, which are the last onsets.
     count: usize,
     corners: usize,
     finest: [f64; 2],
 }
 
-/// Places at which values are kept, and the last two of them.
+/// The number of places at which values are kept; then the indices of the further place and of the start of the
+/// previous step.
 pub(super) const KEPT: usize = 7;
 const ANY: usize = 5;
 const PAST: usize = 6;
 const MIDDLE: usize = 3;
 pub(super) const END: usize = 1;
-/// The places from the beginning to the end of a step.
+/// The places in their order within a step.
 const IN_ORDER: [usize; QUARTERS + 1] = [0, 2, 3, 4, 1];
 
 impl<'w, T: Real> Onsets<'w, T> {
-    /// Of so many, of which the last are so many corners, with 2 [`KEPT`] times as many scalars of memory.
+    /// Onsets of a model with this many, the last of them corners. `values` has 2 [`KEPT`] scalars per onset.
     pub fn new(count: usize, corners: usize, values: &'w mut [T]) -> Self {
         Onsets {
             values,
@@ -58,7 +60,7 @@ impl<'w, T: Real> Onsets<'w, T> {
         &mut self.values[2 * place * self.count..][..2 * self.count]
     }
 
-    /// The gap of one of the [`sides`], of lanes the smallest.
+    /// The gap of a side; of several lanes the smallest.
     fn gap(&self, place: usize, side: usize) -> f64 {
         let (onset, far) = onset_of(side, self.count, self.corners);
         let gap = self.values[2 * place * self.count + onset];
@@ -70,20 +72,20 @@ impl<'w, T: Real> Onsets<'w, T> {
         self.values[(2 * place + 1) * self.count + onset].to_f64()
     }
 
-    /// The next step begins where this one ended.
+    /// Moves on to the next step, which begins where this one ended.
     pub fn advance(&mut self) {
         let place = |place: usize| 2 * place * self.count..2 * (place + 1) * self.count;
         self.values.copy_within(place(0), place(PAST).start);
         self.values.copy_within(place(END), 0);
     }
 
-    /// Keeps those at the end of the step.
+    /// Keeps a copy of the values at the end of the step.
     pub fn keep(&mut self) {
         let place = |place: usize| 2 * place * self.count..2 * (place + 1) * self.count;
         self.values.copy_within(place(END), place(ANY).start);
     }
 
-    /// Whether those at the end of the step are those that were kept.
+    /// True if the values at the end of the step equal the copy that was kept.
     pub fn as_kept(&self) -> bool {
         let place = |place: usize| &self.values[2 * place * self.count..][..2 * self.count];
         place(END) == place(ANY)
@@ -97,19 +99,19 @@ impl<'w, T: Real> Onsets<'w, T> {
         }
     }
 
-    /// The first of the [`sides`] that is one of a corner.
+    /// The first of the [`sides`] that belongs to a corner.
     fn first_corner(&self) -> usize {
         self.count - self.corners
     }
 
-    /// The lowest gap of one of the sides that need not be looked for.
+    /// The depth of a side below which the search looks for a visit: a gap above this limit is ignored.
     fn limit(&self, side: usize) -> f64 {
         let finest = self.finest[usize::from(side >= self.first_corner())];
         limit([self.gap(0, side), self.gap(1, side)], finest)
     }
 
-    /// Whether nothing can have happened on one of the sides, by what is known at the ends of the step, and at the beginning of the step before,
-    /// unless that has no length.
+    /// True if the gap of `side` cannot have reached its limit within this step of the given `length`. Uses the gaps at
+    /// both ends of the step and, if `past > 0`, at the start of the previous one, which is `past` long.
     fn quiet(&self, side: usize, past: f64, length: f64) -> bool {
         let [before, a, b] = [PAST, 0, 1].map(|place| self.gap(place, side));
         let speed = self.speed(0, side).max(self.speed(1, side));
@@ -121,7 +123,7 @@ impl<'w, T: Real> Onsets<'w, T> {
             || past > 0.0 && straight([before, a, b], speed, lengths, limit).all()
     }
 
-    /// The same by what is known in the middle, too.
+    /// [`Onsets::quiet`] with the gap in the middle of the step known, too.
     fn calm(&self, side: usize, past: f64, length: f64) -> bool {
         let places = [0, MIDDLE, 1];
         let speed = places.map(|place| self.speed(place, side));
@@ -135,8 +137,7 @@ impl<'w, T: Real> Onsets<'w, T> {
 }
 
 impl<T: Real> TimeLoop<'_, '_, T> {
-    /// The part of a step that is to be taken instead, because a law begins to act behind it and shows nothing of it where the step ends,
-    /// and which of the [`sides`] that is.
+    /// The first law that acts within a step and shows nothing of this at the end of the step, if there is one.
     pub(super) fn stepped_over(&mut self, step: &mut dyn Stepper<T>) -> Option<Found> {
         let sides = self.sides();
         if sides == 0 {
@@ -151,13 +152,13 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         self.search(step, length)
     }
 
-    /// How many of the [`sides`] are searched.
+    /// The number of [`sides`] to search.
     fn sides(&self) -> usize {
         sides(self.onsets.count, self.onsets.corners)
     }
 
-    /// Whether a step is taken again that went over a law, one of the [`sides`], so that its `part` is left. Fixed steps are not: it is told if it
-    /// matters.
+    /// True if a step that passed over a law is to be taken again, only as far as `found.part`. Fixed steps are not
+    /// taken again; the watch is told if the law matters.
     pub(super) fn turns_back(&mut self, step: &mut dyn Stepper<T>, found: Found) -> bool {
         match self.settings.method.pace {
             Pace::Fixed(_) => {
@@ -173,7 +174,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
                         }
                         break;
                     }
-                    // a stage may have met what the step then shows elsewhere
+                    // a stage may have met the law, so that the step's own interpolant shows the visit at a wrong place
                     let length = step.span().h;
                     found = match on_cubic {
                         true => None,
@@ -195,7 +196,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         }
     }
 
-    /// Whether what a fixed step went over, found at a part of it, would have changed its end.
+    /// True if a law that a fixed step passed over would have changed the end of the step noticeably.
     #[cold]
     fn matters(&mut self, step: &mut dyn Stepper<T>, found: Found) -> bool {
         let Found {
@@ -255,8 +256,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         visit.matters(span.h, unseen)
     }
 
-    /// Looks at the middle of a step, at its quarters, and between them where that is not enough. An interpolant that a force may have spoiled is not the only one
-    /// that is looked at.
+    /// Searches a step for a law on its own interpolant, then on the cubic, because a force may have spoiled the first.
     #[inline(never)]
     fn search(&mut self, step: &mut dyn Stepper<T>, length: f64) -> Option<Found> {
         step.complete(&mut self.f);
@@ -271,7 +271,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         }
     }
 
-    /// The same on the cubic, where the method has another interpolant of its own.
+    /// [`TimeLoop::search`] on the cubic interpolant, if the method has an interpolant of its own besides.
     fn search_cubic(&mut self, step: &dyn Stepper<T>, length: f64) -> Option<Found> {
         if !step.cubic(0.5, self.inside) {
             return None;
@@ -287,7 +287,8 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         })
     }
 
-    /// The same on one interpolant.
+    /// [`TimeLoop::search`] on one interpolant: in the middle of the step, at its quarters, and between them where
+    /// these do not exclude a visit. Returns the part of the step and the side.
     fn search_on(
         &mut self,
         interpolant: &dyn Fn(f64, &mut [T]),
@@ -311,7 +312,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         hunt.best()
     }
 
-    /// The onsets within a step of this length.
+    /// Evaluates the onsets at the part `theta` of a step of this length, into the given place.
     fn onsets_within(
         &mut self,
         interpolant: &dyn Fn(f64, &mut [T]),
@@ -326,8 +327,9 @@ impl<T: Real> TimeLoop<'_, '_, T> {
     }
 }
 
-/// The derivative within a step of this beginning and length \[s\], on an interpolant of it; `state` is place for a state. At the very end it is that just before it: beyond a kink of a curve
-/// of time the equations are others.
+/// The derivative at the part `theta` of a step of this beginning and length \[s\], on an interpolant; `state` is
+/// workspace. At the end of the step the derivative is taken just before, because the equations may change there at a
+/// kink of a curve of time.
 fn rate_within<T: Real>(
     model: &dyn Dynamics<T>,
     [begin, length]: [f64; 2],

@@ -1,4 +1,4 @@
-//! Samples, handed to who asked for them.
+//! Delivers the samples of a run.
 
 use super::{End, TimeLoop};
 use crate::Real;
@@ -9,7 +9,7 @@ use crate::simulate::{Receiver, Sample, SampleKind};
 use core::ops::ControlFlow;
 
 impl<T: Real> TimeLoop<'_, '_, T> {
-    /// The samples up to the end of the last step.
+    /// Delivers the samples up to the end of the last step.
     pub(super) fn deliver_within(
         &mut self,
         step: &mut dyn Stepper<T>,
@@ -31,7 +31,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
             let span = step.span();
             let theta = (self.report.t - span.t) / span.h;
             inside(self.model, step, theta, self.inside);
-            // for as long as the sample is delivered, the state reached is this one
+            // during delivery, the sample's state takes the place of the state reached
             core::mem::swap(&mut self.y, &mut self.inside);
             let delivered = self.deliver(kind, sink);
             core::mem::swap(&mut self.y, &mut self.inside);
@@ -46,11 +46,11 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         }
     }
 
-    /// The sample that is due, from the time and state reached.
+    /// Delivers the sample that is due, at the time and state reached.
     fn deliver(&mut self, kind: SampleKind, sink: &mut Receiver<'_, T>) -> Result<(), End> {
         let t = self.report.t;
         self.model.outputs(T::from_f64(t), self.y, self.outputs);
-        // nothing but the outputs themselves may be too large, or come from a curve that only they look up
+        // the state is finite, so only an output itself may overflow, or a curve that only outputs evaluate
         if kind == SampleKind::Row
             && let Some(index) = first_non_finite(self.outputs)
         {
@@ -74,7 +74,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         }
     }
 
-    /// The sample that was delivered last, where the loop was left at it.
+    /// The sample delivered last, when the loop was left at a sample.
     pub(in crate::simulate) fn last_sample(&self) -> Sample<'_, T> {
         let end = self
             .landed

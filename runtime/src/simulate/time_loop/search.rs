@@ -1,9 +1,10 @@
-//! Kinks of force laws and event functions: where in a step they are, and what to do about it.
+//! Finds kinks of force laws and event functions within a step, and decides what to do about them.
 //!
-//! **Kinks.** A step that crosses a kink has stages on both sides of it, and whatever is made of them, its result and its
-//! interpolant alike, is of order 1 or 2 only. It is taken again so that it ends a little before the place where the
-//! interpolant has the kink, and the next goes over it: as the rest of the way shrinks by a large factor each time, so does the error of crossing,
-//! until it no longer matters: against the tolerance where there is one, in length where steps are fixed.
+//! **Kinks.** A step that crosses a kink has stages on both sides of it, so its result and its interpolant are of order
+//! 1 or 2 only. Such a step is taken again so that it ends slightly before the place where the interpolant has the
+//! kink, and the next step crosses the kink. Each repetition shrinks the rest of the way by a large factor, and the
+//! error of crossing with it, until this error no longer matters: compared with the tolerance, or, with fixed steps, by
+//! the length of the crossing step.
 
 use super::{TimeLoop, finest_of};
 use crate::Real;
@@ -12,40 +13,41 @@ use crate::simulate::Pace;
 use crate::simulate::event::{self, WIDTH, Which, Within};
 use crate::simulate::excursion::{heads_for, overshoot};
 
-/// Share of a fixed step that may cross a kink, and that of a scalar with few digits, whose state a shorter step does not move.
+/// Share of a fixed step that may cross a kink; then that for a scalar with few digits, whose state a shorter step
+/// would not change.
 pub(super) const HOP: f64 = 1e-9;
 pub(super) const HOP_OF_FEW_DIGITS: f64 = 1e-4;
-/// How far before a kink a step ends, as a share of the way to it: little enough that it is worth it, and more than what the
-/// interpolant errs by, which is less each time.
+/// Distance from the kink at which a step ends, as a share of the way to the kink, for each round: small enough to be
+/// worth a repetition, and larger than the error of the interpolant, which decreases from round to round.
 const MARGINS: [f64; 3] = [1e-2, 1e-3, 1e-4];
-/// Tries to come near a kink before it is crossed all the same.
+/// Rounds of approach before a kink is crossed anyway.
 const ROUNDS: usize = 12;
-/// Kinks in a row, with no whole step between them, before they are left to the control of the error: a motion that
-/// rests on a kink would never get on.
+/// Kinks in a row, with no whole step between them, before kinks are left to the error control: a motion that rests on
+/// a kink would otherwise hardly advance.
 pub(super) const RESTLESS: u32 = 50;
 
-/// Where the estimated error is as much smaller than the tolerance, it is not accuracy that decides the length of steps: they
-/// may grow over whatever they do not meet, and what lies within them is looked for. So it is within steps longer than the time
-/// between samples, whatever their error: Dormand & Prince 5(4), for one, does not see at all what its second stage meets alone,
-/// since that stage and all it leads to have weight 0.
+/// A step is easy if its estimated error is below this share of the tolerance: something other than accuracy decides
+/// its length. Such steps may grow past anything that their stages do not meet, so they are searched for hidden kinks.
+/// Steps longer than the time between samples are searched whatever their error: Dormand & Prince 5(4), for one, does
+/// not notice anything that only its second stage meets, since this stage and all that depends on it have weight 0.
 pub(crate) const EASY: f64 = 1e-2;
-/// Times in a row that a step is taken again because of something within it.
+/// Limit of tries in a row that are repeated because of a kink hidden in the step.
 pub(crate) const SEARCHES: u32 = 8;
 
-/// On the way to a kink.
+/// An approach to a kink.
 #[derive(Clone, Copy)]
 pub(super) struct Approach {
-    /// Which.
+    /// The kink, an index in [`Info::kinks`](crate::Info::kinks).
     pub kink: usize,
-    /// Where it is expected \[s\].
+    /// The time at which the kink is expected \[s\].
     pub at: f64,
     /// Length of the next step \[s\].
     pub length: f64,
-    /// Tries so far.
+    /// Rounds so far.
     pub round: usize,
 }
 
-/// Whether crossing a kink in a step of this length and error would matter.
+/// True if crossing a kink in a step of this length and error would matter.
 pub(super) fn matters(pace: Pace, error: Option<f64>, length: f64, hop: f64) -> bool {
     match (pace, error) {
         (_, None) => false,
@@ -55,7 +57,7 @@ pub(super) fn matters(pace: Pace, error: Option<f64>, length: f64, hop: f64) -> 
 }
 
 impl<T: Real> TimeLoop<'_, '_, T> {
-    /// Event functions or kinks within a step that is complete.
+    /// The event functions or kinks within a complete step, to be evaluated.
     fn within<'s>(&'s mut self, step: &'s dyn Stepper<T>, which: Which) -> Within<'s, T> {
         Within {
             model: self.model,
@@ -70,7 +72,8 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         }
     }
 
-    /// What to do instead of a step that crosses a kink that matters; `None` where it crosses none, or has to.
+    /// The approach to take instead of a step that crosses a kink that matters; `None` if it crosses none, or has to
+    /// cross.
     pub(super) fn approach(
         &mut self,
         step: &mut dyn Stepper<T>,
@@ -89,14 +92,14 @@ impl<T: Real> TimeLoop<'_, '_, T> {
             .within(step, Which::Kinks)
             .first_change(1.0, 0.3 * margin);
         let way = length * share;
-        // what is left to cross in: as short as makes the error of crossing, which falls with it at least linearly, a third
-        // of the tolerance
+        // The length left for crossing. The error of crossing falls at least linearly with this length, so it becomes
+        // at most a fifth of the tolerance.
         let left = match (self.settings.method.pace, error) {
             (Pace::Adaptive(_), Some(error)) => 0.2 * length / error,
             _ => 0.0,
         };
         let left = left.max(margin * way).min(0.25 * way);
-        // where the kink is at hand, over it: one that matters is not crossed by a step that begins there
+        // a kink closer than the resolution of time is stepped over: a step that begins on a kink does not cross it
         let finest = finest_of::<T>(t);
         let to = match way - left > finest {
             true => way - left,
@@ -110,10 +113,11 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         })
     }
 
-    /// The first of the kinks that a step has crossed when it arrives, or would have, had it gone a trifle further: its last
-    /// stages are at its end, but not quite where it leads, and may be beyond. The kinks at its beginning are known.
+    /// The first kink that a step crosses at its end, or would cross if it went slightly farther. The last stages are
+    /// evaluated at the end time, but not exactly at the resulting state, so they may be beyond a kink that the result
+    /// has not crossed. The kinks at the start of the step must be known.
     pub(super) fn kink_within(&mut self, step: &dyn Stepper<T>) -> Option<usize> {
-        // less than any margin
+        // smaller than any of `MARGINS`
         const FURTHER: f64 = 1e-5;
         let span = step.span();
         self.inside.copy_from_slice(span.end);
@@ -127,7 +131,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         event::changed(Which::Kinks.zero(), self.kinks, there)
     }
 
-    /// Whether it is not accuracy that decides the length of a step of this error and length.
+    /// True if something other than accuracy decides the length of a step of this error and length ([`EASY`]).
     pub(super) fn is_easy(&self, error: Option<f64>, length: f64) -> bool {
         let adaptive = matches!(self.settings.method.pace, Pace::Adaptive(_));
         match error {
@@ -138,20 +142,21 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         }
     }
 
-    /// Whether a kink may be hidden within a step.
+    /// True if a kink may be hidden within the step, and the limit of searches is not reached.
     pub(super) fn may_hide(&self) -> bool {
         let adaptive = matches!(self.settings.method.pace, Pace::Adaptive(_));
         adaptive && !self.kinks.is_empty() && self.easy && self.searches < SEARCHES
     }
 
-    /// The part of a step after which a kink is seen that is not seen at its end.
+    /// The part of a step at which a kink has been crossed that is not crossed at the end of the step.
     pub(super) fn hidden(&mut self, step: &mut dyn Stepper<T>) -> Option<f64> {
         step.complete(&mut self.f);
         self.know_kinks();
         self.within(step, Which::Kinks).hidden()
     }
 
-    /// An event function that changes its sign within a step, with a part of the step at which it has, 1 where it shows at the end.
+    /// An event function that changes its sign within a step, and a part of the step at which its sign is changed: 1 if
+    /// it still is at the end.
     pub(super) fn event_function_within(
         &mut self,
         step: &mut dyn Stepper<T>,
@@ -186,7 +191,8 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         within.excursion(self.event_functions_ahead)
     }
 
-    /// The part of a step that lies before the first change of an event function, which has changed at `end`, and a trifle.
+    /// The part of a step that ends just behind the first sign change of an event function, where some sign is changed
+    /// at `end`.
     pub(super) fn way_to_event_function(&mut self, step: &mut dyn Stepper<T>, end: f64) -> f64 {
         step.complete(&mut self.f);
         self.within(step, Which::EventFunctions)

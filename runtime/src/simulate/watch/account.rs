@@ -1,27 +1,30 @@
-//! What a run is watched for in plain numbers, the same for a single run and for a lane: whether the balances of energy and momentum close, and
-//! whether fixed steps are above the limit of stability.
+//! The balances of energy and momentum, and the stability of fixed steps, in plain numbers: the same for a single run
+//! and for a lane.
 
 use crate::Info;
 use crate::integrate::control::root;
 
-/// Steps in a row above the limit of stability before it is said, and below it before they are forgotten (Hairer & Wanner).
+/// Steps above the limit of stability before this is reported, and steps in a row below it before the count is
+/// forgotten (Hairer & Wanner).
 const ABOVE: u32 = 15;
 const BELOW: u32 = 6;
 
-/// Share of the change in a step that two states of the same time must differ by, to tell of anything but rounding.
+/// Two states of the same time are compared only if they differ by more than this share of the change in the step; less
+/// may be rounding.
 const DIFFERENT: f64 = 1e-3;
-/// Roundings of the state that they must differ by: where nothing moves any more their difference is that of roundings.
+/// They must also differ by this many roundings of the state: if nothing moves any more, the difference is rounding
+/// only.
 const ROUNDINGS: f64 = 100.0;
-/// And no less than this \[m, rad, …\], squared: where a motion has died out, forces come in roundings of whatever they are computed of, and
-/// what is unstable does not stay so small.
+/// They must also differ by at least this much \[m, rad, …\], squared: after a motion has died out, forces still vary
+/// by roundings, while an unstable motion does not stay so small.
 const SMALLEST_SQUARE: f64 = 1e-24;
 
 /// A balance that does not close.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
-    /// Since when it was more than allowed, if it is.
+    /// The time since which the gap exceeds what is allowed, if it does.
     pub since: Option<f64>,
-    /// The largest since then.
+    /// The largest gap since then.
     pub largest: f64,
 }
 
@@ -31,7 +34,8 @@ impl Gap {
         largest: 0.0,
     };
 
-    /// Takes the gap at the end of a step that began at `t`; true where more than what is `allowed` begins.
+    /// Takes the gap at the end of a step that began at `t`. Returns true if the gap begins to exceed what is `allowed`
+    /// in this step.
     #[inline(always)]
     pub fn observe(&mut self, t: f64, gap: f64, allowed: f64) -> bool {
         if gap > allowed {
@@ -59,9 +63,9 @@ pub(crate) struct Account {
     largest: f64,
     /// Kinetic energy of velocities as large as their absolute tolerance \[J\]; 0 where steps are fixed.
     tolerated: f64,
-    /// What was exchanged at kinetic energies of this size \[J\].
+    /// Energy exchanged at kinetic energies of the size of `tolerated`, and so not resolved \[J\].
     ignored: f64,
-    /// √ of the mass of what is free, and its squared radius of gyration.
+    /// The root of the mass of the freely moving bodies, and their squared radius of gyration.
     inertia: Option<[f64; 2]>,
     /// Steps so far.
     steps: f64,
@@ -72,16 +76,16 @@ pub(crate) struct Account {
 /// Energies at the end of a step \[J\].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Energies {
-    /// Kinetic energy where it began, and where it ends.
+    /// Kinetic energy at the start and at the end of the step.
     pub kinetic: [f64; 2],
-    /// What was exchanged in it.
+    /// Energy exchanged in the step.
     pub exchanged: f64,
     /// What is missing in the balance: |T(t) − T(0) − Σ W|.
     pub gap: f64,
 }
 
 impl Account {
-    /// Before a run, with this limit on the share of energy and momentum that may be missing.
+    /// An account before a run, with this limit on the share of energy and momentum that may be missing.
     pub fn new(limit: f64) -> Self {
         Account {
             limit,
@@ -97,18 +101,21 @@ impl Account {
         }
     }
 
-    /// The start of a run: kinetic energy, and that of velocities as large as their absolute tolerance, 0 where steps are fixed \[J\].
+    /// Opens the account with the kinetic energy at the start, and that of velocities as large as their absolute
+    /// tolerance, 0 if steps are fixed \[J\].
     pub fn open(&mut self, kinetic: f64, tolerated: f64) {
         (self.fastest, self.tolerated) = (kinetic, tolerated);
     }
 
-    /// Of what moves freely: the kinetic energies where all its velocities, and all its angular velocities, are 1 \[J\].
+    /// Sets mass and inertia of the freely moving bodies, from their kinetic energies when all velocities, or all
+    /// angular velocities, are 1 \[J\].
     pub fn weigh_at_start(&mut self, dimension: u8, [moving, turning]: [f64; 2]) {
         let mass = 2.0 * moving / f64::from(dimension);
         self.inertia = (mass > 0.0).then(|| [root(mass, 2), 2.0 * turning / mass]);
     }
 
-    /// The end of a step that began at `t`, with the work of all effects so far; true where a gap in energy begins.
+    /// Closes a step that began at `t`, with the work of all effects so far. Returns true if a gap in energy begins in
+    /// it.
     #[inline(always)]
     pub fn close(&mut self, t: f64, energies: Energies, works: impl Iterator<Item = f64>) -> bool {
         let [before, kinetic] = energies.kinetic;
@@ -126,9 +133,9 @@ impl Account {
         self.energy.observe(t, energies.gap, allowed)
     }
 
-    /// The balance of momentum at the end of a step that began at `t`, as a velocity times the root of a mass; true where a gap begins. `missing` is
-    /// in N s and, about the origin, N m s; `size` is the largest number in it, which errs by `epsilon`; `distance` that from the origin,
-    /// squared \[m²\].
+    /// Balances momentum at the end of a step that began at `t`, in units of a velocity times the root of a mass.
+    /// Returns true if a gap begins. `missing` is in N s and, about the origin, N m s; `size` is the largest number in
+    /// the balance and `epsilon` its relative rounding; `distance` is the squared distance from the origin \[m²\].
     pub fn weigh(
         &mut self,
         t: f64,
@@ -145,34 +152,34 @@ impl Account {
         self.steps += 1.0;
         let allowed =
             self.limit * root(2.0 * self.fastest, 2) + self.steps * root(2.0 * self.tolerated, 2);
-        // where nothing moves there are roundings of large numbers
+        // if nothing moves, the gap consists of roundings of large numbers
         let rounding = self.steps * epsilon * size / mass;
         self.momentum.observe(t, gap, allowed + rounding)
     }
 
-    /// Since when energy is missing \[s\], and the largest gap as a share of the largest energy.
+    /// The time since which energy is missing \[s\], and the largest gap as a share of the largest energy.
     pub fn energy(&self) -> Option<(f64, f64)> {
         let share = self.energy.largest / self.fastest.max(self.largest);
         self.energy.since.map(|since| (since, share))
     }
 
-    /// Since when momentum is missing \[s\], and the largest gap as a share of what there can be.
+    /// The time since which momentum is missing \[s\], and the largest gap as a share of the largest momentum possible.
     pub fn momentum(&self) -> Option<(f64, f64)> {
         let share = self.momentum.largest / root(2.0 * self.fastest, 2);
         self.momentum.since.map(|since| (since, share))
     }
 }
 
-/// Where the motion is fastest, step by step.
+/// Counts steps above the limit of stability, and averages the rate of their fastest motion.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stability {
-    /// When the series began, and the length of its last step \[s\].
+    /// The time when the series of steps above the limit began, and the length of its last step \[s\].
     since: f64,
     step: f64,
-    /// Steps above the limit, and in a row below it.
+    /// Steps above the limit in the series, and steps in a row below it.
     above: u32,
     below: u32,
-    /// Σ |λ|² over those above.
+    /// Σ |λ|² over the steps above the limit.
     squares: f64,
     index: usize,
 }
@@ -180,12 +187,12 @@ pub(crate) struct Stability {
 /// Steps above the limit of stability.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unstable {
-    /// Since when, and the length of a step \[s\].
+    /// The time when the series began, and the length of a step \[s\].
     pub since: f64,
     pub step: f64,
     /// |λ| of the fastest motion \[1/s\].
     pub rate: f64,
-    /// The entry of the state that it moves most.
+    /// The entry of the state that this motion moves most.
     pub index: usize,
 }
 
@@ -199,12 +206,13 @@ impl Stability {
         index: 0,
     };
 
-    /// Whether it is known that steps are above the limit.
+    /// True if enough steps were above the limit to report it.
     pub fn known(&self) -> bool {
         self.above >= ABOVE
     }
 
-    /// Takes |λ|² of a step from `t` of the length `h`, with the entry of the state that moves most, and the limit of the method.
+    /// Takes |λ|² of a step of length `h` from `t`, with the entry of the state that moves most, and the stability
+    /// limit of the method.
     pub fn observe(&mut self, [t, h]: [f64; 2], (square, index): (f64, usize), limit: f64) {
         if self.known() {
             return;
@@ -225,7 +233,7 @@ impl Stability {
         }
     }
 
-    /// What is known of steps above the limit; after one of them where the run has `failed`.
+    /// The series of steps above the limit, if it is long enough; one step is enough if the run has `failed`.
     pub fn unstable(&self, failed: bool) -> Option<Unstable> {
         let enough = if failed { 1 } else { ABOVE };
         (self.above >= enough).then(|| Unstable {
@@ -237,17 +245,17 @@ impl Stability {
     }
 }
 
-/// An entry of two states of the same time, and of the one where the step began.
+/// An entry of two states of the same time, `end` and `near`, and of the state at the start of the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Entry {
     pub before: f64,
-    /// The entry and its rate, of either.
+    /// The entry and its rate, in either state.
     pub end: [f64; 2],
     pub near: [f64; 2],
 }
 
-/// |λ|² of the fastest motion by two states and their derivatives, and the entry of the state that it moves most; `None` where
-/// they are too much alike to tell. Numbers err by `epsilon`.
+/// |λ|² of the fastest motion, from two states of the same time and their derivatives, and the entry of the state that
+/// it moves most; `None` if the states are too close to tell. Numbers have the relative rounding `epsilon`.
 pub(crate) fn rate_squared(
     info: &Info,
     epsilon: f64,
@@ -272,7 +280,7 @@ pub(crate) fn rate_squared(
             change += square(end[0] - before);
             size += square(end[0]);
         }
-        // more than a part of the step, more than rounding
+        // the states must differ by more than a part of the change in the step, and by more than rounding
         let least =
             DIFFERENT * DIFFERENT * change + ROUNDINGS * ROUNDINGS * epsilon * epsilon * size;
         let tells = apart > least.max(SMALLEST_SQUARE) && rates.is_finite();

@@ -1,12 +1,12 @@
 //! The angle of a point.
 //!
-//! Let a be the shorter and b the longer of |x| and |y|. With t = a/b up to 1/2, and t = (a − b)/(a + b) beyond, the angle is
-//! j π/4 ± arctan t with a whole j from 0 to 4, and
+//! Let a be the shorter and b the longer of |x| and |y|. With t = a/b up to 1/2, and t = (a − b)/(a + b) beyond, the
+//! angle is j π/4 ± arctan t with a whole j from 0 to 4, and
 //!
 //! arctan t = t + t³ A(t²),   |t| ≤ 1/2.
 //!
-//! The rounding error of t is added at the end. A is interpolated at the 13 roots of Chebyshev's polynomial in 60 digits; its
-//! relative error in arctan t is 2⁻⁶⁰.
+//! The rounding error of t is added at the end. A is interpolated at the 13 roots of Chebyshev's polynomial in 60
+//! digits; its relative error in arctan t is 2⁻⁶⁰.
 
 use super::super::register::Doubles;
 use super::circle::{SIGN, horner};

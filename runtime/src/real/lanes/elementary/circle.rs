@@ -1,7 +1,7 @@
 //! Sine and cosine, computed together.
 //!
-//! x = k π/2 + r with |r| ≤ π/4. π/2 has three parts, of which the first two have 37 bits, so that their products with k are
-//! exact up to |x| = 2¹⁶ (Cody and Waite 1980). r is a sum hi − low of two doubles. Then
+//! x = k π/2 + r with |r| ≤ π/4. π/2 has three parts, of which the first two have 37 bits, so that their products with
+//! k are exact up to |x| = 2¹⁶ (Cody and Waite 1980). r is a sum hi − low of two doubles. Then
 //!
 //! sin r ≈ r + r³ S(r²),   cos r ≈ 1 − r²/2 + r⁴ C(r²),
 //!
@@ -10,8 +10,8 @@
 use super::super::register::Doubles;
 use super::far::far;
 
-/// Up to this angle \[rad\] r is accurate to all its digits: next to a multiple of π/2 it is at least 2⁻⁵⁵, and its error is
-/// 2⁻¹¹¹.
+/// Up to this angle \[rad\] r is accurate to all its digits: next to a multiple of π/2 it is at least 2⁻⁵⁵, and its
+/// error is 2⁻¹¹¹.
 pub(super) const REACH: f64 = 65_536.0;
 /// 1.5 · 2⁵²: adding it rounds to the nearest whole number; the last bits of the sum are those of that number.
 pub(super) const ROUND: f64 = 6_755_399_441_055_744.0;
@@ -44,8 +44,8 @@ pub(super) const SIGN: u64 = 1 << 63;
 
 /// (sin `x`, cos `x`), `x` in radians; NaN where `x` is not finite.
 ///
-/// The error of either is at most 1 ulp for all `x`, also next to multiples of π/2. sin(−0) = −0; the sine is exactly odd
-/// and the cosine exactly even.
+/// The error of either is at most 1 ulp for all `x`, also next to multiples of π/2. sin(−0) = −0; the sine is exactly
+/// odd and the cosine exactly even.
 #[inline(always)]
 pub fn sin_cos<R: Doubles>(x: R) -> (R, R) {
     let num = R::splat;

@@ -1,8 +1,8 @@
 //! The exponential function.
 //!
-//! x = k ln 2 + r with |r| ≤ ln 2/2, and e^x = 2ᵏ (1 + r + r² P(r)). ln 2 has two parts, the first of 41 bits, so that its
-//! product with k is exact. The rounding error of r is added at the end. P is interpolated at the eleven roots of Chebyshev's
-//! polynomial in 60 digits; its error is 2⁻⁶² of the result.
+//! x = k ln 2 + r with |r| ≤ ln 2/2, and e^x = 2ᵏ (1 + r + r² P(r)). ln 2 has two parts, the first of 41 bits, so that
+//! its product with k is exact. The rounding error of r is added at the end. P is interpolated at the eleven roots of
+//! Chebyshev's polynomial in 60 digits; its error is 2⁻⁶² of the result.
 
 use super::super::register::Doubles;
 use super::circle::{ROUND, horner};

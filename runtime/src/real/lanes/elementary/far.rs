@@ -1,8 +1,8 @@
 //! The remainder of a large angle after whole quarter turns, to all digits (Payne and Hanek 1983).
 //!
-//! x = m 2ᵉ with a whole m of 53 bits. Those 256 bits of 2/π are used that decide x · 2/π modulo 4. Their product with m,
-//! modulo 2²⁵⁶, has a whole number of quarter turns in its first two bits, followed by a fraction exact to 2⁻²⁰¹. No double is
-//! nearer to a multiple of π/2 than 2⁻⁶¹, so r has 140 bits.
+//! x = m 2ᵉ with a whole m of 53 bits. Those 256 bits of 2/π are used that decide x · 2/π modulo 4. Their product with
+//! m, modulo 2²⁵⁶, has a whole number of quarter turns in its first two bits, followed by a fraction exact to 2⁻²⁰¹. No
+//! double is nearer to a multiple of π/2 than 2⁻⁶¹, so r has 140 bits.
 
 use super::super::register::Doubles;
 use super::circle::{REACH, ROUND};
@@ -35,8 +35,8 @@ const TWO_OVER_PI: [u64; 21] = [
 /// π/2 in two doubles.
 const QUARTER_TURN: [f64; 2] = [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17];
 
-/// (k + 1.5 · 2⁵², hi, low) with x = k π/2 + hi − low and k modulo 4, in the lanes beyond the reach of the short way. In all
-/// others the arguments are returned unchanged.
+/// (k + 1.5 · 2⁵², hi, low) with x = k π/2 + hi − low and k modulo 4, in the lanes whose angle is beyond [`REACH`]. In
+/// all other lanes the arguments are returned unchanged.
 #[cold]
 #[inline(never)]
 pub(super) fn far<R: Doubles>(x: R, turned: R, hi: R, low: R) -> (R, R, R) {
@@ -54,16 +54,16 @@ pub(super) fn far<R: Doubles>(x: R, turned: R, hi: R, low: R) -> (R, R, R) {
     (turned, hi, low)
 }
 
-/// The number of whole quarter turns in |`x`| ≥ 2, modulo 4, and the remaining angle as a sum of two doubles; NaN where `x` is
-/// not finite.
+/// The number of whole quarter turns in |`x`| ≥ 2, modulo 4, and the remaining angle as a sum of two doubles; NaN where
+/// `x` is not finite.
 fn remainder(x: f64) -> (f64, [f64; 2]) {
     if !x.is_finite() {
         return (0.0, [f64::NAN; 2]);
     }
     let bits = x.abs().to_bits();
     let m = (bits & ((1 << 52) - 1)) | (1 << 52);
-    // x = m 2ᵉ; the bit of 2/π that has the weight 2 in the product is number e − 1 after the point, and number e + 62 of the
-    // table
+    // x = m 2ᵉ; the bit of 2/π that has the weight 2 in the product is number e − 1 after the point, and number e + 62
+    // of the table
     let e = (bits >> 52) as i64 - 1075;
     let start = (e + 62).max(0) as usize;
     let (word, shift) = (start / 64, start % 64);

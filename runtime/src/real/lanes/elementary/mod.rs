@@ -10,12 +10,12 @@
 //! | `angle` | [`atan2`] | 1 ulp |
 //! | `widened` | all of them for singles, by doubles | 0.500 000 01 ulp of singles |
 //!
-//! `f64` and `f32` alone have them, too. They use only arithmetic, bits and selection. So a lane has the same bits in every register and whatever its
-//! neighbours hold, and no library of the platform is called. Where a rare lane needs another way, a branch asks whether
-//! there is such a lane.
+//! `f64` and `f32` alone have them, too. They use only arithmetic, bits and selection. So a lane has the same bits in
+//! every register and whatever its neighbours hold, and no library of the platform is called. If a rare argument needs
+//! another algorithm, a branch checks whether any lane has one.
 //!
-//! The bounds also hold where products and sums are rounded one after the other, except for `atan2`, whose error is then
-//! 2 ulp.
+//! The bounds also hold where products and sums are rounded one after the other, except for `atan2`, whose error is
+//! then 2 ulp.
 
 mod angle;
 mod circle;

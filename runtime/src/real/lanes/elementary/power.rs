@@ -4,8 +4,9 @@
 //!
 //! ln m = 2s (1 + w),   w = z/3 + z² Q(z),   z = s².
 //!
-//! Numbers of more than 53 bits are sums head + tail, where head is a double of 26 bits. Products of heads are exact, fused or
-//! not. Q is interpolated at the eight roots of Chebyshev's polynomial in 60 digits; its relative error in ln m is 2⁻⁷⁰.
+//! Numbers of more than 53 bits are sums head + tail, where head is a double of 26 bits. Products of heads are exact,
+//! fused or not. Q is interpolated at the eight roots of Chebyshev's polynomial in 60 digits; its relative error in ln
+//! m is 2⁻⁷⁰.
 
 use super::super::register::Doubles;
 use super::circle::horner;
@@ -32,8 +33,8 @@ const LARGEST: f64 = 7.378_697_629_483_821e19;
 
 /// `x` to the power `y`, within 1 ulp, also where the result is subnormal.
 ///
-/// Zeros, infinities, NaN and negative numbers are treated as in the C standard (annex F.10.4.4) and Rust's `powf`: x⁰ = 1ʸ = 1
-/// even for NaN, and the power of a negative number is NaN unless the exponent is whole.
+/// Zeros, infinities, NaN and negative numbers are treated as in the C standard (annex F.10.4.4) and Rust's `powf`: x⁰
+/// = 1ʸ = 1 even for NaN, and the power of a negative number is NaN unless the exponent is whole.
 #[inline(always)]
 pub fn powf<R: Doubles>(x: R, y: R) -> R {
     let num = R::splat;

@@ -1,8 +1,9 @@
-//! The elementary functions of singles: those of doubles, rounded once more. A register of singles needs two registers of doubles.
+//! The elementary functions of singles: those of doubles, rounded once more. A register of singles needs two registers
+//! of doubles.
 //!
-//! An error of 1 ulp of a double is 2⁻²⁹ ulp of a single, so the rounded result is within 0.5 + 2⁻²⁹ ulp of a single: it is the nearest
-//! single, except in one of some hundred million cases. A double has all exponents of results, so singles overflow or become subnormal
-//! only in the last rounding.
+//! An error of 1 ulp of a double is 2⁻²⁹ ulp of a single, so the rounded result is within 0.5 + 2⁻²⁹ ulp of a single:
+//! it is the nearest single, except in one of some hundred million cases. A double has all exponents of results, so
+//! singles overflow or become subnormal only in the last rounding.
 
 use super::Elementary;
 #[cfg(target_arch = "aarch64")]
