@@ -112,8 +112,9 @@ pub fn source(lists: &Lists, about: &[String]) -> Result<Source, NoC> {
     })
 }
 
-/// Writes a list as a function of its own, with everything that it calls: `void NAME(double t, const double y[], double
-/// results[])`. The list must depend on time and state alone. `curves` are the curves of the model.
+/// Writes a list as a function of its own, with everything that it calls:
+/// `void NAME(double t, const double y[], double results[])`. The list must depend on time and state alone. `curves`
+/// are the curves of the model.
 ///
 /// # Errors
 /// If the list calls functions of the user, which are Rust.
