@@ -1,4 +1,4 @@
-//! Meshes: which body shows which file, how large, and where on it. Files are not read here: what is shown has no influence.
+//! Meshes: their bodies, files, sizes and positions. Files are not read here, as meshes do not affect a motion.
 
 use super::Resolver;
 use super::quantity::{ANGLE, Expected, LENGTH, PURE};
@@ -73,7 +73,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// Three numbers, in the plane too; or one, for some of the axes.
+    /// Three numbers, also in the plane; or one number, for the axes in `of_one`.
     fn three(
         &self,
         written: &OneOrThree,
